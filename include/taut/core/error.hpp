@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace taut
+{
+
+/// Base of every exception that the library throws. Each layer derives its own, with data: mesh_error, io_error,
+/// no_device, build_error, ... Numerical stops are results, never exceptions.
+class error : public std::runtime_error
+{
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A parameter outside its domain. field() names it as the user wrote it.
+class parameter_error : public error
+{
+public:
+    parameter_error(std::string field, const std::string& remedy)
+        : error("parameter " + field + ": " + remedy), field_(std::move(field))
+    {
+    }
+
+    const std::string& field() const noexcept { return field_; }
+
+private:
+    std::string field_;
+};
+
+} // namespace taut

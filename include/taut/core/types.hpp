@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+namespace taut
+{
+
+/// Vertex, cell and edge numbers: 32 bits, signed, 0-based; the same type on the host and on the device.
+using index = std::int32_t;
+
+/// A column vector of D numbers.
+template <int D, class T = double>
+using vec = glm::vec<D, T>;
+
+/// A D by D matrix, column-major as in GLM: m[c][r].
+template <int D, class T = double>
+using mat = glm::mat<D, D, T>;
+
+using vec2 = vec<2>;
+using vec3 = vec<3>;
+using mat2 = mat<2>;
+using mat3 = mat<3>;
+
+} // namespace taut

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+
+#include <taut/core/linalg.hpp>
+
+namespace taut
+{
+
+/// What an energy sees of one simplex. T is double, or a traced scalar when the energy becomes a kernel.
+template <class T, int D>
+struct element
+{
+    glm::mat<D, D, T> S; ///< shape matrix A W^-1 from the ideal to the physical element (eq. 3); the identity at rest
+    T det;               ///< det S = signed mapped measure / rest measure
+    T measure;           ///< rest area or volume, in the units of the normalised mesh (total = number of elements)
+};
+
+namespace energy
+{
+
+/// A density of distortion: a function of one element, smooth where det S > 0. `barrier` says that it tends to
+/// infinity as det S tends to 0 from above, and is +infinity (never clamped) from there on.
+template <class E, int D = 2>
+concept energy_function = requires(const E& e, const element<double, D>& x)
+{
+    {
+        e(x)
+        } -> std::convertible_to<double>;
+    {
+        E::barrier
+        } -> std::convertible_to<bool>;
+};
+
+/// How elements are summed. The paper sums with weight 1; the field has since weighted by the rest measure.
+enum class weighting
+{
+    uniform, ///< every element counts 1
+    measure  ///< an element counts its rest area or volume
+};
+
+/// The value of an energy at a rotation. For the energies of this library it is the minimum.
+template <int D, class E>
+double rest_value(const E& e)
+{
+    return e(element<double, D>{mat<D>(1.0), 1.0, 1.0});
+}
+
+} // namespace energy
+} // namespace taut
