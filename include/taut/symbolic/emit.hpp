@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/symbolic/detail/device_functions.hpp>
+#include <taut/symbolic/detail/statement_writer.hpp>
+
+namespace taut
+{
+namespace detail
+{
+
+/// The declaration of one argument. No `restrict`: the loop of kernel_form::run asserts independence by itself.
+inline std::string parameter_text(const kernel_argument& a)
+{
+    const std::string_view type = spelling(a.type);
+    switch (a.kind)
+    {
+    case argument_kind::scalar:
+        return concat("const ", type, " ", a.name);
+    case argument_kind::in:
+        return concat("__global const ", type, "* ", a.name);
+    default:
+        return concat("__global ", type, "* ", a.name);
+    }
+}
+
+/// The lines before the statements: which indices this work-item has.
+inline std::string prologue(kernel_form form, const kernel_needs& needs)
+{
+    std::string text;
+    for (int d = 1; d < 3; ++d)
+        if (needs.dimensions[static_cast<std::size_t>(d)])
+            text += concat("    const int i", std::to_string(d), " = get_global_id(", std::to_string(d), ");\n");
+    if (form == kernel_form::run)
+    {
+        const std::string length = std::to_string(run_length);
+        text += concat("    const int taut_first = (int)get_global_id(0) * ", length, ";\n");
+        text += concat("    const int taut_last = min(taut_first + ", length, ", taut_count);\n");
+        // Work-items are independent, so the indices are. Without this loop PoCL packs x and y of a point into pairs
+        // first, and then no longer vectorises over work-items. Only innermost loops vectorise.
+        if (!needs.loops) text += "    #pragma clang loop vectorize(assume_safety) vectorize_width(8)\n";
+        text += "    for (int i0 = taut_first; i0 < taut_last; ++i0)\n    {\n";
+    }
+    else if (needs.dimensions[0] || form == kernel_form::guarded)
+        text += "    const int i0 = get_global_id(0);\n";
+    if (form == kernel_form::guarded) text += "    if (i0 >= taut_count) return;\n";
+    return text;
+}
+
+} // namespace detail
+
+/// The OpenCL C 1.2 program with one kernel that performs the stores of a tape, and only what they need. Equal
+/// recordings give equal text. It mentions `double` only if it computes with it or has an argument of that type, so
+/// that a float kernel builds on devices without fp64. Throws tape_error for a free variable and for a value that left
+/// its loop.
+inline kernel_text emit(const tape& t, std::string name, std::vector<kernel_argument> arguments,
+                        kernel_form form = kernel_form::item)
+{
+    const bool is_run = form == kernel_form::run;
+    const detail::schedule plan(t, t.stores());
+    const detail::statement_writer body(t, arguments, plan, is_run ? "        " : "    ");
+    const detail::kernel_needs& needs = body.needs();
+    if (form != kernel_form::item) arguments.push_back({"taut_count", argument_kind::scalar, scalar_type::i32});
+
+    std::string parameters;
+    bool f64 = needs.f64;
+    for (const kernel_argument& a : arguments)
+    {
+        parameters += detail::concat(parameters.empty() ? "" : ", ", detail::parameter_text(a));
+        f64 |= a.type == scalar_type::f64;
+    }
+
+    std::string source = f64 ? "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n" : "";
+    if (is_run) source += "#pragma clang diagnostic ignored \"-Wpass-failed\"\n"; // a call in the loop stays scalar
+    if (needs.cbrt_f32) source += detail::cbrt_f32_source;
+    if (needs.cbrt_f64) source += detail::cbrt_f64_source;
+    source += detail::concat("__kernel void ", name, "(", parameters, ")\n{\n");
+    source += detail::prologue(form, needs) + body.text() + (is_run ? "    }\n}\n" : "}\n");
+    return {std::move(name), std::move(source), std::move(arguments), form};
+}
+
+} // namespace taut

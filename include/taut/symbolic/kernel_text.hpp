@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <taut/symbolic/scalar_type.hpp>
+
+namespace taut
+{
+
+/// How a kernel uses an argument.
+enum class argument_kind : std::uint8_t
+{
+    in,     ///< a pointer that is only read
+    out,    ///< a pointer that is only written
+    inout,  ///< a pointer that is read and written
+    scalar, ///< a number, the same for all work-items
+};
+
+/// One argument of a kernel, in the order of clSetKernelArg.
+struct kernel_argument
+{
+    std::string name;
+    argument_kind kind{};
+    scalar_type type{};
+
+    friend bool operator==(const kernel_argument&, const kernel_argument&) = default;
+};
+
+/// How the work-items of a kernel share its range of `count` indices along dimension 0.
+enum class kernel_form : std::uint8_t
+{
+    item,    ///< one index each: the global size is the count
+    guarded, ///< one index each, and those beyond the count return: for GPUs, where the global size is rounded up
+    run,     ///< run_length consecutive indices each, in a loop that vectorises: for CPUs, with local size 1
+};
+
+/// Indices per work-item of kernel_form::run: long enough to hide the cost of starting one.
+inline constexpr index run_length = 256;
+
+/// A complete OpenCL C 1.2 program with one kernel. Equal recordings give equal text, so the text is its own cache key.
+struct kernel_text
+{
+    std::string name;
+    std::string source;
+    std::vector<kernel_argument> arguments; ///< guarded and run have a last one: the int `taut_count`
+    kernel_form form = kernel_form::item;
+};
+
+} // namespace taut

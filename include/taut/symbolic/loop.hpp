@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+
+#include <taut/symbolic/sym.hpp>
+
+namespace taut
+{
+
+/// The sum of summand(k) for k = begin, ..., end - 1, in this order: a loop of the kernel, for counts that are known
+/// only there, as the row of a sparse matrix (a `for` of the host is unrolled instead). Empty ranges give 0.
+///
+/// `summand` maps a sym<index> to a sym<T>. What it loads is loaded inside of the loop; what it computes without k is
+/// computed once. It cannot store, values cannot leave it but as the sum, and there is no derivative through it.
+template <class F>
+auto sum_over(sym<index> begin, sym<index> end, F&& summand)
+{
+    tape& t = tape::current();
+    using result = decltype(+std::forward<F>(summand)(sym<index>())); // a proxy becomes its value
+    using value = typename result::value_type;
+
+    struct open_loop // closes also when the summand throws
+    {
+        explicit open_loop(tape& on) : t(on), index_node(on.open_loop()) {}
+        ~open_loop() { t.close_loop(); }
+        open_loop(const open_loop&) = delete;
+        open_loop& operator=(const open_loop&) = delete;
+        tape& t;
+        node_id index_node;
+    };
+
+    const node_id first = begin.id();
+    const node_id last = end.id();
+    node_id term = no_node;
+    node_id loop = no_node;
+    {
+        const open_loop body(t);
+        loop = body.index_node;
+        const result r = std::forward<F>(summand)(sym<index>::of(loop));
+        term = r.id();
+    }
+    return result::of(t.intern({.op = opcode::loop_sum,
+                                .type = scalar_type_of<value>,
+                                .operands = {first, last, term},
+                                .payload = static_cast<std::uint64_t>(loop)}));
+}
+
+} // namespace taut

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/symbolic/array.hpp>
+#include <taut/symbolic/emit.hpp>
+
+namespace taut
+{
+
+/// A kernel being traced: its tape, current for the calling thread as long as the recording lives, and its arguments
+/// in the order in which they are declared. Pure text: no device is involved.
+///
+///     recording r;
+///     const auto x = r.in<double>("x");
+///     const auto y = r.inout<double>("y");
+///     const auto a = r.scalar<double>("a");
+///     const auto i = r.global_id();
+///     y[i] = a * x[i] + y[i];
+///     const kernel_text text = r.finish("axpy");
+///
+/// What the kernel assumes: arguments do not overlap in memory, and no work-item reads what another one writes.
+/// A loop of the host is unrolled, an `if` of the host decides now; for the device's own there are sum_over and select.
+class recording
+{
+public:
+    recording() : scope_(tape_) {}
+
+    /// Declares a pointer argument. A name is a C identifier, distinct from the others and not of the form t0, i0 or
+    /// taut_x; an empty one becomes a0, a1, ... by position. Throws parameter_error for any other.
+    template <traceable T>
+    in_array<T> in(std::string_view name = {})
+    {
+        return in_array<T>(declare(name, argument_kind::in, scalar_type_of<T>));
+    }
+
+    template <traceable T>
+    out_array<T> out(std::string_view name = {})
+    {
+        return out_array<T>(declare(name, argument_kind::out, scalar_type_of<T>));
+    }
+
+    template <traceable T>
+    inout_array<T> inout(std::string_view name = {})
+    {
+        return inout_array<T>(declare(name, argument_kind::inout, scalar_type_of<T>));
+    }
+
+    /// Declares a number that may change from launch to launch, unlike a captured host value, which becomes a literal.
+    template <traceable T>
+    sym<T> scalar(std::string_view name = {})
+    {
+        const std::uint32_t position = declare(name, argument_kind::scalar, scalar_type_of<T>);
+        return sym<T>::of(tape_.intern({.op = opcode::argument, .type = scalar_type_of<T>, .payload = position}));
+    }
+
+    /// The number of the work-item along dimension 0, 1 or 2 of the range.
+    sym<index> global_id(unsigned dimension = 0)
+    {
+        if (dimension > 2) throw parameter_error("dimension", "a range has the dimensions 0, 1 and 2");
+        return sym<index>::of(tape_.intern({.op = opcode::global_id, .type = scalar_type::i32, .payload = dimension}));
+    }
+
+    const std::vector<kernel_argument>& arguments() const noexcept { return arguments_; }
+    const tape& recorded() const noexcept { return tape_; }
+
+    /// The kernel as recorded so far. Its form depends on the device; see kernel_form.
+    kernel_text finish(std::string name, kernel_form form = kernel_form::item) const
+    {
+        require_identifier(name);
+        return emit(tape_, std::move(name), arguments_, form);
+    }
+
+private:
+    std::uint32_t declare(std::string_view name, argument_kind kind, scalar_type type)
+    {
+        std::string text = name.empty() ? detail::numbered("a", arguments_.size()) : std::string(name);
+        require_identifier(text);
+        if (std::any_of(arguments_.begin(), arguments_.end(), [&](const auto& a) { return a.name == text; }))
+            throw parameter_error(text, "a kernel has two arguments of this name");
+        arguments_.push_back({std::move(text), kind, type});
+        return static_cast<std::uint32_t>(arguments_.size() - 1);
+    }
+
+    /// Names go into the text as they are; what the emitter makes up itself must stay free.
+    static void require_identifier(const std::string& name)
+    {
+        const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+        const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+        if (name.empty() || is_digit(static_cast<unsigned char>(name[0])) ||
+            !std::all_of(name.begin(), name.end(), is_word))
+            throw parameter_error(name, "not a C identifier");
+        if (name.starts_with("taut_")) throw parameter_error(name, "names with taut_ belong to the library");
+        if (name.size() > 1 && (name[0] == 't' || name[0] == 'i') &&
+            std::all_of(name.begin() + 1, name.end(), is_digit))
+            throw parameter_error(name, "t or i and a number names a value of the kernel");
+    }
+
+    tape tape_;
+    tape_scope scope_; // after the tape, as it must go first
+    std::vector<kernel_argument> arguments_;
+};
+
+} // namespace taut
