@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <taut/mesh/facets.hpp>
+
+namespace taut
+{
+
+/// The facets with one cell, oriented as the boundary of the mesh: edges with the surface to their left, or triangles
+/// whose normals point out of the volume.
+template <class Element>
+std::vector<std::array<index, Element::dimension>> boundary_facets(const mesh<Element>& m, const facet_table& f)
+{
+    std::vector<std::array<index, Element::dimension>> result;
+    for (std::size_t s = 0; s < f.twin.size(); ++s)
+        if (f.twin[s] == facet_table::boundary) result.push_back(side_vertices(m, static_cast<index>(s)));
+    return result;
+}
+
+template <class Element>
+std::vector<std::array<index, Element::dimension>> boundary_facets(const mesh<Element>& m)
+{
+    return boundary_facets(m, facets(m));
+}
+
+/// The boundary loops as vertex cycles, each with the surface to its left, starting at its smallest vertex; in the
+/// order of those. Empty for a closed surface. Around a vertex where two parts of the surface touch, each part has its
+/// own loop.
+/// Throws mesh_error (non_manifold_facet, inconsistent_orientation) where left has no meaning.
+inline std::vector<std::vector<index>> boundary_loops(const mesh<triangle>& m, const facet_table& f)
+{
+    if (!f.manifold())
+        throw mesh_error(mesh_fault::non_manifold_facet, {f.crowds[0].begin(), f.crowds[0].end()},
+                         "boundary_loops: an edge has three or more triangles; call validate() first");
+    if (!f.oriented())
+        throw mesh_error(mesh_fault::inconsistent_orientation, {f.clash[0][0] / 3, f.clash[0][1] / 3},
+                         "boundary_loops: neighbours are oriented differently; call validate() first");
+
+    const auto after = [](index side) { return side % 3 == 2 ? side - 2 : side + 1; };
+    std::vector<char> seen(f.twin.size(), 0);
+    std::vector<std::vector<index>> loops;
+    for (std::size_t start = 0; start < f.twin.size(); ++start)
+    {
+        if (f.twin[start] != facet_table::boundary || seen[start]) continue;
+        std::vector<index> loop;
+        auto side = static_cast<index>(start);
+        do {
+            seen[static_cast<std::size_t>(side)] = 1;
+            loop.push_back(side_vertices(m, side)[0]);
+            // The next boundary edge leaves the end of this one: turn about that vertex until an edge has no twin.
+            side = after(side);
+            while (f.twin[static_cast<std::size_t>(side)] != facet_table::boundary)
+                side = after(f.twin[static_cast<std::size_t>(side)]);
+        } while (side != static_cast<index>(start));
+        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+        loops.push_back(std::move(loop));
+    }
+    std::sort(loops.begin(), loops.end());
+    return loops;
+}
+
+inline std::vector<std::vector<index>> boundary_loops(const mesh<triangle>& m)
+{
+    return boundary_loops(m, facets(m));
+}
+
+} // namespace taut

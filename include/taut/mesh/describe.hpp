@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/mesh/mesh_error.hpp>
+
+namespace taut
+{
+
+namespace detail
+{
+
+/// "7 triangles (3, 14, 15, 92, 65, ...)"; ids in groups of `group` are written "3-14".
+inline std::string list_ids(const char* thing, const char* things, const std::vector<index>& ids, std::size_t group = 1)
+{
+    constexpr std::size_t shown = 5;
+    const std::size_t n = ids.size() / group;
+    std::string s = std::to_string(n) + ' ' + (n == 1 ? thing : things) + " (";
+    for (std::size_t g = 0; g < std::min(n, shown); ++g)
+    {
+        if (g > 0) s += ", ";
+        for (std::size_t k = 0; k < group; ++k)
+        {
+            if (k > 0) s += '-';
+            s += std::to_string(ids[g * group + k]);
+        }
+    }
+    return s + (n > shown ? ", ...)" : ")");
+}
+
+} // namespace detail
+
+/// The sentence for a fault of a mesh of `Element`s: how many, the first ids, what is wrong, and the remedy.
+template <class Element>
+mesh_finding describe(mesh_fault fault, std::vector<index> ids)
+{
+    const std::string cells = Element::names, facets = Element::facet_names;
+    const auto of_cells = [&](std::size_t group = 1)
+    { return detail::list_ids(Element::name, Element::names, ids, group); };
+    const auto pairs = [&] { return detail::list_ids("pair", "pairs", ids, 2) + " of " + cells; };
+    const auto vertices = [&] { return detail::list_ids("vertex", "vertices", ids); };
+    const auto say = [&]() -> std::string
+    {
+        switch (fault)
+        {
+        case mesh_fault::empty:
+            return "the mesh has no " + cells + "; give it at least one";
+        case mesh_fault::too_large:
+            return "the mesh exceeds 32-bit numbering; split it";
+        case mesh_fault::index_out_of_range:
+            return of_cells(2) + " naming a vertex that does not exist; repair the file";
+        case mesh_fault::non_finite:
+            return vertices() + " with a coordinate that is not a finite number; repair the file";
+        case mesh_fault::repeated_vertex:
+            return of_cells() + " naming a vertex twice; remove them";
+        case mesh_fault::degenerate_cell:
+            return of_cells() + " flat at rest; collapse an edge or move a vertex of each";
+        case mesh_fault::inverted_cell:
+            return of_cells() + " of negative rest volume; swap two corners of each";
+        case mesh_fault::duplicate_cell:
+            return pairs() + " with the same corners; remove one of each";
+        case mesh_fault::inconsistent_orientation:
+            return pairs() + " oriented differently; turn one of each over, so that all agree";
+        case mesh_fault::not_orientable:
+            return pairs() + " oriented differently, and no orientation agrees everywhere (one-sided, as a Moebius "
+                             "strip); cut the mesh open along a seam";
+        case mesh_fault::non_manifold_facet:
+            return detail::list_ids(Element::facet_name, Element::facet_names, ids,
+                                    static_cast<std::size_t>(Element::dimension)) +
+                   " with three or more " + cells + "; remove the extra ones or separate them";
+        case mesh_fault::non_manifold_vertex:
+            return vertices() + " where parts touch that share no " + Element::facet_name + "; duplicate each vertex";
+        case mesh_fault::unreferenced_vertex:
+            return vertices() + " without a " + Element::name + "; remove them";
+        case mesh_fault::several_components:
+            return detail::list_ids("component", "components, one vertex of each:", ids) + "; map them one at a time";
+        case mesh_fault::closed_surface:
+            return "the surface has no boundary; cut it open along a seam";
+        case mesh_fault::several_boundaries:
+            return detail::list_ids("boundary loop", "boundary loops, one vertex of each:", ids) +
+                   "; fill all but one, or cut from one to the next";
+        case mesh_fault::handles:
+            return "the surface has handles and is not a disk; cut it open along a loop through each";
+        }
+        return "unknown fault";
+    };
+    std::string message = say();
+    return {fault, std::move(ids), std::move(message)};
+}
+
+} // namespace taut

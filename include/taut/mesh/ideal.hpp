@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <taut/mesh/describe.hpp>
+#include <taut/mesh/mesh.hpp>
+
+namespace taut
+{
+
+/// Cells flatter than this (smallest height / longest edge) have no ideal element. Double coordinates determine a
+/// height to about 1e-16 of the edges: thinner ones are noise, anything thicker is a sliver that can be computed with.
+inline constexpr double flattest = 1e-14;
+
+/// The power of two that brings the largest coordinate of the mesh into [1, 2); 1 if all are 0. Multiplying by it is
+/// exact, and squares and cubes of lengths then neither overflow nor vanish.
+template <class Element>
+double unit_scale(const mesh<Element>& m)
+{
+    double largest = 0;
+    for (const vec3& p : m.points()) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    // Beyond 2^1000 the reciprocal would be subnormal.
+    return largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
+}
+
+namespace detail
+{
+
+/// Inverse of an upper triangular matrix by back substitution: no determinant, which may underflow on slivers.
+inline mat2 invert_upper(const mat2& W)
+{
+    const double x = 1 / W[0][0], y = 1 / W[1][1];
+    return mat2(x, 0.0, -x * (W[1][0] * y), y);
+}
+inline mat3 invert_upper(const mat3& W)
+{
+    const double x = 1 / W[0][0], y = 1 / W[1][1], z = 1 / W[2][2];
+    const double yz = -y * (W[2][1] * z), xy = -x * (W[1][0] * y);
+    return mat3(x, 0.0, 0.0, xy, y, 0.0, -x * (W[1][0] * yz + W[2][0] * z), yz, z);
+}
+
+/// W of cell c of the mesh times `scale`.
+template <class Element>
+mat<Element::dimension> ideal_of(const mesh<Element>& m, index c, double scale)
+{
+    auto x = m.rest(c);
+    for (vec3& p : x) p *= scale;
+    return Element::ideal(x);
+}
+
+} // namespace detail
+
+/// The ideal element of every cell (eqs. 1-10, 18): congruent to the cell at rest, so that S = A W^-1 is a rotation
+/// exactly where the map is an isometry, and det S is mapped / rest measure.
+template <class Element>
+struct ideal_elements
+{
+    static constexpr int D = Element::dimension;
+
+    std::vector<mat<D>> inverse; ///< W^-1, upper triangular, one a cell; finite
+    std::vector<double> measure; ///< rest area or volume, one a cell
+
+    /// Of the mesh times `scale`: W^-1 in 1 / length and measure in length^D of the scaled mesh.
+    /// Throws mesh_error (degenerate_cell, inverted_cell) with every cell that has no ideal element.
+    explicit ideal_elements(const mesh<Element>& m, double scale = 1.0)
+        : inverse(static_cast<std::size_t>(m.cell_count())), measure(inverse.size())
+    {
+        const double unit = unit_scale(m), f = scale / unit;
+        const double measure_scale = Element::measure_factor * (D == 2 ? f * f : f * f * f);
+        std::vector<index> flat, inverted;
+        for (index c = 0; c < m.cell_count(); ++c)
+        {
+            const mat<D> W = detail::ideal_of(m, c, unit);
+            const double flatness = Element::flatness(W);
+            if (flatness < -flattest)
+                inverted.push_back(c);
+            else if (!(flatness > flattest))
+                flat.push_back(c);
+            double det = measure_scale;
+            for (int k = 0; k < D; ++k) det *= W[k][k];
+            inverse[static_cast<std::size_t>(c)] = detail::invert_upper(W) / f;
+            measure[static_cast<std::size_t>(c)] = det;
+        }
+        if (!flat.empty()) throw mesh_error(describe<Element>(mesh_fault::degenerate_cell, std::move(flat)));
+        if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_fault::inverted_cell, std::move(inverted)));
+    }
+};
+
+} // namespace taut

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/mesh/describe.hpp>
+#include <taut/mesh/tetrahedron.hpp>
+#include <taut/mesh/triangle.hpp>
+
+namespace taut
+{
+
+/// A mesh at rest: points in space and cells (triangles or tetrahedra) that name them. A planar mesh has z = 0.
+/// It cannot be changed, and what it holds can always be indexed and computed with: there is at least one cell, every
+/// index is in range, no cell names a vertex twice and every coordinate is finite. What a map needs beyond that (a
+/// disk, ...) is the matter of validate().
+template <class Element>
+class mesh
+{
+public:
+    using element = Element;
+    static constexpr int dimension = Element::dimension;
+    static constexpr int corners = Element::corners;
+    using cell = std::array<index, static_cast<std::size_t>(corners)>;
+
+    /// Throws mesh_error: empty, too_large, index_out_of_range, repeated_vertex, non_finite.
+    mesh(std::vector<vec3> points, std::vector<cell> cells) : points_(std::move(points)), cells_(std::move(cells))
+    {
+        require_sizes();
+        require_cells();
+        require_finite();
+    }
+
+    const std::vector<vec3>& points() const noexcept { return points_; } ///< rest positions, one a vertex
+    const std::vector<cell>& cells() const noexcept { return cells_; }   ///< vertices of each cell, oriented
+    index vertex_count() const noexcept { return static_cast<index>(points_.size()); }
+    index cell_count() const noexcept { return static_cast<index>(cells_.size()); }
+
+    /// The rest positions of the corners of cell c.
+    typename Element::rest_corners rest(index c) const
+    {
+        const cell& t = cells_[static_cast<std::size_t>(c)];
+        typename Element::rest_corners x;
+        for (std::size_t k = 0; k < t.size(); ++k) x[k] = points_[static_cast<std::size_t>(t[k])];
+        return x;
+    }
+
+private:
+    void require_sizes() const
+    {
+        if (cells_.empty()) throw mesh_error(describe<Element>(mesh_fault::empty, {}));
+        // Corners and facets are numbered cell * corners + k in 32 bits.
+        constexpr std::size_t limit = std::numeric_limits<index>::max();
+        if (points_.size() > limit || cells_.size() > limit / static_cast<std::size_t>(corners))
+            throw mesh_error(mesh_fault::too_large, {},
+                             std::to_string(points_.size()) + " vertices and " + std::to_string(cells_.size()) + ' ' +
+                                 Element::names + " exceed 32-bit numbering; split the mesh");
+    }
+
+    void require_cells() const
+    {
+        const index n = vertex_count();
+        std::vector<index> repeated;
+        for (std::size_t c = 0; c < cells_.size(); ++c)
+        {
+            const cell& t = cells_[c];
+            bool twice = false;
+            for (std::size_t k = 0; k < t.size(); ++k)
+            {
+                if (t[k] < 0 || t[k] >= n)
+                    throw mesh_error(mesh_fault::index_out_of_range, {static_cast<index>(c), t[k]},
+                                     std::string(Element::name) + ' ' + std::to_string(c) + ": vertex " +
+                                         std::to_string(t[k]) + (t[k] < 0 ? " < 0" : " >= " + std::to_string(n)));
+                for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
+            }
+            if (twice) repeated.push_back(static_cast<index>(c));
+        }
+        if (!repeated.empty()) throw mesh_error(describe<Element>(mesh_fault::repeated_vertex, std::move(repeated)));
+    }
+
+    void require_finite() const
+    {
+        std::vector<index> bad;
+        for (std::size_t v = 0; v < points_.size(); ++v)
+            if (!std::isfinite(points_[v].x) || !std::isfinite(points_[v].y) || !std::isfinite(points_[v].z))
+                bad.push_back(static_cast<index>(v));
+        if (!bad.empty()) throw mesh_error(describe<Element>(mesh_fault::non_finite, std::move(bad)));
+    }
+
+    std::vector<vec3> points_;
+    std::vector<cell> cells_;
+};
+
+} // namespace taut
