@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <taut/compute/device.hpp>
+#include <taut/compute/errors.hpp>
+
+namespace taut
+{
+
+/// What a device must offer.
+struct device_requirements
+{
+    bool fp64 = false;        ///< double precision is a must; without it fp64 is only preferred
+    std::uint64_t memory = 0; ///< bytes of global memory
+};
+
+/// A device of this machine, and why it cannot serve; an empty refusal means that it can.
+struct listed_device
+{
+    taut::device device;
+    std::string refusal;
+};
+
+/// Why d does not meet the needs, in words; empty if it does.
+inline std::string refusal(const device& d, const device_requirements& needs = {})
+{
+    if (!d.available()) return "not available (in use, or disabled)";
+    if (!d.has_compiler()) return "its driver has no compiler";
+    if (d.opencl_version() < 120) return "OpenCL " + std::to_string(d.opencl_version() / 100) + ".x, 1.2 is needed";
+    if (needs.fp64 && !d.has_fp64()) return "no double precision (fp64)";
+    if (d.global_memory() < needs.memory) return "too little memory: " + std::to_string(d.global_memory()) + " bytes";
+    return {};
+}
+
+/// Every device of every platform, in the order of the driver loader: TAUT_DEVICE counts them in this order, from 0.
+inline std::vector<listed_device> devices(const device_requirements& needs = {})
+{
+    std::vector<listed_device> all;
+    for (const auto& platform : boost::compute::system::platforms())
+    {
+        std::vector<boost::compute::device> found;
+        try
+        {
+            found = platform.devices();
+        }
+        catch (const boost::compute::opencl_error&)
+        {
+            // A platform without a device answers with an error; choose_device lists it by name.
+        }
+        for (const auto& handle : found)
+        {
+            device d(handle.id());
+            std::string why = refusal(d, needs);
+            all.push_back({std::move(d), std::move(why)});
+        }
+    }
+    return all;
+}
+
+namespace detail
+{
+
+inline std::string lower(std::string text)
+{
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// The whole number that the text is, if it is one.
+inline std::optional<std::size_t> as_number(const std::string& text)
+{
+    if (text.empty() || text.size() > 6 ||
+        !std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); }))
+        return std::nullopt;
+    return static_cast<std::size_t>(std::stoul(text));
+}
+
+/// Larger is better: double precision first, then GPU, accelerator, CPU; then units times clock.
+inline auto device_rank(const device& d)
+{
+    const int kind = d.is_gpu() ? 2 : d.is_cpu() ? 0 : 1;
+    return std::tuple(d.has_fp64(), kind, d.compute_units() * std::max<std::size_t>(d.clock(), 1));
+}
+
+[[noreturn]] inline void refuse(const std::string& headline, const std::vector<listed_device>& all)
+{
+    std::string text = headline + "\n";
+    const auto platforms = boost::compute::system::platforms();
+    if (platforms.empty())
+    {
+        const char* folder = std::getenv("OCL_ICD_VENDORS");
+        text += "  no OpenCL platform is installed (drivers are registered in " +
+                std::string(folder ? folder : "/etc/OpenCL/vendors") + ")\n";
+    }
+    for (const auto& platform : platforms)
+    {
+        text += "  platform " + platform.name() + ", " + platform.version() + "\n";
+        bool any = false;
+        for (std::size_t i = 0; i < all.size(); ++i)
+        {
+            const auto& [d, why] = all[i];
+            if (d.native_platform() != platform.id()) continue;
+            any = true;
+            text += "    " + std::to_string(i) + ": " + d.name() + ": " + (why.empty() ? "usable" : why) + "\n";
+        }
+        if (!any) text += "    no device\n";
+    }
+    throw no_device(text + "  install a driver: on Debian and Ubuntu pocl-opencl-icd (any CPU), nvidia-opencl-icd, "
+                           "intel-opencl-icd or mesa-opencl-icd; `clinfo -l` lists what is seen");
+}
+
+} // namespace detail
+
+/// The device to use: TAUT_DEVICE if set (an index into devices(), or a part of a device's, vendor's or platform's
+/// name, in any case), else the best one: double precision before none, then GPU before CPU, then the largest. Throws
+/// no_device if none fits.
+inline device choose_device(const device_requirements& needs = {})
+{
+    const auto all = devices(needs);
+    const char* wish = std::getenv("TAUT_DEVICE");
+    const std::string wanted = wish ? detail::lower(wish) : std::string();
+    const auto number = detail::as_number(wanted);
+
+    const device* best = nullptr;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        const auto& [d, why] = all[i];
+        if (!why.empty()) continue;
+        if (number && *number != i) continue;
+        const std::string names = detail::lower(d.name() + '\n' + d.vendor() + '\n' + d.platform());
+        if (!number && names.find(wanted) == std::string::npos) continue;
+        if (!best || detail::device_rank(*best) < detail::device_rank(d)) best = &d;
+    }
+    if (best) return *best;
+    detail::refuse(wanted.empty() ? std::string("no OpenCL device fits")
+                                  : "no OpenCL device fits TAUT_DEVICE=" + std::string(wish),
+                   all);
+}
+
+} // namespace taut

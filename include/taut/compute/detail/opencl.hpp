@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The one door to OpenCL and Boost.Compute. As a system header it keeps their warnings out of the user's build.
+#if defined(__GNUC__)
+#pragma GCC system_header
+#endif
+
+// OpenCL 1.2 is what every driver in use offers; the pins keep both header sets from warning about newer versions.
+#ifndef CL_TARGET_OPENCL_VERSION
+#define CL_TARGET_OPENCL_VERSION 120
+#endif
+#ifndef BOOST_COMPUTE_MAX_CL_VERSION
+#define BOOST_COMPUTE_MAX_CL_VERSION 102
+#endif
+
+// Five headers, not core.hpp: half the compile time, and none that newer Boost releases have broken.
+#include <boost/compute/buffer.hpp>
+#include <boost/compute/command_queue.hpp>
+#include <boost/compute/kernel.hpp>
+#include <boost/compute/program.hpp>
+#include <boost/compute/system.hpp>

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include <taut/compute/event.hpp>
+#include <taut/compute/program_cache.hpp>
+#include <taut/compute/range.hpp>
+
+namespace taut
+{
+
+/// What a queue has done since it was made or since reset: the cost model of the library is waits first, launches
+/// second.
+struct queue_counters
+{
+    std::uint64_t launches = 0;      ///< kernels enqueued
+    std::uint64_t waits = 0;         ///< times the host blocked: reads, writes, finish
+    std::uint64_t bytes_read = 0;    ///< device to host
+    std::uint64_t bytes_written = 0; ///< host to device
+    std::uint64_t builds = 0;        ///< programs compiled
+    double build_seconds = 0;        ///< host seconds spent compiling them
+};
+
+} // namespace taut
+
+namespace taut::detail
+{
+
+/// What a queue and its buffers and kernels share. It lives as long as any of them.
+struct queue_state
+{
+    queue_state(taut::device d, boost::compute::context c, boost::compute::command_queue q)
+        : device(std::move(d)), context(std::move(c)), commands(std::move(q)), cache(context, device)
+    {
+    }
+
+    taut::device device;
+    boost::compute::context context;
+    boost::compute::command_queue commands;
+    program_cache cache;
+    queue_counters counters;
+    std::uint64_t live_bytes = 0; ///< sum of the sizes of the living buffers
+
+    [[noreturn]] void fail(const std::string& operation, const std::string& reason, int code = 0) const
+    {
+        throw device_error(operation, reason, device.label(), code);
+    }
+
+    /// Runs f; an OpenCL error becomes a device_error that names the operation.
+    template <class F>
+    decltype(auto) run(const std::string& operation, F&& f) const
+    {
+        try
+        {
+            return std::forward<F>(f)();
+        }
+        catch (const boost::compute::opencl_error& e)
+        {
+            fail(operation, e.error_string() + " (" + std::to_string(e.error_code()) + ")", e.error_code());
+        }
+    }
+
+    /// Enqueues the kernel with the arguments it has. global = 0 launches nothing.
+    event launch(const boost::compute::kernel& kernel, const std::string& name, range r)
+    {
+        if (r.global == 0) return {};
+        if (r.local == 0)
+        {
+            const std::size_t usual = device.is_gpu() ? 128 : 64;
+            if (r.global % usual == 0 && usual <= device.max_group()) r.local = usual;
+        }
+        else if (r.global % r.local != 0 || r.local > device.max_group())
+        {
+            fail("launching " + name, "local size " + std::to_string(r.local) + " must divide the global size " +
+                                          std::to_string(r.global) + " and be at most " +
+                                          std::to_string(device.max_group()));
+        }
+        cl_event raw = nullptr;
+        const cl_int code = clEnqueueNDRangeKernel(commands.get(), kernel.get(), 1, nullptr, &r.global,
+                                                   r.local ? &r.local : nullptr, 0, nullptr, &raw);
+        if (code != CL_SUCCESS)
+            fail("launching " + name, boost::compute::opencl_error::to_string(code) + " (" + std::to_string(code) + ")",
+                 code);
+        ++counters.launches;
+        return event(boost::compute::event(raw, false));
+    }
+};
+
+} // namespace taut::detail

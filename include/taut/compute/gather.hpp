@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <taut/compute/detail/kernels/gather.hpp>
+#include <taut/compute/kernel.hpp>
+
+namespace taut
+{
+
+/// Which corners of which cells meet at each vertex, and how their arrays lie on the device.
+struct gather_layout
+{
+    int components = 2;            ///< D: numbers a corner contributes
+    std::size_t cell_stride = 0;   ///< cells, padded: contributions[(corner * D + c) * cell_stride + cell]
+    std::size_t vertex_stride = 0; ///< vertices, padded to a multiple of 64: out[c * vertex_stride + vertex]
+};
+
+/// Sums corner contributions into vertices (paper, Fig. 8): out[v] = sum over row v of contributions at (corner, cell).
+/// Deterministic, without atomics. The first slots of all vertices are kept in columns (ELLPACK), which vectorises; the
+/// few vertices of high valence have a second, short launch for the rest of their rows. Vertices without a row, up to
+/// vertex_stride, get zero. Sums in T.
+template <class T>
+class gather
+{
+public:
+    /// Row v of the incidence is k = offsets[v] .. offsets[v + 1] - 1, with cell cells[k] and corner corners[k].
+    gather(queue& q, std::span<const index> offsets, std::span<const index> cells, std::span<const index> corners,
+           const gather_layout& layout)
+        : vertices_(to_int(layout.vertex_stride)), cells_(to_int(layout.cell_stride))
+    {
+        const auto D = static_cast<std::size_t>(layout.components);
+        const std::size_t rows = offsets.empty() ? 0 : offsets.size() - 1;
+        if (rows > layout.vertex_stride || layout.vertex_stride % 64 != 0)
+            throw parameter_error("gather_layout.vertex_stride",
+                                  "a multiple of 64, at least the number of rows, is needed");
+        for (std::size_t k = 0; k < cells.size(); ++k)
+            if (cells[k] < 0 || static_cast<std::size_t>(cells[k]) >= layout.cell_stride)
+                throw parameter_error("gather_layout.cell_stride",
+                                      "cell " + std::to_string(cells[k]) + " is beyond it");
+
+        const auto valence = [&](std::size_t v) { return static_cast<std::size_t>(offsets[v + 1] - offsets[v]); };
+        const auto slot = [&](index k)
+        {
+            const auto at = static_cast<std::size_t>(k);
+            const std::size_t place =
+                static_cast<std::size_t>(corners[at]) * D * layout.cell_stride + static_cast<std::size_t>(cells[at]);
+            reach_ = std::max(reach_, place + (D - 1) * layout.cell_stride + 1);
+            return to_int(place);
+        };
+        width_ = common_width(rows, valence);
+        sums_ = D * layout.vertex_stride;
+
+        std::vector<index> columns(width_ * layout.vertex_stride, -1), which, rest_offsets{0}, rest;
+        for (std::size_t v = 0; v < rows; ++v)
+        {
+            std::size_t j = 0;
+            for (index k = offsets[v]; k < offsets[v + 1]; ++k, ++j)
+                if (j < width_)
+                    columns[j * layout.vertex_stride + v] = slot(k);
+                else
+                    rest.push_back(slot(k));
+            if (j <= width_) continue;
+            which.push_back(static_cast<index>(v));
+            rest_offsets.push_back(static_cast<index>(rest.size()));
+        }
+        columns_ = buffer<index>(q, columns);
+        rest_rows_ = to_int(which.size());
+        which_ = buffer<index>(q, which);
+        rest_offsets_ = buffer<index>(q, rest_offsets);
+        rest_ = buffer<index>(q, rest);
+
+        const std::string options = std::string("-DREAL=") + cl_name<T>() +
+                                    " -DREAL_IS_DOUBLE=" + (std::is_same_v<T, double> ? "1" : "0") +
+                                    " -DD=" + std::to_string(D) + " -DW=" + std::to_string(width_);
+        gather_ = {q, detail::kernels::gather, "gather", options};
+        if (rest_rows_) gather_rest_ = {q, detail::kernels::gather, "gather_rest", options};
+    }
+
+    /// Enqueues the sums: one launch, or two with vertices of high valence.
+    void operator()(const buffer<T>& contributions, buffer<T>& out) const
+    {
+        if (contributions.size() < reach_ || out.size() < sums_)
+            throw parameter_error("gather", "buffers of " + std::to_string(reach_) + " contributions and " +
+                                                std::to_string(sums_) + " sums are needed");
+        if (reach_ == 0) return out.fill(0);
+        gather_({static_cast<std::size_t>(vertices_), 64}, vertices_, cells_, columns_, contributions, out);
+        if (rest_rows_)
+            gather_rest_({padded(static_cast<std::size_t>(rest_rows_), 64), 64}, vertices_, cells_, rest_rows_, which_,
+                         rest_offsets_, rest_, contributions, out);
+    }
+
+    /// Slots a vertex in the first launch, and vertices that need the second.
+    std::size_t width() const noexcept { return width_; }
+    std::size_t overfull() const noexcept { return static_cast<std::size_t>(rest_rows_); }
+
+private:
+    /// The even width of least cost. By measurement on PoCL, in units of a slot of the first launch, a vertex in the
+    /// second launch costs about 30 and the launch itself 10,000.
+    template <class Valence>
+    static std::size_t common_width(std::size_t rows, const Valence& valence)
+    {
+        constexpr std::size_t widest = 64;
+        std::vector<std::size_t> count(widest + 2, 0); // of rows by length; the last entry: all longer ones
+        for (std::size_t v = 0; v < rows; ++v) ++count[std::min(valence(v), widest + 1)];
+        std::size_t best = widest, beyond = count[widest + 1];
+        const auto cost = [&](std::size_t width) { return width * rows + (beyond ? 10000 + 30 * beyond : 0); };
+        std::size_t least = cost(widest);
+        for (std::size_t width = widest - 2; width >= 2; width -= 2)
+        {
+            beyond += count[width + 1] + count[width + 2];
+            if (cost(width) > least) continue;
+            best = width;
+            least = cost(width);
+        }
+        return best;
+    }
+
+    static index to_int(std::size_t n)
+    {
+        if (n > static_cast<std::size_t>(std::numeric_limits<index>::max()))
+            throw parameter_error("gather", "more than 2^31 contributions");
+        return static_cast<index>(n);
+    }
+
+    index vertices_, cells_, rest_rows_ = 0;
+    std::size_t reach_ = 0; ///< contributions up to the last one that is read
+    std::size_t sums_ = 0;
+    std::size_t width_ = 4;
+    buffer<index> columns_, which_, rest_offsets_, rest_;
+    using in = const buffer<index>;
+    typed_kernel<index, index, in, const buffer<T>, buffer<T>> gather_;
+    typed_kernel<index, index, index, in, in, in, const buffer<T>, buffer<T>> gather_rest_;
+};
+
+} // namespace taut

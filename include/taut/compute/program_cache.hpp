@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <unordered_map>
+
+#include <taut/compute/detail/build_excerpt.hpp>
+#include <taut/compute/device.hpp>
+#include <taut/compute/errors.hpp>
+
+namespace taut
+{
+
+/// The programs that a queue has built, by source text and build options, with their kernel objects. The queue owns it,
+/// so device and driver are part of the key by ownership, and nothing outlives the driver. Kernels are kept, not only
+/// programs: a kernel object carries what the driver compiled for it. Not safe between threads.
+class program_cache
+{
+public:
+    program_cache(boost::compute::context context, taut::device device)
+        : context_(std::move(context)), device_(std::move(device))
+    {
+    }
+
+    /// The kernel of that name, built at the first request. Throws build_error if the compiler refuses the source and
+    /// device_error if the program has no such kernel.
+    boost::compute::kernel& find(const std::string& source, const std::string& name, const std::string& options)
+    {
+        entry& found = entries_.try_emplace(options + '\0' + source).first->second;
+        const auto known = found.kernels.find(name);
+        if (known != found.kernels.end()) return known->second;
+
+        const auto start = std::chrono::steady_clock::now();
+        if (!found.built) build(found, source, name, options);
+        try
+        {
+            auto& made = found.kernels.emplace(name, found.program.create_kernel(name)).first->second;
+            seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            return made;
+        }
+        catch (const boost::compute::opencl_error& e)
+        {
+            throw device_error("creating kernel " + name, "the program has no such kernel (" + e.error_string() + ")",
+                               device_.label(), e.error_code());
+        }
+    }
+
+    /// Programs built so far, and the seconds that building them took.
+    std::size_t builds() const noexcept { return builds_; }
+    double seconds() const noexcept { return seconds_; }
+
+private:
+    struct entry
+    {
+        boost::compute::program program;
+        bool built = false;
+        std::unordered_map<std::string, boost::compute::kernel> kernels;
+    };
+
+    void build(entry& target, const std::string& source, const std::string& name, const std::string& options)
+    {
+        target.program = boost::compute::program::create_with_source(source, context_);
+        try
+        {
+            target.program.build("-cl-std=CL1.2 " + options);
+        }
+        catch (const boost::compute::opencl_error& e)
+        {
+            std::string log = target.program.build_log();
+            if (log.empty() || log.back() != '\n') log += '\n';
+            throw build_error(name, log, detail::build_excerpt(source, log), device_.label(), e.error_code());
+        }
+        target.built = true;
+        ++builds_;
+    }
+
+    boost::compute::context context_;
+    taut::device device_;
+    std::unordered_map<std::string, entry> entries_;
+    std::size_t builds_ = 0;
+    double seconds_ = 0;
+};
+
+} // namespace taut

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <taut/compute/device.hpp>
+
+/// The oddities of platforms, by name. Code and tests ask these predicates instead of hiding workarounds.
+namespace taut::quirks
+{
+
+/// PoCL, the portable CPU implementation: work-items are loops on CPU threads.
+inline bool is_pocl(const device& d)
+{
+    return d.platform() == "Portable Computing Language";
+}
+
+/// Oclgrind, the checking simulator: slow, one item at a time, so tests shrink their sizes.
+inline bool is_oclgrind(const device& d)
+{
+    return d.platform() == "Oclgrind";
+}
+
+/// A CPU runs one long serial loop per item far faster than a local-memory tree or a grid-stride loop (measured: dot of
+/// a million doubles 0.24 ms against 3.9 ms and 2.0 ms; a grid-stride triad 31 ms against 0.38 ms).
+inline bool wants_serial_items(const device& d)
+{
+    return d.is_cpu();
+}
+
+/// PoCL 3.1 gives wrong results for barriers inside loops (a min/max tree over two local arrays; Oclgrind runs it
+/// right) and compiles several trees in one kernel in exponential time. Our kernels hold at most one barrier, never in
+/// a loop.
+inline bool miscompiles_barriers_in_loops(const device& d)
+{
+    return is_pocl(d);
+}
+
+/// PoCL reserves memory when a buffer is first touched, so an allocation beyond the device's limits "succeeds".
+/// buffer<T> checks the limits itself, everywhere.
+inline bool allocates_lazily(const device& d)
+{
+    return is_pocl(d);
+}
+
+/// PoCL emits scalar code around float2/double2 and around interleaved stores: kernels use scalar loads and stride-1
+/// structure-of-arrays stores.
+inline bool scalarises_short_vectors(const device& d)
+{
+    return is_pocl(d);
+}
+
+/// PoCL compiles a kernel once more for every local size: the library keeps to a few.
+inline bool compiles_per_local_size(const device& d)
+{
+    return is_pocl(d);
+}
+
+} // namespace taut::quirks

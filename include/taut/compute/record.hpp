@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <taut/compute/kernel.hpp>
+#include <taut/compute/quirks.hpp>
+#include <taut/symbolic/recording.hpp>
+
+namespace taut
+{
+
+/// What a traced kernel does with an argument: a buffer that it reads, writes, or reads and writes, or a number that
+/// may change from launch to launch.
+template <traceable T>
+struct in
+{
+};
+template <traceable T>
+struct out
+{
+};
+template <traceable T>
+struct inout
+{
+};
+template <traceable T>
+struct uniform
+{
+};
+
+namespace detail
+{
+
+template <class Tag>
+struct tag_traits;
+
+template <class T>
+struct tag_traits<in<T>>
+{
+    using typed = const buffer<T>;
+    static constexpr auto kind = argument_kind::in;
+    static constexpr auto type = scalar_type_of<T>;
+    static auto declare(recording& r) { return r.in<T>(); }
+};
+template <class T>
+struct tag_traits<out<T>>
+{
+    using typed = buffer<T>;
+    static constexpr auto kind = argument_kind::out;
+    static constexpr auto type = scalar_type_of<T>;
+    static auto declare(recording& r) { return r.out<T>(); }
+};
+template <class T>
+struct tag_traits<inout<T>>
+{
+    using typed = buffer<T>;
+    static constexpr auto kind = argument_kind::inout;
+    static constexpr auto type = scalar_type_of<T>;
+    static auto declare(recording& r) { return r.inout<T>(); }
+};
+template <class T>
+struct tag_traits<uniform<T>>
+{
+    using typed = T;
+    static constexpr auto kind = argument_kind::scalar;
+    static constexpr auto type = scalar_type_of<T>;
+    static auto declare(recording& r) { return r.scalar<T>(); }
+};
+
+/// The memory behind an argument; none for numbers.
+template <class T>
+cl_mem memory_of(const buffer<T>& b)
+{
+    return b.native();
+}
+template <device_scalar T>
+cl_mem memory_of(const T&)
+{
+    return nullptr;
+}
+
+/// Recorded kernels assume that what they write overlaps nothing else, so a buffer that is written is bound once.
+inline void require_distinct(const queue_state& state, const kernel_text& text, const std::vector<cl_mem>& memory)
+{
+    for (std::size_t i = 0; i < memory.size(); ++i)
+        for (std::size_t j = i + 1; j < memory.size(); ++j)
+            if (memory[i] && memory[i] == memory[j] &&
+                (text.arguments[i].kind != argument_kind::in || text.arguments[j].kind != argument_kind::in))
+                state.fail("launching " + text.name,
+                           "arguments " + std::to_string(i) + " and " + std::to_string(j) +
+                               " are one buffer, and the kernel writes to it; use read_write once");
+}
+
+/// Refuses a recording that computes in double, even inside only, on a device that cannot.
+inline void require_fp64(const queue_state& state, const kernel_text& text)
+{
+    if (!state.device.has_fp64() && text.source.find("cl_khr_fp64") != std::string::npos)
+        state.fail("building kernel " + text.name,
+                   "it computes in double and the device has no double precision (fp64); trace it with float");
+}
+
+/// How recorded kernels are written for a device: long runs of indices for CPUs, an index an item for GPUs. Both take
+/// any count; see kernel_form.
+inline kernel_form form_for(const device& d)
+{
+    return quirks::wants_serial_items(d) ? kernel_form::run : kernel_form::guarded;
+}
+
+/// The items that a recorded kernel needs for r.global indices; r.local is the group size where items are grouped.
+inline range items_for(kernel_form form, const range& r)
+{
+    constexpr std::size_t length = run_length;
+    if (form == kernel_form::run) return {(r.global + length - 1) / length, 1};
+    const std::size_t group = r.local ? r.local : 128;
+    return {padded(r.global, group), group};
+}
+
+/// The number of indices as the kernel takes it.
+inline index count_of(const queue_state& state, const std::string& name, const range& r)
+{
+    if (r.global > static_cast<std::size_t>(std::numeric_limits<index>::max()))
+        state.fail("launching " + name, "more than 2^31 indices");
+    return static_cast<index>(r.global);
+}
+
+} // namespace detail
+
+/// A kernel recorded from C++: built once, launched many times with other buffers. See trace().
+template <class... Tags>
+class traced_kernel
+{
+public:
+    traced_kernel() = default;
+    traced_kernel(queue& q, kernel_text text) : state_(q.state()), text_(std::move(text))
+    {
+        detail::require_fp64(*state_, text_);
+        require_signature();
+        kernel_ = {q, text_.source, text_.name};
+    }
+
+    /// Runs over the indices 0 .. r.global - 1, for any number of them. The group size r.local counts on GPUs alone.
+    event operator()(range r,
+                     typename detail::argument_traits<typename detail::tag_traits<Tags>::typed>::passed... args) const
+    {
+        detail::require_distinct(*state_, text_, {detail::memory_of(args)...});
+        return kernel_(detail::items_for(text_.form, r), args..., detail::count_of(*state_, text_.name, r));
+    }
+
+    /// The OpenCL C that was recorded, with its name and arguments.
+    const kernel_text& text() const noexcept { return text_; }
+
+private:
+    /// The tags must tell what the recording says, and the text must take a count.
+    void require_signature() const
+    {
+        constexpr std::size_t n = sizeof...(Tags);
+        constexpr std::array<argument_kind, n> kinds = {detail::tag_traits<Tags>::kind...};
+        constexpr std::array<scalar_type, n> types = {detail::tag_traits<Tags>::type...};
+        bool same = text_.form != kernel_form::item && text_.arguments.size() == n + 1;
+        for (std::size_t i = 0; same && i < n; ++i)
+            same = text_.arguments[i].kind == kinds[i] && text_.arguments[i].type == types[i];
+        if (!same)
+            state_->fail("kernel " + text_.name,
+                         "its recording has other arguments than the tags of traced_kernel, or no count");
+    }
+
+    std::shared_ptr<detail::queue_state> state_;
+    kernel_text text_;
+    typed_kernel<typename detail::tag_traits<Tags>::typed..., index> kernel_;
+};
+
+/// Records f(i, arguments...) as an OpenCL kernel; i is the index, and each tag becomes a traced
+/// argument:
+///
+///     auto axpy = trace<in<double>, inout<double>, uniform<double>>(q, "axpy",
+///         [](auto i, auto x, auto y, auto a) { y[i] = a * x[i] + y[i]; });
+///     axpy(n, bx, by, 0.5);
+///
+/// Host values that f captures become literals of the kernel. Throws build_error, or device_error where the device has
+/// no double and the recording needs it.
+template <class... Tags, class F>
+traced_kernel<Tags...> trace(queue& q, std::string name, F&& f)
+{
+    recording r;
+    // Braces fix the order of the declarations.
+    std::tuple arguments{r.global_id(), detail::tag_traits<Tags>::declare(r)...};
+    std::apply(std::forward<F>(f), std::move(arguments));
+    return traced_kernel<Tags...>(q, r.finish(std::move(name), detail::form_for(q.device())));
+}
+
+} // namespace taut

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <taut/compute/detail/kernels/reduce.hpp>
+#include <taut/compute/detail/partials.hpp>
+#include <taut/compute/reduction_plan.hpp>
+
+namespace taut
+{
+
+/// K runs of n elements each, from start, stride apart.
+struct segments
+{
+    std::size_t count = 1;
+    std::size_t length = 0;
+    std::size_t stride = 0;
+    std::size_t start = 0;
+};
+
+/// Deterministic sums, dot products and minima that share one host wait: enqueue any number, then fetch() once.
+///
+///     reductions r(q);
+///     auto energy = r.sum(values, {.length = n});
+///     auto least  = r.minimum(dets, n);
+///     r.fetch();                               // the only wait
+///     double e = r.value(energy);
+///
+/// float data is accumulated in double (in float on a device without fp64). The device leaves one partial a block; the
+/// host adds them in their order, in double. Enqueuing after a fetch() begins a new round and ends the old results.
+class reductions
+{
+public:
+    /// Names the numbers that one call will have produced after fetch().
+    struct result
+    {
+        std::size_t first = 0;
+        std::size_t count = 0;
+    };
+
+    explicit reductions(const queue& q) : reductions(q, reduction_plan::for_device(q.device())) {}
+    reductions(const queue& q, reduction_plan plan) : queue_(q), plan_(plan), partials_(q) {}
+
+    const reduction_plan& plan() const noexcept { return plan_; }
+
+    /// The sum of each segment of x.
+    template <class T>
+    result sum(const buffer<T>& x, const segments& s)
+    {
+        check(x, s.count == 0 ? 0 : s.start + (s.count - 1) * s.stride + s.length, "sum");
+        const auto blocks = plan_.cut(s.length);
+        const std::size_t first = reserve(s.count * blocks.count);
+        launch<T>(slot::sums, 1, 1, plan_.local, s.count * blocks.count, as_uint(s.length), as_uint(blocks.length),
+                  as_uint(blocks.count), as_uint(first), partials_, x, std::uint64_t{s.start}, std::uint64_t{s.stride});
+        return add(first, blocks.count, s.count, fold::sum);
+    }
+    template <class T>
+    result sum(const buffer<T>& x)
+    {
+        return sum(x, segments{.length = x.size()});
+    }
+
+    /// The smallest of n elements from start: +inf for none, NaN if any is NaN.
+    template <class T>
+    result minimum(const buffer<T>& x, std::size_t n, std::size_t start = 0)
+    {
+        check(x, start + n, "minimum");
+        const auto blocks = plan_.cut(n);
+        const std::size_t first = reserve(blocks.count);
+        launch<T>(slot::minima, 1, 1, plan_.local, blocks.count, as_uint(n), as_uint(blocks.length), as_uint(first),
+                  partials_, x, std::uint64_t{start});
+        return add(first, blocks.count, 1, fold::minimum);
+    }
+
+    /// Every left times every right vector over their first n elements: result i * right.size() + j. Tiles of up to
+    /// four by four share their loads, one launch a tile.
+    template <class T>
+    result dots(std::span<const buffer<T>* const> left, std::span<const buffer<T>* const> right, std::size_t n)
+    {
+        for (const auto* x : left) check(*x, n, "dot");
+        for (const auto* x : right) check(*x, n, "dot");
+        begin_round();
+        const result all = {jobs_.size(), left.size() * right.size()};
+        const auto blocks = plan_.cut(n);
+        // Right tiles are full: a repeated vector costs nothing beside a further kernel to compile.
+        const std::size_t nr = right.size() == 1 ? 1 : 4;
+        jobs_.resize(all.first + all.count);
+        for (std::size_t l = 0; l < left.size(); l += 4)
+        {
+            const std::size_t nl = std::min<std::size_t>(4, left.size() - l);
+            for (std::size_t r = 0; r < right.size(); r += nr)
+            {
+                const auto a = [&](std::size_t k) -> const buffer<T>&
+                { return *left[std::min(l + k, left.size() - 1)]; };
+                const auto b = [&](std::size_t k) -> const buffer<T>&
+                { return *right[std::min(r + k, right.size() - 1)]; };
+                const std::size_t first = reserve(nl * nr * blocks.count);
+                // 16 KB of local memory at most: half as many items for the large tiles.
+                const std::size_t local = nl * nr > 8 && plan_.local > 128 ? 128 : plan_.local;
+                launch<T>(slot::dots, nl, nr, local, blocks.count, as_uint(n), as_uint(blocks.length),
+                          as_uint(blocks.count), as_uint(first), partials_, a(0), a(1), a(2), a(3), b(0), b(1), b(2),
+                          b(3));
+                for (std::size_t i = 0; i < nl; ++i)
+                    for (std::size_t j = 0; j < std::min(nr, right.size() - r); ++j)
+                        jobs_[all.first + (l + i) * right.size() + r + j] = {first + (i * nr + j) * blocks.count,
+                                                                             blocks.count, fold::sum};
+            }
+        }
+        return all;
+    }
+
+    template <class T>
+    result dot(const buffer<T>& x, const buffer<T>& y, std::size_t n)
+    {
+        const buffer<T>*const left = &x, *const right = &y;
+        return dots<T>(std::span(&left, 1), std::span(&right, 1), n);
+    }
+
+    /// Waits once and folds all that was enqueued in this round.
+    void fetch()
+    {
+        fetched_ = true;
+        const auto host = partials_.fetch();
+        values_.clear();
+        for (const job& j : jobs_) values_.push_back(folded(j, host.subspan(j.first, j.groups)));
+    }
+
+    double value(result r, std::size_t k = 0) const { return values_[r.first + k]; }
+    std::span<const double> values(result r) const { return std::span(values_).subspan(r.first, r.count); }
+
+private:
+    enum class fold
+    {
+        sum,
+        minimum
+    };
+    enum class slot
+    {
+        dots = 0,
+        sums = 8,
+        minima = 9,
+        end = 10
+    };
+    struct job
+    {
+        std::size_t first, groups;
+        fold how;
+    };
+
+    /// Enqueuing after a fetch starts afresh.
+    void begin_round()
+    {
+        if (!fetched_) return;
+        fetched_ = false;
+        partials_.clear();
+        jobs_.clear();
+    }
+
+    std::size_t reserve(std::size_t count)
+    {
+        begin_round();
+        return partials_.reserve(count);
+    }
+
+    result add(std::size_t first, std::size_t groups, std::size_t count, fold how)
+    {
+        const result r = {jobs_.size(), count};
+        for (std::size_t k = 0; k < count; ++k) jobs_.push_back({first + k * groups, groups, how});
+        return r;
+    }
+
+    template <class T, class... Args>
+    void launch(slot what, std::size_t nl, std::size_t nr, std::size_t local, std::size_t groups, const Args&... args)
+    {
+        if (groups == 0) return;
+        static constexpr const char* names[] = {"dots", "sums", "minima"};
+        const std::size_t which = what == slot::dots ? 2 * (nl - 1) + (nr == 4) : static_cast<std::size_t>(what);
+        const std::string name = names[what == slot::dots ? 0 : what == slot::sums ? 1 : 2];
+        auto& kernel = kernels_[std::is_same_v<T, double>][which];
+        if (!kernel.get())
+        {
+            const auto define = [](const char* macro, std::size_t v)
+            { return std::string(" -D") + macro + '=' + std::to_string(v); };
+            const std::string sum = partials_.wide() ? "double" : "float";
+            kernel = queue_.state()->cache.find(detail::kernels::reduce, name,
+                                                std::string("-DREAL=") + cl_name<T>() + " -DSUM=" + sum +
+                                                    define("SUM_IS_DOUBLE", partials_.wide()) + define("L", local) +
+                                                    define("V", plan_.width) + define("NL", nl) + define("NR", nr) +
+                                                    define("U", nl * nr == 1   ? 4
+                                                                : nl * nr <= 4 ? 2
+                                                                               : 1));
+        }
+        cl_uint i = 0;
+        (detail::set_argument(*queue_.state(), kernel.get(), name, i++, args), ...);
+        queue_.state()->launch(kernel, name, {groups * local, local});
+    }
+
+    static double folded(const job& j, std::span<const double> part)
+    {
+        if (j.how == fold::sum) return std::accumulate(part.begin(), part.end(), 0.0);
+        double least = std::numeric_limits<double>::infinity();
+        for (const double p : part)
+        {
+            if (std::isnan(p)) return p;
+            least = std::min(least, p);
+        }
+        return least;
+    }
+
+    template <class T>
+    void check(const buffer<T>& x, std::size_t end, const char* what) const
+    {
+        if (end > x.size())
+            throw parameter_error(what,
+                                  std::to_string(end) + " elements wanted of a buffer of " + std::to_string(x.size()));
+    }
+
+    static std::uint32_t as_uint(std::size_t n)
+    {
+        if (n > std::numeric_limits<std::int32_t>::max())
+            throw parameter_error("reductions", "more than 2^31 elements");
+        return static_cast<std::uint32_t>(n);
+    }
+
+    queue queue_;
+    reduction_plan plan_;
+    detail::partials partials_;
+    bool fetched_ = false;
+    std::vector<job> jobs_;
+    std::vector<double> values_;
+    std::array<std::array<boost::compute::kernel, static_cast<std::size_t>(slot::end)>, 2> kernels_;
+};
+
+} // namespace taut

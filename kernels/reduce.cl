@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// First stage of the deterministic reductions. Each work-group reduces one contiguous block of a vector to one partial;
+// the host adds the partials in their order. Which item takes which element is fixed, so results repeat bit for bit.
+//
+// Macros:
+//   REAL   element type: float or double
+//   SUM    accumulator type: double, or float on a device without fp64
+//   L, V   items a group and elements a load. (1, 8): a CPU, where an item is one long serial run through memory.
+//          (256, 1): a GPU, where neighbouring items take neighbouring elements, and one barrier joins them.
+//   U      loads in flight an item: independent accumulators hide the latency of the additions
+//   NL, NR size of the tile of dot products that one pass computes: every left with every right vector
+//
+// check: -DREAL=double -DSUM=double -DSUM_IS_DOUBLE=1 -DL=1 -DV=8 -DU=4 -DNL=1 -DNR=1
+// check: -DREAL=float -DSUM=double -DSUM_IS_DOUBLE=1 -DL=1 -DV=8 -DU=1 -DNL=3 -DNR=4
+// check: -DREAL=double -DSUM=double -DSUM_IS_DOUBLE=1 -DL=256 -DV=1 -DU=2 -DNL=1 -DNR=4
+// check: -DREAL=float -DSUM=float -DSUM_IS_DOUBLE=0 -DL=128 -DV=1 -DU=1 -DNL=4 -DNR=4
+
+#define CAT_(a, b) a##b
+#define CAT(a, b) CAT_(a, b)
+
+#if SUM_IS_DOUBLE
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#endif
+
+#if V == 1
+#define SUMV SUM
+#define LOAD(p, i) ((SUM)(p)[i])
+#define FOLD(s) (s)
+#else
+#define SUMV CAT(SUM, 8)
+#define LOAD(p, i) CAT(convert_, SUMV)(vload8(i, p))
+#define FOLD(s) ((((s).s0 + (s).s1) + ((s).s2 + (s).s3)) + (((s).s4 + (s).s5) + ((s).s6 + (s).s7)))
+#endif
+
+#define LOAD_ONE(p, i) ((SUM)(p)[i])
+
+/// Loops over a tile must vanish before arrays become registers.
+#define UNROLLED _Pragma("unroll") for
+
+/// sum[l * NR + r] += a[l][i] * b[r][i] for the whole tile: each vector is loaded once.
+#define ADD_PRODUCTS(TYPE, sum, load, i)                                                                               \
+    {                                                                                                                  \
+        TYPE x[NL], y[NR];                                                                                             \
+        UNROLLED (int l = 0; l < NL; ++l) x[l] = load(a[l], i);                                                        \
+        UNROLLED (int r = 0; r < NR; ++r) y[r] = load(b[r], i);                                                        \
+        UNROLLED (int l = 0; l < NL; ++l)                                                                              \
+            UNROLLED (int r = 0; r < NR; ++r) sum[l * NR + r] += x[l] * y[r];                                          \
+    }
+
+/// Joins the K values of each of the L items of a group, column by column: one barrier, no loop around it.
+#if L == 1
+#define JOIN(K, value, out)                                                                                            \
+    UNROLLED (int k = 0; k < (K); ++k) (out)[k * groups] = (value)[k];
+#else
+#define JOIN(K, value, out)                                                                                            \
+    __local SUM shared[(K) * L];                                                                                       \
+    UNROLLED (int k = 0; k < (K); ++k) shared[k * L + lid] = (value)[k];                                                    \
+    barrier(CLK_LOCAL_MEM_FENCE);                                                                                      \
+    if (lid < (K))                                                                                                     \
+    {                                                                                                                  \
+        SUM s0 = 0, s1 = 0, s2 = 0, s3 = 0;                                                                            \
+        for (int i = 0; i < L; i += 4)                                                                                 \
+        {                                                                                                              \
+            s0 += shared[lid * L + i];                                                                                 \
+            s1 += shared[lid * L + i + 1];                                                                             \
+            s2 += shared[lid * L + i + 2];                                                                             \
+            s3 += shared[lid * L + i + 3];                                                                             \
+        }                                                                                                              \
+        (out)[lid * groups] = (s0 + s1) + (s2 + s3);                                                                   \
+    }
+#endif
+
+/// partials[first + k * groups + group] = the group's share of the dot product k = l * NR + r of vectors of n elements.
+/// block: elements a group, a multiple of V. Only the first NL and NR vectors are read; the others fill the signature.
+__kernel void dots(const uint n, const uint block, const uint groups, const uint first, __global SUM* partials,
+                   __global const REAL* a0, __global const REAL* a1, __global const REAL* a2, __global const REAL* a3,
+                   __global const REAL* b0, __global const REAL* b1, __global const REAL* b2, __global const REAL* b3)
+{
+    __global const REAL* const a[4] = {a0, a1, a2, a3};
+    __global const REAL* const b[4] = {b0, b1, b2, b3};
+    const uint group = get_group_id(0);
+    const int lid = (int)get_local_id(0);
+    const uint begin = min(group * block, n), end = min(begin + block, n);
+    const uint vend = end / V;
+
+    SUMV s[U][NL * NR];
+    UNROLLED (int u = 0; u < U; ++u)
+        UNROLLED (int k = 0; k < NL * NR; ++k) s[u][k] = 0;
+
+    uint i = begin / V + (uint)lid;
+    for (; i + (U - 1) * L < vend; i += U * L)
+    {
+        UNROLLED (int u = 0; u < U; ++u) ADD_PRODUCTS(SUMV, s[u], LOAD, i + u * L)
+    }
+    for (; i < vend; i += L) ADD_PRODUCTS(SUMV, s[0], LOAD, i)
+
+    SUM total[NL * NR];
+    UNROLLED (int k = 0; k < NL * NR; ++k)
+    {
+        UNROLLED (int u = 1; u < U; ++u) s[0][k] += s[u][k];
+        total[k] = FOLD(s[0][k]);
+    }
+#if V > 1
+    // The last n % V elements; device vectors are padded and have none.
+    for (uint t = vend * V; t < end; ++t) ADD_PRODUCTS(SUM, total, LOAD_ONE, t)
+#endif
+    JOIN(NL * NR, total, partials + first + group)
+}
+
+/// Sums of segments of x: segment k is the n elements from start + k * stride. The launch has groups groups for each
+/// segment; partials[first + k * groups + g] is the share of block g.
+__kernel void sums(const uint n, const uint block, const uint groups, const uint first, __global SUM* partials,
+                   __global const REAL* x, const ulong start, const ulong stride)
+{
+    const uint segment = get_group_id(0) / groups, group = get_group_id(0) % groups;
+    const int lid = (int)get_local_id(0);
+    const uint begin = min(group * block, n), end = min(begin + block, n);
+    __global const REAL* from = x + start + segment * stride + begin;
+    const uint vend = (end - begin) / V;
+
+    SUMV s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    uint i = (uint)lid;
+    for (; i + 3 * L < vend; i += 4 * L)
+    {
+        s0 += LOAD(from, i);
+        s1 += LOAD(from, i + L);
+        s2 += LOAD(from, i + 2 * L);
+        s3 += LOAD(from, i + 3 * L);
+    }
+    for (; i < vend; i += L) s0 += LOAD(from, i);
+    s0 = (s0 + s1) + (s2 + s3);
+    SUM total[1] = {FOLD(s0)};
+#if V > 1
+    for (uint t = vend * V; t < end - begin; ++t) total[0] += from[t];
+#endif
+    JOIN(1, total, partials + first + segment * groups + group)
+}
+
+/// The smaller of two numbers; NaN if either is: fmin would hide it.
+#define LESS(a, b) ((b) < (a) || (b) != (b) ? (b) : (a))
+
+/// partials[first + group] = the smallest element of the group's block; NaN as soon as one is NaN.
+__kernel void minima(const uint n, const uint block, const uint first, __global SUM* partials, __global const REAL* x,
+                     const ulong start)
+{
+    const uint group = get_group_id(0);
+    const uint begin = min(group * block, n), end = min(begin + block, n);
+    __global const REAL* from = x + start + begin;
+    const uint vend = (end - begin) / V;
+
+    SUM least = INFINITY;
+#if V == 1
+    const uint lid = get_local_id(0);
+    for (uint i = lid; i < vend; i += L) least = LESS(least, (SUM)from[i]);
+#else
+    SUMV m = (SUMV)(INFINITY);
+    for (uint i = 0; i < vend; ++i)
+    {
+        const SUMV c = LOAD(from, i);
+        m = select(m, c, isless(c, m) | isnan(c));
+    }
+    const SUM e[8] = {m.s0, m.s1, m.s2, m.s3, m.s4, m.s5, m.s6, m.s7};
+    for (int k = 0; k < 8; ++k) least = LESS(least, e[k]);
+    for (uint t = vend * V; t < end - begin; ++t) least = LESS(least, (SUM)from[t]);
+#endif
+#if L == 1
+    partials[first + group] = least;
+#else
+    __local SUM shared[L];
+    shared[lid] = least;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (lid == 0)
+    {
+        for (int i = 1; i < L; ++i) least = LESS(least, shared[i]);
+        partials[first + group] = least;
+    }
+#endif
+}

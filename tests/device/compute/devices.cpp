@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include <sstream>
+
+#include <doctest/doctest.h>
+
+#include <taut/compute/buffer.hpp>
+#include <taut/compute/quirks.hpp>
+
+#include "support.hpp"
+
+using taut::test::with_variable;
+
+namespace
+{
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+std::string refusal_text(const taut::device_requirements& needs = {})
+{
+    try
+    {
+        taut::choose_device(needs);
+    }
+    catch (const taut::no_device& e)
+    {
+        return e.what();
+    }
+    return {};
+}
+
+} // namespace
+
+TEST_CASE("devices: the list has the chosen device, which is described")
+{
+    const auto all = taut::devices();
+    REQUIRE(!all.empty());
+    const taut::device chosen = taut::choose_device();
+    bool listed = false;
+    for (const auto& [d, refusal] : all) listed = listed || (d == chosen && refusal.empty());
+    CHECK(listed);
+
+    CHECK(!chosen.name().empty());
+    CHECK(chosen.compute_units() > 0);
+    CHECK(chosen.global_memory() >= chosen.max_allocation());
+    CHECK(chosen.opencl_version() >= 120);
+    std::ostringstream text;
+    text << chosen;
+    CHECK(contains(text.str(), chosen.name()));
+    CHECK(contains(text.str(), chosen.driver_version()));
+}
+
+TEST_CASE("devices: TAUT_DEVICE chooses by index and by a part of a name in any case")
+{
+    const auto all = taut::devices();
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        with_variable wish("TAUT_DEVICE", std::to_string(i));
+        CHECK(taut::choose_device() == all[i].device);
+    }
+    std::string part = all[0].device.platform().substr(0, 5);
+    for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    with_variable wish("TAUT_DEVICE", part);
+    CHECK(taut::choose_device().platform() == all[0].device.platform());
+}
+
+TEST_CASE("devices: a wish that nothing fulfils names the wish, every platform and device, and the remedy")
+{
+    const taut::device d = taut::devices()[0].device;
+    for (const char* wanted : {"no such machine", "99"})
+    {
+        with_variable wish("TAUT_DEVICE", wanted);
+        const std::string text = refusal_text();
+        CHECK(contains(text, std::string("TAUT_DEVICE=") + wanted));
+        CHECK(contains(text, d.platform()));
+        CHECK(contains(text, d.name() + ": usable"));
+        CHECK(contains(text, "pocl-opencl-icd"));
+    }
+}
+
+TEST_CASE("devices: requirements refuse a device with the reason")
+{
+    const std::string text = refusal_text({.memory = std::uint64_t{1} << 60});
+    CHECK(contains(text, "too little memory"));
+    CHECK(contains(text, taut::devices()[0].device.name()));
+
+    const taut::device weak = taut::choose_device().without_fp64();
+    CHECK(taut::refusal(weak).empty());
+    CHECK(contains(taut::refusal(weak, {.fp64 = true}), "fp64"));
+}
+
+TEST_CASE("devices: double is refused by name on a device without fp64, float works")
+{
+    taut::queue q(taut::choose_device().without_fp64());
+    taut::buffer<float> narrow(q, 16);
+    narrow.fill(2);
+    CHECK(narrow.download()[15] == 2);
+    try
+    {
+        taut::buffer<double> wide(q, 16);
+        FAIL("a double buffer was allowed");
+    }
+    catch (const taut::device_error& e)
+    {
+        CHECK(contains(e.what(), "fp64"));
+        CHECK(contains(e.what(), q.device().name()));
+        CHECK(e.device() == q.device().label());
+    }
+    CHECK(q.allocated() == narrow.bytes());
+}
+
+TEST_CASE("devices: quirks of the platform are known by name")
+{
+    const taut::device d = taut::choose_device();
+    CHECK(!(taut::quirks::is_pocl(d) && taut::quirks::is_oclgrind(d)));
+    CHECK(taut::quirks::wants_serial_items(d) == d.is_cpu());
+    if (taut::quirks::is_pocl(d)) CHECK(taut::quirks::wants_serial_items(d));
+}
+
+// Run by the ctest device.no_platform, with OCL_ICD_VENDORS at an empty folder.
+TEST_CASE("devices: without an OpenCL platform the error says so and names the package" * doctest::skip())
+{
+    CHECK(taut::devices().empty());
+    const std::string text = refusal_text();
+    CHECK(contains(text, "no OpenCL platform is installed"));
+    CHECK(contains(text, std::getenv("OCL_ICD_VENDORS")));
+    CHECK(contains(text, "pocl-opencl-icd"));
+    CHECK_THROWS_AS(taut::queue(), taut::no_device);
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <numeric>
+
+#include <doctest/doctest.h>
+
+#include <taut/compute/gather.hpp>
+
+#include "support.hpp"
+
+using taut::buffer;
+using taut::gather_layout;
+using taut::test::random_values;
+using taut::test::sized_count;
+
+namespace
+{
+
+/// A random incidence: `rows` vertices, of which some meet no cell and one meets very many.
+struct incidence
+{
+    std::vector<taut::index> offsets{0}, cells, corners;
+
+    incidence(std::size_t rows, taut::index cell_count, taut::index corner_count)
+    {
+        std::mt19937 random(7);
+        for (std::size_t v = 0; v < rows; ++v)
+        {
+            const std::size_t valence = v == rows / 2 ? 75 : random() % 8;
+            for (std::size_t k = 0; k < valence; ++k)
+            {
+                cells.push_back(static_cast<taut::index>(random() % static_cast<unsigned>(cell_count)));
+                corners.push_back(static_cast<taut::index>(random() % static_cast<unsigned>(corner_count)));
+            }
+            offsets.push_back(static_cast<taut::index>(cells.size()));
+        }
+    }
+};
+
+} // namespace
+
+TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in order, at every valence", T, float, double)
+{
+    taut::queue q;
+    for (const int D : {2, 3})
+    {
+        CAPTURE(D);
+        const std::size_t rows = sized_count(1000, 150), vertices = taut::padded(rows + 3, 64), cells = 192;
+        const auto corners = static_cast<std::size_t>(D) + 1;
+        const incidence meet(rows, 190, static_cast<taut::index>(corners));
+        const taut::gather<T> sum(q, meet.offsets, meet.cells, meet.corners, {D, cells, vertices});
+        CHECK(sum.width() == 8);
+        CHECK(sum.overfull() == 1);
+
+        const auto d = static_cast<std::size_t>(D);
+        const auto host = random_values<T>(corners * d * cells, 3);
+        const buffer<T> contributions(q, host);
+        buffer<T> out(q, d * vertices);
+        out.fill(T(9));
+        sum(contributions, out);
+
+        // Sums in T and in the order of the rows: equal to the last bit.
+        std::vector<T> expected(d * vertices, T(0));
+        for (std::size_t v = 0; v < rows; ++v)
+            for (std::size_t c = 0; c < d; ++c)
+                for (auto k = static_cast<std::size_t>(meet.offsets[v]);
+                     k < static_cast<std::size_t>(meet.offsets[v + 1]); ++k)
+                    expected[c * vertices + v] += host[(static_cast<std::size_t>(meet.corners[k]) * d + c) * cells +
+                                                       static_cast<std::size_t>(meet.cells[k])];
+        CHECK(out.download() == expected);
+    }
+}
+
+TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
+{
+    taut::queue q;
+    // One vertex, in corner 1 of cell 1; the place that fillers read, cell 0, holds NaN.
+    const std::vector<taut::index> offsets = {0, 1}, cells = {1}, corners = {1};
+    const taut::gather<double> sum(q, offsets, cells, corners, {2, 64, 64});
+    std::vector<double> host(3 * 2 * 64, std::numeric_limits<double>::quiet_NaN());
+    host[2 * 64 + 1] = 5;
+    host[3 * 64 + 1] = 6;
+    const buffer<double> contributions(q, host);
+    buffer<double> out(q, 128);
+    sum(contributions, out);
+    const auto result = out.download();
+    CHECK(result[0] == 5);
+    CHECK(result[64] == 6);
+    CHECK(std::accumulate(result.begin(), result.end(), 0.0) == 11);
+    CHECK(q.counters().launches == 1);
+}
+
+TEST_CASE("gather: layouts that do not hold the mesh are refused")
+{
+    taut::queue q;
+    const std::vector<taut::index> offsets = {0, 1}, cells = {70}, corners = {0};
+    CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 64, 64}), taut::parameter_error);
+    CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 128, 100}), taut::parameter_error);
+    CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 128, 0}), taut::parameter_error);
+
+    const std::vector<taut::index> first = {0};
+    const taut::gather<double> one(q, offsets, first, first, {2, 64, 64});
+    buffer<double> enough(q, 128), few(q, 64);
+    CHECK_THROWS_AS(one(few, enough), taut::parameter_error);
+    CHECK_THROWS_AS(one(enough, few), taut::parameter_error);
+}
+
+TEST_CASE("gather: without any cell all sums are zero")
+{
+    taut::queue q;
+    const taut::gather<float> nothing(q, {}, {}, {}, {3, 0, 64});
+    buffer<float> none(q, 0), out(q, 192);
+    nothing(none, out);
+    CHECK(out.download() == std::vector<float>(192, 0.0f));
+}

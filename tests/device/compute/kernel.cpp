@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <taut/compute/kernel.hpp>
+
+#include "support.hpp"
+
+namespace
+{
+
+const std::string axpy = "__kernel void axpy(const float a, __global const float* x, __global float* y)\n"
+                         "{ const size_t i = get_global_id(0); y[i] += a * x[i]; }\n"
+                         "__kernel void count(__global int* c) { c[get_global_id(0)] = get_local_size(0); }\n";
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("kernel: typed arguments reach their places")
+{
+    taut::queue q;
+    const auto k = q.kernel<float, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy");
+    const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
+    taut::buffer<float> y(q, std::vector<float>(64, 1.0f));
+    k(64, 3.0f, x, y);
+    k({64, 16}, 0.5f, x, y);
+    CHECK(y.download() == std::vector<float>(64, 8.0f));
+}
+
+TEST_CASE("kernel: nothing runs over an empty range")
+{
+    taut::queue q;
+    taut::buffer<float> x(q, 0), y(q, 0);
+    q.kernel<float, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy")(0, 1.0f, x, y);
+    CHECK(q.counters().launches == 0);
+}
+
+TEST_CASE("kernel: the local size is the one asked for, or a usual one, or the driver's for odd sizes")
+{
+    taut::queue q;
+    taut::buffer<taut::index> c(q, 130);
+    const auto k = q.kernel<taut::buffer<taut::index>>(axpy, "count");
+    k({128, 32}, c);
+    CHECK(c.download()[0] == 32);
+    k(128, c);
+    CHECK(c.download()[0] == (q.device().is_gpu() ? 128 : 64));
+    k(127, c);
+    CHECK(127 % c.download()[0] == 0);
+    CHECK_THROWS_AS(k({130, 32}, c), taut::device_error);
+}
+
+TEST_CASE("kernel: equal source and options are built once, other options again")
+{
+    taut::queue q;
+    using k = taut::typed_kernel<float, const taut::buffer<float>, taut::buffer<float>>;
+    k(q, axpy, "axpy");
+    k(q, axpy, "axpy");
+    taut::typed_kernel<taut::buffer<taut::index>>(q, axpy, "count");
+    CHECK(q.counters().builds == 1);
+    k(q, axpy, "axpy", "-DX=1");
+    CHECK(q.counters().builds == 2);
+    k(q, axpy + "\n", "axpy");
+    CHECK(q.counters().builds == 3);
+}
+
+TEST_CASE("kernel: a compiler's refusal shows kernel, log, device and the numbered lines around the error")
+{
+    taut::queue q;
+    const std::string source =
+        "#line 1 \"kernels/broken.cl\"\n// one\n// two\n// three\n"
+        "__kernel void broken(__global float* x) { x[0] = nowhere; }\n// five\n// six\n// seven\n";
+    try
+    {
+        q.kernel<taut::buffer<float>>(source, "broken");
+        FAIL("a broken kernel was built");
+    }
+    catch (const taut::build_error& e)
+    {
+        CHECK(e.kernel() == "broken");
+        CHECK(contains(e.log(), "nowhere"));
+        CHECK(contains(e.device(), q.device().driver_version()));
+        CHECK(contains(e.what(), "building kernel broken"));
+        CHECK(contains(e.what(), e.log()));
+        CHECK(contains(e.excerpt(), "> __kernel void broken"));
+        CHECK(contains(e.excerpt(), "// three"));
+        CHECK(!contains(e.excerpt(), "// seven"));
+        CHECK(e.code() == CL_BUILD_PROGRAM_FAILURE);
+    }
+    // The failure is not cached as a success.
+    CHECK_THROWS_AS(q.kernel<taut::buffer<float>>(source, "broken"), taut::build_error);
+    CHECK(q.counters().builds == 0);
+}
+
+TEST_CASE("kernel: excerpts number lines as the compiler does")
+{
+    using taut::detail::build_excerpt;
+    const std::string text = "a\nb\nc\nd\ne\nf\ng\nh\ni\n";
+    CHECK(build_excerpt(text, "x.cl:5:1: error: no") == "    3 | c\n    4 | d\n    5 > e\n    6 | f\n    7 | g\n");
+    CHECK(build_excerpt(text, "x.cl:1:1: error\nx.cl:9:2: error") ==
+          "    1 > a\n    2 | b\n    3 | c\n      ...\n    7 | g\n    8 | h\n    9 > i\n");
+    CHECK(build_excerpt("#line 1 \"x.cl\"\n" + text, "x.cl:1:1: error") == "    1 > a\n    2 | b\n    3 | c\n");
+    CHECK(build_excerpt("#line 1 \"x.cl\"\na\n", "input.cl:2:1: error") == "    1 | #line 1 \"x.cl\"\n    2 > a\n");
+    CHECK(contains(build_excerpt(text, "no line named, at 12:30"), "    1 | a\n"));
+}
+
+TEST_CASE("kernel: wrong names, argument counts and types are refused in words")
+{
+    taut::queue q;
+    CHECK_THROWS_AS(q.kernel<float>(axpy, "absent"), taut::device_error);
+    CHECK_THROWS_AS(q.kernel<float>(axpy, "axpy"), taut::device_error);
+
+    taut::queue weak(taut::choose_device().without_fp64());
+    try
+    {
+        weak.kernel<double, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy");
+        FAIL("a double argument was allowed");
+    }
+    catch (const taut::device_error& e)
+    {
+        CHECK(contains(e.what(), "fp64"));
+        CHECK(contains(e.what(), weak.device().name()));
+    }
+}
+
+TEST_CASE("kernel: a scalar of another size is refused by name")
+{
+    taut::queue q;
+    const auto k = q.kernel<double, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy");
+    taut::buffer<float> x(q, 64), y(q, 64);
+    try
+    {
+        k(64, 1.0, x, y);
+        FAIL("a double passed for a float");
+    }
+    catch (const taut::device_error& e)
+    {
+        CHECK(contains(e.what(), "argument 0 of axpy"));
+    }
+}
+
+TEST_CASE("kernel: a buffer of another queue's context is refused")
+{
+    taut::queue q, other;
+    const auto k = q.kernel<taut::buffer<taut::index>>(axpy, "count");
+    taut::buffer<taut::index> foreign(other, 64);
+    CHECK_THROWS_AS(k(64, foreign), taut::device_error);
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <sstream>
+
+#include <doctest/doctest.h>
+
+#include <taut/compute/kernel.hpp>
+
+#include "support.hpp"
+
+namespace
+{
+
+const char* const twice = "__kernel void twice(__global float* x) { x[get_global_id(0)] *= 2; }";
+
+void run_twice(taut::queue& q)
+{
+    taut::buffer<float> x(q, std::vector<float>(64, 1.5f));
+    q.kernel<taut::buffer<float>>(twice, "twice")(64, x);
+    CHECK(x.download() == std::vector<float>(64, 3.0f));
+}
+
+} // namespace
+
+TEST_CASE("queue: on the best device")
+{
+    taut::queue q;
+    run_twice(q);
+    std::ostringstream text;
+    text << q;
+    CHECK(text.str().find(q.device().name()) != std::string::npos);
+}
+
+TEST_CASE("queue: copies share context, cache and counters; other queues do not")
+{
+    taut::queue q, other;
+    taut::queue copy = q;
+    CHECK(copy == q);
+    CHECK(!(other == q));
+    run_twice(copy);
+    CHECK(q.counters().launches == 1);
+    CHECK(other.counters().launches == 0);
+}
+
+TEST_CASE("queue: a user's context and command queue are adopted and keep working afterwards")
+{
+    const cl_device_id id = taut::choose_device().native();
+    cl_int code = 0;
+    const cl_context context = clCreateContext(nullptr, 1, &id, nullptr, nullptr, &code);
+    REQUIRE(code == CL_SUCCESS);
+    const cl_command_queue commands = clCreateCommandQueue(context, id, 0, &code);
+    REQUIRE(code == CL_SUCCESS);
+    {
+        taut::queue in_context(context);
+        CHECK(in_context.native_context() == context);
+        run_twice(in_context);
+
+        taut::queue through(commands);
+        CHECK(through.native() == commands);
+        CHECK(through.device() == in_context.device());
+        run_twice(through);
+    }
+    CHECK(clFinish(commands) == CL_SUCCESS);
+    clReleaseCommandQueue(commands);
+    clReleaseContext(context);
+}
+
+TEST_CASE("queue: an out-of-order command queue is refused, since commands rely on their order")
+{
+    const cl_device_id id = taut::choose_device().native();
+    cl_int code = 0;
+    const cl_context context = clCreateContext(nullptr, 1, &id, nullptr, nullptr, &code);
+    const cl_command_queue commands = clCreateCommandQueue(context, id, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, &code);
+    if (code == CL_SUCCESS)
+    {
+        CHECK_THROWS_AS(taut::queue{commands}, taut::device_error);
+        clReleaseCommandQueue(commands);
+    }
+    clReleaseContext(context);
+}
+
+TEST_CASE("queue: counters tell launches, waits, bytes and builds")
+{
+    taut::queue q;
+    taut::buffer<double> x(q, 32);
+    x.upload(std::vector<double>(32, 1.0));
+    const auto before = q.counters();
+    CHECK(before.waits == 1);
+    CHECK(before.bytes_written == 256);
+    CHECK(before.launches == 0);
+
+    const auto k = q.kernel<taut::buffer<double>>("#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n__kernel void "
+                                                  "one(__global double* x) { x[get_global_id(0)] = 1; }",
+                                                  "one");
+    k(32, x);
+    k(32, x);
+    x.fill(3);
+    CHECK(q.counters().waits == 1);
+    CHECK(q.counters().launches == 2);
+    CHECK(q.counters().builds == 1);
+    CHECK(q.counters().build_seconds > 0);
+    x.download();
+    q.finish();
+    CHECK(q.counters().waits == 3);
+    CHECK(q.counters().bytes_read == 256);
+}
+
+TEST_CASE("queue: events complete, and tell the time where the queue profiles")
+{
+    taut::queue q(taut::choose_device(), {.profiling = true});
+    taut::buffer<float> x(q, std::vector<float>(64, 1.0f));
+    const taut::event e = q.kernel<taut::buffer<float>>(twice, "twice")(64, x);
+    e.wait();
+    CHECK(e.complete());
+    REQUIRE(e.seconds().has_value());
+    CHECK(*e.seconds() >= 0);
+
+    const taut::event none;
+    none.wait();
+    CHECK(none.complete());
+    CHECK(!none.seconds().has_value());
+}

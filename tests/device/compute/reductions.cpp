@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include <taut/compute/reductions.hpp>
+
+#include "support.hpp"
+
+using taut::buffer;
+using taut::reduction_plan;
+using taut::reductions;
+using taut::test::random_values;
+using taut::test::sized_count;
+
+namespace
+{
+
+/// Both forms run on every device: the one for CPUs and the one for GPUs.
+const reduction_plan forms[] = {reduction_plan::serial(), reduction_plan::grouped()};
+
+std::vector<std::size_t> sizes()
+{
+    return {0, 1, 7, 255, 257, sized_count(5000, 2100), sized_count(300001, 4999)};
+}
+
+template <class T>
+long double host_dot(const std::vector<T>& x, const std::vector<T>& y, std::size_t begin, std::size_t n)
+{
+    long double s = 0;
+    for (std::size_t i = begin; i < begin + n; ++i)
+        s += static_cast<long double>(x[i]) * static_cast<long double>(y[i]);
+    return s;
+}
+
+} // namespace
+
+TEST_CASE("reductions: a plan cuts n into whole blocks that cover it, at most as many as it allows")
+{
+    for (const auto& plan : forms)
+        for (const std::size_t n : {0ul, 1ul, 4095ul, 4097ul, 100000ul, 123456789ul})
+        {
+            const auto [length, count] = plan.cut(n);
+            CHECK(count >= 1);
+            CHECK(count <= plan.most_groups);
+            CHECK(length % plan.width == 0);
+            CHECK(length * count >= n);
+            CHECK((count == 1 || length * (count - 1) < n));
+        }
+}
+
+TEST_CASE_TEMPLATE("reductions: sums, dots and minima agree with the host at every size and form", T, float, double)
+{
+    taut::queue q;
+    for (const auto& plan : forms)
+    {
+        reductions r(q, plan);
+        for (const std::size_t n : sizes())
+        {
+            CAPTURE(n);
+            CAPTURE(plan.local);
+            const auto hx = random_values<T>(n, 1), hy = random_values<T>(n, 2);
+            const buffer<T> x(q, hx), y(q, hy);
+            const auto sum = r.sum(x);
+            const auto dot = r.dot(x, y, n);
+            const auto least = r.minimum(x, n);
+            const auto tail = r.minimum(x, n / 2, n - n / 2);
+            r.fetch();
+
+            const std::vector<T> ones(n, T(1));
+            const double scale = std::sqrt(static_cast<double>(n)) + 1;
+            CHECK(std::abs(r.value(sum) - static_cast<double>(host_dot(hx, ones, 0, n))) < 1e-13 * scale);
+            CHECK(std::abs(r.value(dot) - static_cast<double>(host_dot(hx, hy, 0, n))) < 1e-13 * scale);
+            const double none = std::numeric_limits<double>::infinity();
+            CHECK(r.value(least) == (n ? static_cast<double>(*std::min_element(hx.begin(), hx.end())) : none));
+            const auto middle = hx.begin() + static_cast<std::ptrdiff_t>(n - n / 2);
+            CHECK(r.value(tail) == (n > 1 ? static_cast<double>(*std::min_element(middle, hx.end())) : none));
+        }
+    }
+}
+
+TEST_CASE_TEMPLATE("reductions: segments are summed apart", T, float, double)
+{
+    taut::queue q;
+    const std::size_t length = sized_count(9001, 1500), stride = length + 5, count = 5, start = 3;
+    const auto host = random_values<T>(start + count * stride, 3);
+    const buffer<T> x(q, host);
+    const std::vector<T> ones(host.size(), T(1));
+    for (const auto& plan : forms)
+    {
+        reductions r(q, plan);
+        const auto sums = r.sum(x, {.count = count, .length = length, .stride = stride, .start = start});
+        r.fetch();
+        REQUIRE(r.values(sums).size() == count);
+        for (std::size_t k = 0; k < count; ++k)
+            CHECK(
+                r.value(sums, k) ==
+                doctest::Approx(static_cast<double>(host_dot(host, ones, start + k * stride, length))).epsilon(1e-12));
+    }
+}
+
+TEST_CASE_TEMPLATE("reductions: every left with every right vector, at every shape of tile", T, float, double)
+{
+    taut::queue q;
+    const std::size_t n = sized_count(10007, 700);
+    std::vector<std::vector<T>> host;
+    std::vector<buffer<T>> device;
+    for (unsigned k = 0; k < 9; ++k)
+    {
+        host.push_back(random_values<T>(n, k));
+        device.emplace_back(q, host.back());
+    }
+    for (const auto& plan : forms)
+    {
+        reductions r(q, plan);
+        for (const std::size_t nl : {1u, 2u, 3u, 4u, 5u})
+            for (const std::size_t nr : {1u, 3u, 4u, 6u})
+            {
+                if (plan.local > 1 && nl + nr > 8 && sized_count(0, 1) != 0) continue;
+                CAPTURE(nl);
+                CAPTURE(nr);
+                std::vector<const buffer<T>*> left, right;
+                for (std::size_t i = 0; i < nl; ++i) left.push_back(&device[i]);
+                for (std::size_t j = 0; j < nr; ++j) right.push_back(&device[8 - j]);
+                const auto dots = r.template dots<T>(left, right, n);
+                r.fetch();
+                double worst = 0;
+                for (std::size_t i = 0; i < nl; ++i)
+                    for (std::size_t j = 0; j < nr; ++j)
+                        worst = std::max(worst, std::abs(r.value(dots, i * nr + j) -
+                                                         static_cast<double>(host_dot(host[i], host[8 - j], 0, n))));
+                CHECK(worst < 1e-10);
+            }
+    }
+}
+
+TEST_CASE_TEMPLATE("reductions: a NaN anywhere makes the minimum NaN, an infinity does not", T, float, double)
+{
+    taut::queue q;
+    const std::size_t n = sized_count(20011, 3001);
+    for (const auto& plan : forms)
+    {
+        reductions r(q, plan);
+        for (const std::size_t at : {std::size_t{0}, std::size_t{8}, n / 2, n - 1})
+        {
+            auto host = random_values<T>(n, 4);
+            host[at] = std::numeric_limits<T>::quiet_NaN();
+            const buffer<T> bad(q, host);
+            host[at] = -std::numeric_limits<T>::infinity();
+            const buffer<T> low(q, host);
+            const auto nan = r.minimum(bad, n), infinite = r.minimum(low, n);
+            r.fetch();
+            CHECK(std::isnan(r.value(nan)));
+            CHECK(r.value(infinite) == -std::numeric_limits<double>::infinity());
+        }
+    }
+}
+
+TEST_CASE_TEMPLATE("reductions: repeat bit for bit, alone or among others", T, float, double)
+{
+    taut::queue q;
+    const std::size_t n = sized_count(50021, 5003);
+    const buffer<T> x(q, random_values<T>(n, 5)), y(q, random_values<T>(n, 6));
+    for (const auto& plan : forms)
+    {
+        reductions r(q, plan), other(q, plan);
+        const auto first = r.dot(x, y, n);
+        r.fetch();
+        const double once = r.value(first);
+        // Enough company that the buffer of partials must grow on the way.
+        const auto again = other.dot(x, y, n);
+        std::vector<reductions::result> company;
+        for (int k = 0; k < 40; ++k) company.push_back(other.sum(x, {.count = 20, .length = n / 20, .stride = n / 20}));
+        const auto last = other.dot(x, y, n);
+        other.fetch();
+        CHECK(other.value(again) == once);
+        CHECK(other.value(last) == once);
+        CHECK(other.value(company[0], 7) == other.value(company[39], 7));
+    }
+}
+
+TEST_CASE("reductions: many share one wait, and a new round begins after it")
+{
+    taut::queue q;
+    buffer<double> x(q, 100);
+    x.fill(0.25);
+    reductions r(q);
+    for (int round = 1; round <= 3; ++round)
+    {
+        const auto before = q.counters();
+        const auto a = r.sum(x);
+        const auto b = r.minimum(x, 100);
+        const auto c = r.dot(x, x, 100);
+        CHECK(q.counters().waits == before.waits);
+        r.fetch();
+        CHECK(q.counters().waits == before.waits + 1);
+        CHECK(q.counters().launches == before.launches + 3);
+        CHECK(r.value(a) == 25);
+        CHECK(r.value(b) == 0.25);
+        CHECK(r.value(c) == 6.25);
+    }
+}
+
+TEST_CASE("reductions: float sums keep double accuracy")
+{
+    taut::queue q;
+    const std::size_t n = sized_count(1000000, 20000);
+    buffer<float> x(q, n);
+    x.fill(0.1f);
+    reductions r(q);
+    const auto sum = r.sum(x);
+    r.fetch();
+    CHECK(r.value(sum) == doctest::Approx(static_cast<double>(n) * static_cast<double>(0.1f)).epsilon(1e-13));
+}
+
+TEST_CASE("reductions: float works on a device without fp64, to float accuracy")
+{
+    taut::queue q(taut::choose_device().without_fp64());
+    const std::size_t n = sized_count(100000, 5000);
+    const auto host = random_values<float>(n, 8);
+    const buffer<float> x(q, host);
+    for (const auto& plan : forms)
+    {
+        reductions r(q, plan);
+        const auto square = r.dot(x, x, n);
+        const auto least = r.minimum(x, n);
+        r.fetch();
+        CHECK(r.value(square) == doctest::Approx(static_cast<double>(host_dot(host, host, 0, n))).epsilon(1e-5));
+        CHECK(r.value(least) == static_cast<double>(*std::min_element(host.begin(), host.end())));
+    }
+}
+
+TEST_CASE("reductions: ranges outside of a buffer are refused")
+{
+    taut::queue q;
+    const buffer<double> x(q, std::vector<double>(10, 1.0)), y(q, std::vector<double>(9, 1.0));
+    reductions r(q);
+    CHECK_THROWS_AS(r.dot(x, y, 10), taut::parameter_error);
+    CHECK_THROWS_AS(r.minimum(x, 5, 6), taut::parameter_error);
+    CHECK_THROWS_AS(r.sum(x, {.count = 3, .length = 4, .stride = 4}), taut::parameter_error);
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <support/size.hpp>
+#include <taut/compute/queue.hpp>
+
+namespace taut::test
+{
+
+/// sized() for counts of elements.
+inline std::size_t sized_count(int usual, int small)
+{
+    return static_cast<std::size_t>(sized(usual, small));
+}
+
+template <class T>
+std::vector<T> random_values(std::size_t n, unsigned seed)
+{
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> normal;
+    std::vector<T> values(n);
+    for (T& v : values) v = static_cast<T>(normal(generator));
+    return values;
+}
+
+/// Sets an environment variable for the life of a scope.
+class with_variable
+{
+public:
+    with_variable(const char* name, const std::string& value) : name_(name)
+    {
+        if (const char* before = std::getenv(name)) before_ = before, had_ = true;
+        ::setenv(name, value.c_str(), 1);
+    }
+    ~with_variable()
+    {
+        if (had_)
+            ::setenv(name_, before_.c_str(), 1);
+        else
+            ::unsetenv(name_);
+    }
+    with_variable(const with_variable&) = delete;
+    with_variable& operator=(const with_variable&) = delete;
+
+private:
+    const char* name_;
+    std::string before_;
+    bool had_ = false;
+};
+
+} // namespace taut::test
