@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/solve/descent.hpp>
+#include <taut/solve/quasi_newton.hpp>
+
+namespace taut::solve
+{
+
+/// The limited-memory BFGS method.
+struct lbfgs_params
+{
+    memory_params memory = {};
+
+    void validate() const { memory.validate(); }
+};
+
+/// Minimises f from x by d = -H_k g_k with the last m pairs in H_k (Nocedal & Wright, Algorithm 7.5). x ends at the
+/// best iterate whatever the reason to stop. Throws parameter_error, and nothing else but what f and the observer do.
+///
+/// Host waits of an iteration whose full step is accepted: the barrier (if any), the value with its gradient, and one
+/// multi_dot: 3.
+template <objective Objective>
+report lbfgs(Objective& f, typename Objective::point& x, const lbfgs_params& params = {},
+             const descent_params& common = {}, const observer& ask = {})
+{
+    params.validate();
+    common.validate();
+    return with_inverse_hessian(f, params.memory,
+                                [&](auto& h) { return descent(f, x, h, no_momentum{}, common, ask).run(); });
+}
+
+} // namespace taut::solve

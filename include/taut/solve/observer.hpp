@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+namespace taut::solve
+{
+
+/// Where a run stands.
+struct progress
+{
+    int iteration = 0;   ///< accepted steps so far
+    double value = 0;    ///< f at the current iterate
+    double gradient = 0; ///< its relative gradient
+    double step = 0;     ///< the last accepted step
+    int evaluations = 0; ///< values computed so far
+    double seconds = 0;  ///< since the start
+    bool iterate =
+        true; ///< a new iterate; false: in the middle of a line search, the other fields are the last iterate's
+};
+
+/// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with
+/// stop::user and the best iterate so far. It runs on the thread of the solver; an exception passes through.
+using observer = std::function<bool(const progress&)>;
+
+} // namespace taut::solve

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/solve/stop.hpp>
+
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace taut::solve
+{
+
+/// One accepted iterate; number 0 is the start.
+struct history_entry
+{
+    int iteration = 0;
+    double value = 0;    ///< f(x)
+    double gradient = 0; ///< relative norm of the gradient
+    double step = 0;     ///< a in x + a d: 1 is the full step of the method
+    bool capped = false; ///< the barrier cut the step
+    int evaluations = 0; ///< values computed so far
+    double seconds = 0;  ///< since the start of the run
+};
+
+/// What a minimisation did. Values in the history never rise by more than the rounding error of a value.
+struct report
+{
+    solve::stop stop = solve::stop::iterations;
+    int iterations = 0;       ///< accepted steps
+    int evaluations = 0;      ///< values computed, those that came with a gradient included
+    int gradients = 0;        ///< gradients computed
+    int restarts = 0;         ///< times the method forgot what it knew of earlier steps
+    int skipped_pairs = 0;    ///< steps without positive curvature, left out of the quasi-Newton memory
+    double value_start = 0;   ///< f at the start
+    double value = 0;         ///< f at the end
+    double gradient_norm = 0; ///< relative norm of the gradient at the end
+    double seconds = 0;       ///< of the whole run
+    std::vector<history_entry> history;
+};
+
+/// One line: `stop: gradient, 7 iterations, E 34.5 -> 7.446`.
+inline std::ostream& operator<<(std::ostream& stream, const report& r)
+{
+    std::ostringstream line; // so that the user's stream keeps its format
+    line.precision(4);
+    line << "stop: " << r.stop << ", " << r.iterations << (r.iterations == 1 ? " iteration" : " iterations") << ", E "
+         << r.value_start << " -> " << r.value;
+    return stream << line.str();
+}
+
+} // namespace taut::solve

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ostream>
+#include <string_view>
+
+namespace taut::solve
+{
+
+/// Why a minimisation ended. All of them are results, none is an exception; the best iterate is kept in each case.
+enum class stop
+{
+    gradient,        ///< the relative gradient fell below its tolerance: converged
+    decrease,        ///< several relative decreases in a row below the tolerance
+    step,            ///< several relative steps in a row below the tolerance
+    iterations,      ///< as many iterations as allowed
+    line_search,     ///< no lower value along the direction, nor along steepest descent: often the limit of rounding
+    barrier,         ///< the barrier cuts every step so short that nothing is gained
+    time,            ///< the time limit
+    user,            ///< the observer said so
+    not_finite_start ///< value or gradient at the start is infinite or not a number
+};
+
+/// Whether a run ended near a minimum rather than by a limit, a failure or a request.
+constexpr bool converged(stop reason) noexcept
+{
+    return reason == stop::gradient || reason == stop::decrease || reason == stop::step;
+}
+
+constexpr std::string_view to_string(stop reason) noexcept
+{
+    switch (reason)
+    {
+    case stop::gradient:
+        return "gradient";
+    case stop::decrease:
+        return "decrease";
+    case stop::step:
+        return "step";
+    case stop::iterations:
+        return "iterations";
+    case stop::line_search:
+        return "line search";
+    case stop::barrier:
+        return "barrier";
+    case stop::time:
+        return "time";
+    case stop::user:
+        return "user";
+    case stop::not_finite_start:
+        return "start not finite";
+    }
+    return "unknown";
+}
+
+inline std::ostream& operator<<(std::ostream& stream, stop reason)
+{
+    return stream << to_string(reason);
+}
+
+} // namespace taut::solve

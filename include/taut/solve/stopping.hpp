@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/core/error.hpp>
+#include <taut/solve/stop.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace taut::solve
+{
+
+/// When to stop. A tolerance of 0 switches its test off.
+struct stopping_params
+{
+    /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
+    /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
+    double gradient_tolerance = 1e-6;
+
+    /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f|. A decrease along a step
+    /// that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only where the
+    /// gradient has reached no new low for ten steps. Range [0, 1). Raise it (1e-6) to stop where the value, not the
+    /// point, matters.
+    double decrease_tolerance = 1e-14;
+
+    /// Range >= 1. One small decrease is often an accident of the line search.
+    int decrease_count = 2;
+
+    /// Stop after `decrease_count` uncapped steps in a row of at most step_tolerance * the longest step of the run.
+    /// Range [0, 1); off by default.
+    double step_tolerance = 0;
+
+    /// Stop with stop::barrier after so many steps in a row that a barrier cut and that gained less than
+    /// decrease_tolerance. Range >= 1.
+    int barrier_count = 10;
+
+    /// Range >= 0.
+    int max_iterations = 1000;
+
+    /// Range > 0; infinite by default. The current evaluation is always finished.
+    std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()};
+
+    void validate() const
+    {
+        const auto fraction = [](double t, const char* field)
+        {
+            if (!(t >= 0 && t < 1)) throw parameter_error(field, "must be in [0, 1)");
+        };
+        fraction(gradient_tolerance, "stopping.gradient_tolerance");
+        fraction(decrease_tolerance, "stopping.decrease_tolerance");
+        fraction(step_tolerance, "stopping.step_tolerance");
+        if (decrease_count < 1) throw parameter_error("stopping.decrease_count", "must be at least 1");
+        if (barrier_count < 1) throw parameter_error("stopping.barrier_count", "must be at least 1");
+        if (max_iterations < 0) throw parameter_error("stopping.max_iterations", "must not be negative");
+        if (!(time_limit.count() > 0)) throw parameter_error("stopping.time_limit", "must be positive");
+    }
+};
+
+/// An accepted step as the stopping tests see it.
+struct step_record
+{
+    int iteration;       ///< 1 for the first step
+    double value_before; ///< f(x_k)
+    double value;        ///< f(x_{k+1})
+    double gradient;     ///< relative norm at x_{k+1}
+    double length;       ///< |s_k|
+    bool capped;         ///< cut by a barrier
+};
+
+/// The tests of stopping_params over a run, with their memory of the steps before.
+class stopping_test
+{
+public:
+    /// rounding: relative error of a value.
+    stopping_test(const stopping_params& params, double rounding) : params_(params), rounding_(rounding) {}
+
+    /// At the start: is there anything to do?
+    std::optional<stop> start(double gradient)
+    {
+        lowest_gradient_ = gradient;
+        if (small_gradient(gradient)) return stop::gradient;
+        if (params_.max_iterations == 0) return stop::iterations;
+        return std::nullopt;
+    }
+
+    std::optional<stop> after(const step_record& k)
+    {
+        if (small_gradient(k.gradient)) return stop::gradient;
+
+        const double scale = std::max(std::abs(k.value), std::abs(k.value_before));
+        const double decrease = k.value_before - k.value;
+        const bool small = params_.decrease_tolerance > 0 && decrease <= params_.decrease_tolerance * scale;
+        since_low_ = k.gradient < 0.99 * lowest_gradient_ ? 0 : since_low_ + 1;
+        lowest_gradient_ = std::min(lowest_gradient_, k.gradient);
+        const bool falling = decrease <= rounding_ * scale && since_low_ < patience;
+        longest_ = std::max(longest_, k.length);
+
+        capped_ = small && k.capped ? capped_ + 1 : 0;
+        if (!small)
+            decreases_ = 0;
+        else if (!k.capped && !falling)
+            ++decreases_;
+        const bool short_step = params_.step_tolerance > 0 && k.length <= params_.step_tolerance * longest_;
+        steps_ = short_step && !k.capped ? steps_ + 1 : 0;
+
+        if (decreases_ >= params_.decrease_count) return stop::decrease;
+        if (steps_ >= params_.decrease_count) return stop::step;
+        if (capped_ >= params_.barrier_count) return stop::barrier;
+        if (k.iteration >= params_.max_iterations) return stop::iterations;
+        return std::nullopt;
+    }
+
+private:
+    bool small_gradient(double gradient) const { return gradient == 0 || gradient <= params_.gradient_tolerance; }
+
+    static constexpr int patience = 10; // gradients of quasi-Newton methods fall in waves
+
+    stopping_params params_;
+    double rounding_;
+    double lowest_gradient_ = std::numeric_limits<double>::infinity();
+    double longest_ = 0;
+    int since_low_ = 0; // steps since the lowest gradient
+    int decreases_ = 0, steps_ = 0, capped_ = 0;
+};
+
+} // namespace taut::solve

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "functions.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace taut::solve;
+
+namespace
+{
+
+constexpr line_search_method searches[] = {line_search_method::hybrid, line_search_method::strong_wolfe,
+                                           line_search_method::backtracking};
+
+} // namespace
+
+TEST_CASE("lbfgs: minimises Rosenbrock's function in 2 to 100 dimensions with every line search")
+{
+    for (const auto method : searches)
+        for (const std::size_t n : {2, 3, 10, 30, 100})
+        {
+            CAPTURE(n);
+            CAPTURE(int(method));
+            auto f = functions::rosenbrock(n);
+            // In 4 and more dimensions there is a second minimum near (-1, 1, ..., 1): start on this side of it.
+            std::vector<double> x = n < 4 ? functions::rosenbrock_start(n) : std::vector<double>(n, 0.3);
+            const auto r =
+                minimize(f, x, {.line_search = {.method = method}, .stopping = {.gradient_tolerance = 1e-9}});
+            CHECK(r.stop == stop::gradient);
+            CHECK(functions::distance(x, 1) <= 1e-5);
+            CHECK(r.value == f.value(x));
+            CHECK(r.gradient_norm <= 1e-9);
+            CHECK(functions::largest_rise(r) == 0);
+            CHECK(r.iterations < 60 + 8 * int(n));
+        }
+}
+
+TEST_CASE("lbfgs: with enough memory solves a quadratic of condition 1e8 to 1e-10 of its gradient")
+{
+    for (const auto method : {line_search_method::hybrid, line_search_method::strong_wolfe})
+    {
+        auto f = functions::quadratic(12, 1e8);
+        std::vector<double> x(12, -3.0);
+        const auto r = minimize(f, x,
+                                {.lbfgs = {.memory = {.pairs = 24}},
+                                 .line_search = {.method = method},
+                                 .stopping = {.gradient_tolerance = 1e-10, .max_iterations = 400}});
+        CAPTURE(r);
+        CHECK(r.stop == stop::gradient);
+        CHECK(r.iterations < 200);
+        CHECK(functions::distance(x, 1) <= 16e8 * 1e-10);
+        CHECK(functions::largest_rise(r) == 0);
+    }
+}
+
+TEST_CASE("lbfgs: badly scaled variables and values change nothing but the first search")
+{
+    for (const double scale : {1e-6, 1.0, 1e6})
+        for (const double factor : {1e-6, 1.0, 1e6})
+        {
+            CAPTURE(scale);
+            CAPTURE(factor);
+            auto f = functions::rosenbrock(4, scale, factor);
+            std::vector<double> x(4, 0.3 * scale);
+            const auto r = minimize(f, x, {.stopping = {.gradient_tolerance = 1e-9}});
+            CHECK(r.stop == stop::gradient);
+            CHECK(functions::distance(x, scale) <= 1e-5 * scale);
+            CHECK(r.iterations < 60);
+            CHECK(r.evaluations < 160);
+        }
+}
+
+TEST_CASE("lbfgs: the two forms of the inverse Hessian give the same iterates to rounding")
+{
+    for (const int pairs : {1, 5, 20})
+        for (const auto scale : {scaling::newest, scaling::largest})
+            for (const int iterations : {1, 2, 5, 10, 20, 40})
+            {
+                CAPTURE(pairs);
+                CAPTURE(iterations);
+                auto f = functions::chain(50);
+                std::vector<double> x = functions::noise(50), y = x;
+                const stopping_params stopping{.gradient_tolerance = 0, .max_iterations = iterations};
+                const auto run = [&](auto& point, inverse_hessian_form form)
+                {
+                    return minimize(
+                        f, point,
+                        {.lbfgs = {.memory = {.pairs = pairs, .scaling = scale, .form = form}},
+                         .line_search = {.method =
+                                             line_search_method::strong_wolfe}, // Brent's steps are noise from 1e-8 on
+                         .stopping = stopping});
+                };
+                const auto gram = run(x, inverse_hessian_form::gram), loop = run(y, inverse_hessian_form::two_loop);
+                CHECK(gram.evaluations == loop.evaluations);
+                CHECK(functions::distance(x, y) < 1e-10);
+            }
+}
+
+TEST_CASE("lbfgs: near convergence, where decreases are lost in rounding, gradients still fall")
+{
+    // Offsets of 1e4 leave 1e-12 of the value's digits to the decrease: without slopes, gradients would stick at 1e-6.
+    for (const double offset : {0.0, 1e2, 1e4})
+        for (const auto method : {line_search_method::hybrid, line_search_method::strong_wolfe})
+        {
+            CAPTURE(offset);
+            CAPTURE(int(method));
+            auto f = functions::quadratic(40, 100, offset);
+            std::vector<double> x = functions::noise(40);
+            const auto r =
+                minimize(f, x, {.line_search = {.method = method}, .stopping = {.gradient_tolerance = 1e-10}});
+            CHECK(r.stop == stop::gradient);
+            CHECK(functions::distance(x, 1) <= 1e-7);
+            CHECK(functions::largest_rise(r) <= 1e-14);
+        }
+}
+
+TEST_CASE("lbfgs: at the limit of rounding it ends by itself, soon")
+{
+    for (const auto method : searches)
+    {
+        CAPTURE(int(method));
+        auto f = functions::chain(60);
+        std::vector<double> x = functions::noise(60);
+        const auto r = minimize(f, x, {.line_search = {.method = method}, .stopping = {.gradient_tolerance = 0}});
+        CAPTURE(r);
+        CHECK((r.stop == stop::decrease || r.stop == stop::line_search || r.stop == stop::gradient));
+        CHECK(r.gradient_norm < 1e-7);
+        CHECK(r.evaluations < 1000);
+    }
+}
+
+TEST_CASE("lbfgs: with the exact inverse Hessian as preconditioner a quadratic takes two steps")
+{
+    struct preconditioned : host_space
+    {
+        using host_space::host_space;
+        using point = std::vector<double>;
+        const host_space& space() const { return *this; }
+        point make_point() const { return make(); }
+        double value(const point& x) const
+        {
+            point g = x;
+            return value_gradient(x, g);
+        }
+        double value_gradient(const point& x, point& g) const
+        {
+            double value = 0;
+            for (std::size_t i = 0; i < x.size(); ++i)
+            {
+                g[i] = std::pow(10.0, double(i)) * (x[i] - 1);
+                value += g[i] * (x[i] - 1) / 2;
+            }
+            return value;
+        }
+        void step(const point& x, double a, const point& d, point& out) const
+        {
+            for (std::size_t i = 0; i < x.size(); ++i) out[i] = x[i] + a * d[i];
+        }
+        void precondition(const point& v, point& out) const
+        {
+            for (std::size_t i = 0; i < v.size(); ++i) out[i] = 7 * v[i] / std::pow(10.0, double(i));
+        }
+    };
+    static_assert(has_precondition<preconditioned>);
+
+    for (const auto form : {inverse_hessian_form::gram, inverse_hessian_form::two_loop})
+        for (const auto which : {method::lbfgs, method::conjugate_gradient, method::gradient_descent})
+        {
+            preconditioned f(8);
+            std::vector<double> x(8, 5.0);
+            const auto r = minimize(f, x,
+                                    {.method = which,
+                                     .lbfgs = {.memory = {.form = form}},
+                                     .conjugate_gradient = {.memory = {.form = form}},
+                                     .stopping = {.gradient_tolerance = 1e-9}});
+            CHECK(r.stop == stop::gradient);
+            CHECK(r.iterations <= 3);
+            CHECK(functions::distance(x, 1) <= 1e-6);
+        }
+}
+
+TEST_CASE("lbfgs: saddles and concave starts do not mislead it")
+{
+    // x^4/4 - x^2/2 + y^2/2: concave in x near 0, minima at (+-1, 0).
+    host_objective f(2,
+                     [](std::span<const double> x, std::span<double> g)
+                     {
+                         g[0] = x[0] * x[0] * x[0] - x[0];
+                         g[1] = x[1];
+                         return std::pow(x[0], 4) / 4 - x[0] * x[0] / 2 + x[1] * x[1] / 2;
+                     });
+    for (const auto method : searches)
+    {
+        std::vector<double> x{1e-6, 1e-5};
+        const auto r = minimize(
+            f, x, {.line_search = {.method = method}, .stopping = {.gradient_tolerance = 1e-4}, .first_length = 1e-6});
+        CHECK(converged(r.stop));
+        CHECK(x[0] == doctest::Approx(1).epsilon(1e-6));
+        if (method == line_search_method::backtracking) CHECK(r.skipped_pairs > 0); // short steps in the concave part
+    }
+}

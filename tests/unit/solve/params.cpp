@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "functions.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+
+using namespace taut::solve;
+
+TEST_CASE("params: the defaults are valid")
+{
+    CHECK_NOTHROW(params{}.validate());
+    CHECK_NOTHROW(descent_params{}.validate());
+}
+
+TEST_CASE("params: a bad field is named, also by minimize")
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<std::pair<std::string, std::function<void(params&)>>> cases{
+        {"stopping.gradient_tolerance", [](params& p) { p.stopping.gradient_tolerance = -1; }},
+        {"stopping.decrease_tolerance", [&](params& p) { p.stopping.decrease_tolerance = nan; }},
+        {"stopping.step_tolerance", [](params& p) { p.stopping.step_tolerance = 1; }},
+        {"stopping.decrease_count", [](params& p) { p.stopping.decrease_count = 0; }},
+        {"stopping.barrier_count", [](params& p) { p.stopping.barrier_count = 0; }},
+        {"stopping.max_iterations", [](params& p) { p.stopping.max_iterations = -1; }},
+        {"stopping.time_limit", [](params& p) { p.stopping.time_limit = std::chrono::seconds(0); }},
+        {"wolfe.sufficient_decrease", [](params& p) { p.line_search.wolfe.sufficient_decrease = 0.5; }},
+        {"wolfe.curvature", [](params& p) { p.line_search.wolfe.curvature = 1e-5; }},
+        {"exact.tolerance", [](params& p) { p.line_search.exact.tolerance = 0; }},
+        {"exact.evaluations", [](params& p) { p.line_search.exact.evaluations = -1; }},
+        {"exact.first_tolerance", [](params& p) { p.line_search.exact.first_tolerance = 1; }},
+        {"exact.first_evaluations", [](params& p) { p.line_search.exact.first_evaluations = -1; }},
+        {"exact.growth", [](params& p) { p.line_search.exact.growth = 1; }},
+        {"exact.bracket_passes", [](params& p) { p.line_search.exact.bracket_passes = 0; }},
+        {"line_search.barrier_fraction", [](params& p) { p.line_search.barrier_fraction = 1; }},
+        {"line_search.batch", [](params& p) { p.line_search.batch = 17; }},
+        {"line_search.max_evaluations", [](params& p) { p.line_search.max_evaluations = 0; }},
+        {"line_search.shrink", [](params& p) { p.line_search.shrink = 1; }},
+        {"line_search.rounding", [](params& p) { p.line_search.rounding = -1e-16; }},
+        {"memory.pairs", [](params& p) { p.lbfgs.memory.pairs = 65; }},
+        {"memory.cautious", [](params& p) { p.conjugate_gradient.memory.cautious = 1; }},
+        {"conjugate_gradient.restart_interval", [](params& p) { p.conjugate_gradient.restart_interval = -1; }},
+        {"first_length", [](params& p) { p.first_length = 0; }},
+    };
+    auto f = functions::quadratic(2, 2);
+    for (const auto& [field, spoil] : cases)
+    {
+        CAPTURE(field);
+        params p;
+        spoil(p);
+        std::vector<double> x(2);
+        try
+        {
+            minimize(f, x, p);
+            FAIL_CHECK("accepted");
+        }
+        catch (const taut::parameter_error& e)
+        {
+            CHECK(e.field() == field);
+        }
+    }
+}
