@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <taut/core/types.hpp>
+#include <taut/io/io_error.hpp>
+
+namespace taut::io::detail
+{
+
+/// Reads words and numbers from a text that stays alive. Lines end with LF, CR LF or CR; a backslash before the end of
+/// a line joins it to the next one, as OBJ wants. Independent of the locale.
+class scanner
+{
+public:
+    scanner(std::string_view text, std::string path)
+        : begin_(text.data()), at_(begin_), end_(begin_ + text.size()), path_(std::move(path))
+    {
+        if (text.starts_with("\xef\xbb\xbf")) at_ += 3; // byte order mark of UTF-8
+    }
+
+    bool done() const { return at_ == end_; }
+    const char* start() const { return begin_; }
+    const char* position() const { return at_; }
+    std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
+    const std::string& path() const { return path_; }
+
+    /// Whether nothing but blanks is left on the line.
+    bool line_ends()
+    {
+        skip_blanks();
+        return done() || is_line_end(*at_);
+    }
+
+    /// Goes to the start of the next line. With `joined`, lines joined by a backslash count as one.
+    void next_line(bool joined = false)
+    {
+        for (;;)
+        {
+            while (at_ != end_ && !is_line_end(*at_)) ++at_;
+            const bool goes_on = joined && at_ != begin_ && at_ != end_ && at_[-1] == '\\';
+            skip_line_end();
+            if (!goes_on || done()) return;
+        }
+    }
+
+    /// Skips blanks, line ends and comments from # to the end of the line.
+    void skip_space_and_comments()
+    {
+        while (!line_ends() ? *at_ == '#' : !done()) next_line();
+    }
+
+    /// Skips blanks and line ends.
+    void skip_space()
+    {
+        while (line_ends() && !done()) skip_line_end();
+    }
+
+    /// The next word on the line; empty at its end.
+    std::string_view word()
+    {
+        skip_blanks();
+        const char* first = at_;
+        while (at_ != end_ && !is_blank(*at_) && !is_line_end(*at_)) ++at_;
+        return {first, static_cast<std::size_t>(at_ - first)};
+    }
+
+    /// Whether the next character is c.
+    bool at(char c) const { return !done() && *at_ == c; }
+
+    bool at_digit() const { return !done() && *at_ >= '0' && *at_ <= '9'; }
+
+    /// Whether the word ends here.
+    bool word_ends() const { return done() || is_blank(*at_) || is_line_end(*at_); }
+
+    /// Whether the next character is c; if so it is taken.
+    bool take(char c)
+    {
+        if (done() || *at_ != c) return false;
+        ++at_;
+        return true;
+    }
+
+    /// A decimal number, "nan" or "inf" as a word of its own. Too large: infinity. Throws io_error.
+    double number()
+    {
+        skip_blanks();
+        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
+        double value = 0;
+        const auto [last, failure] = std::from_chars(first, end_, value);
+        if (failure == std::errc::invalid_argument || (last != end_ && !is_blank(*last) && !is_line_end(*last)))
+            fail_at_word("a number");
+        if (failure == std::errc::result_out_of_range) value = beyond_range({first, last});
+        at_ = last;
+        return value;
+    }
+
+    /// D numbers on the line.
+    template <int D>
+    vec<D> numbers()
+    {
+        vec<D> x;
+        for (int k = 0; k < D; ++k) x[k] = number();
+        return x;
+    }
+
+    /// A decimal integer, which may be followed by anything. Throws io_error.
+    long long integer(const char* what = "a whole number")
+    {
+        skip_blanks();
+        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
+        long long value = 0;
+        const auto [last, failure] = std::from_chars(first, end_, value);
+        if (failure != std::errc{}) fail_at_word(what);
+        at_ = last;
+        return value;
+    }
+
+    /// Fails if this is a binary file.
+    void require_text() const
+    {
+        const std::string_view head(at_, std::min<std::size_t>(remaining(), 4096));
+        if (head.find('\0') != head.npos) throw io_error(path_, "not a text file");
+    }
+
+    /// The present line. Slow (it counts), hence a function to hand on, called for errors.
+    auto here() const
+    {
+        return [this] { return line_of(at_); };
+    }
+
+    /// The line of a position in the text, counted from 1.
+    file_place line_of(const char* position) const
+    {
+        std::size_t line = 1;
+        for (const char* p = begin_; p != position; ++p)
+            if (*p == '\n' || (*p == '\r' && (p + 1 == end_ || p[1] != '\n'))) ++line;
+        return {file_place::line, line};
+    }
+
+    [[noreturn]] void fail(const std::string& what) const { throw io_error(path_, what, line_of(at_)); }
+
+    /// Fails with "expected X, found Y".
+    [[noreturn]] void fail_at_word(const std::string& expected)
+    {
+        const char* const first = at_;
+        const std::string found(word().substr(0, 40));
+        at_ = first;
+        fail("expected " + expected + (found.empty() ? ", found the end of the line" : ", found '" + found + "'"));
+    }
+
+private:
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+    static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+    void skip_line_end()
+    {
+        if (at_ != end_ && *at_ == '\r')
+            ++at_, take('\n');
+        else if (at_ != end_ && *at_ == '\n')
+            ++at_;
+    }
+
+    void skip_blanks()
+    {
+        for (;;)
+        {
+            while (at_ != end_ && is_blank(*at_)) ++at_;
+            if (end_ - at_ < 2 || *at_ != '\\' || !is_line_end(at_[1])) return;
+            ++at_;
+            skip_line_end();
+        }
+    }
+
+    /// What a number that fits no double stands for: 0 if it is tiny, else infinity.
+    static double beyond_range(std::string_view digits)
+    {
+        const auto exponent = digits.find_first_of("eE");
+        const bool tiny = exponent != digits.npos ? digits.substr(exponent + 1).starts_with('-')
+                                                  : digits.find_first_of("123456789") > digits.find('.');
+        return tiny ? 0.0 : std::numeric_limits<double>::infinity();
+    }
+
+    const char *begin_, *at_, *end_;
+    std::string path_;
+};
+
+} // namespace taut::io::detail

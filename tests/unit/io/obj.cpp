@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include <support/meshes.hpp>
+#include <taut/io/obj.hpp>
+
+namespace
+{
+
+using namespace taut;
+using io::parse_obj;
+using taut::index;
+using cell = std::array<index, 3>;
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+/// What a reader throws for the text, and the line it names.
+io::io_error io_error_of(const std::string& text)
+{
+    try
+    {
+        parse_obj(text, "x.obj");
+    }
+    catch (const io::io_error& e)
+    {
+        return e;
+    }
+    FAIL("no io_error for: " << text);
+    return io::io_error("", "");
+}
+
+mesh_error mesh_error_of(const std::string& text)
+{
+    try
+    {
+        parse_obj(text, "x.obj");
+    }
+    catch (const mesh_error& e)
+    {
+        return e;
+    }
+    FAIL("no mesh_error for: " << text);
+    return mesh_error(mesh_fault::empty, {}, "");
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("obj: vertices and triangles in the order of the file")
+{
+    const auto f = parse_obj("# a comment\no square\n" + square + "v 9 9 9\ns off\nf 3 1 2\nf 1 3 4\n");
+    CHECK(f.surface.vertex_count() == 5); // the unreferenced one too
+    CHECK(f.surface.points()[2] == vec3(1, 1, 0));
+    CHECK(f.surface.cells() == std::vector<cell>{{2, 0, 1}, {0, 2, 3}});
+    CHECK(f.texcoords.empty());
+    CHECK(f.texcoord_cells.empty());
+    CHECK(f.notes.empty());
+}
+
+TEST_CASE("obj: every way to write a corner")
+{
+    const std::string head = square + "vt 0.25 0.5\nvt 1 0\nvt 0 1\nvn 0 0 1\n";
+    for (const char* face : {"f 1 2 3\n", "f 1//1 2//1 3//1\n", "f -4 -3 -2\n", "f 1// 2// 3//\n", "f 1/ 2/ 3/\n",
+                             "f\t1  2\t 3 \r\n", "f 1 2 3", "f +1 2 3"})
+    {
+        const auto f = parse_obj(head + face);
+        CHECK(f.surface.cells() == std::vector<cell>{{0, 1, 2}});
+        CHECK(f.texcoord_cells == std::vector<cell>{{-1, -1, -1}}); // there are three, but no face names one
+    }
+    for (const char* face : {"f 1/1 2/2 3/3\n", "f 1/1/1 2/2/1 3/3/1\n", "f 1/-3 2/-2 3/-1\n", "f 1/1/ 2/2/ 3/3/\n"})
+    {
+        const auto f = parse_obj(head + face);
+        CHECK(f.surface.cells() == std::vector<cell>{{0, 1, 2}});
+        REQUIRE(f.texcoords.size() == 3);
+        CHECK(f.texcoords[0] == vec2(0.25, 0.5));
+        CHECK(f.texcoord_cells == std::vector<cell>{{0, 1, 2}});
+    }
+}
+
+TEST_CASE("obj: negative numbers count from the vertices read so far")
+{
+    const auto f = parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -2 -3 -1\n");
+    CHECK(f.surface.cells() == std::vector<cell>{{0, 1, 2}, {2, 1, 3}});
+}
+
+TEST_CASE("obj: faces may come before their vertices")
+{
+    CHECK(parse_obj("f 1 2 3\n" + square).surface.cells() == std::vector<cell>{{0, 1, 2}});
+}
+
+TEST_CASE("obj: line ends, joined lines, byte order mark, colours and homogeneous weights")
+{
+    const std::vector<cell> expected = {{0, 1, 2}};
+    CHECK(parse_obj("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n").surface.cells() == expected);
+    CHECK(parse_obj("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r").surface.cells() == expected);
+    CHECK(parse_obj("\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3").surface.cells() == expected);
+    CHECK(parse_obj("v 0 0 \\\n0\nv 1 0 0\nv 0 1 0\nf 1 \\\r\n 2 \\\n3\n").surface.cells() == expected);
+    // A comment ends with its line even so.
+    CHECK(parse_obj("# c:\\\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").surface.vertex_count() == 3);
+    const auto coloured = parse_obj("v 0 0 0 1 0.5 0\nv 1 0 0 1 1 1\nv 0 1 0 1.0\nf 1 2 3\n");
+    CHECK(coloured.surface.points()[1] == vec3(1, 0, 0));
+}
+
+TEST_CASE("obj: numbers are read to the last bit, at any magnitude")
+{
+    const auto p = parse_obj("v 0.1 -1e-3 +2.5E+2\nv 1e-400 4.9406564584124654e-324 .5\n"
+                             "v 123456789.123456789 0.30000000000000004 -0\nf 1 2 3\n")
+                       .surface.points();
+    CHECK(p[0] == vec3(0.1, -1e-3, 250.0));
+    CHECK(p[1] == vec3(0.0, 4.9406564584124654e-324, 0.5));
+    CHECK(p[2] == vec3(123456789.123456789, 0.1 + 0.2, 0.0));
+    CHECK(std::signbit(p[2].z));
+}
+
+TEST_CASE("obj: a quad is cut along its shorter inner diagonal")
+{
+    const auto f = parse_obj("v 0 0 0\nv 1 0 0\nv 3 3 0\nv 0 1 0\nf 1 2 3 4\n");
+    REQUIRE(f.surface.cell_count() == 2);
+    for (const auto& t : f.surface.cells()) // both have the diagonal 1-3
+        CHECK((std::find(t.begin(), t.end(), 1) != t.end() && std::find(t.begin(), t.end(), 3) != t.end()));
+    REQUIRE(f.notes.size() == 1);
+    CHECK(contains(f.notes[0], "1 polygon was split"));
+
+    // An arrow head: the shorter diagonal 1-3 is outside.
+    const auto arrow = parse_obj("v 0 0 0\nv 5 -1 0\nv 4 0 0\nv 5 1 0\nf 1 2 3 4\n");
+    for (const auto& t : arrow.surface.cells())
+        CHECK((std::find(t.begin(), t.end(), 0) != t.end() && std::find(t.begin(), t.end(), 2) != t.end()));
+}
+
+TEST_CASE("obj: polygons of any shape and plane are covered once, facing as they did")
+{
+    // A comb with reflex corners and corners on straight lines, in several planes and both orientations.
+    const std::vector<vec2> comb = {{0, 0}, {2.9, 0}, {3, 0.5}, {3.1, 0}, {6, 0}, {6, 4}, {5, 4}, {5, 1},
+                                    {4, 1}, {4, 4},   {2, 4},   {2, 1},   {1, 1}, {1, 4}, {0, 4}, {0, 2}};
+    const double area = 24 - 2 * 3 * 1 - 0.5 * 0.2 * 0.5;
+    for (const auto& [u, v] : {std::pair{vec3(1, 0, 0), vec3(0, 1, 0)},
+                               {vec3(0, 1, 0), vec3(1, 0, 0)},
+                               {vec3(0, 0.6, 0.8), vec3(-1, 0, 0)},
+                               {vec3(0.6, 0, -0.8), vec3(0, 1, 0)}})
+    {
+        std::string text, face = "f";
+        for (std::size_t i = 0; i < comb.size(); ++i)
+        {
+            const vec3 p = comb[i].x * u + comb[i].y * v;
+            text += "v " + std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) + '\n';
+            face += ' ' + std::to_string(i + 1);
+        }
+        const auto m = parse_obj(text + face + '\n').surface;
+        REQUIRE(m.cell_count() == 14);
+        const vec3 normal = glm::cross(u, v);
+        double sum = 0;
+        for (index c = 0; c < m.cell_count(); ++c)
+        {
+            const auto x = m.rest(c);
+            const double a = 0.5 * glm::dot(glm::cross(x[1] - x[0], x[2] - x[0]), normal);
+            CHECK(a > 1e-9);
+            sum += a;
+        }
+        CHECK(sum == doctest::Approx(area));
+    }
+}
+
+TEST_CASE("obj: a very large polygon becomes a fan, with a note")
+{
+    std::string text, face = "f";
+    for (int i = 0; i < 1000; ++i)
+    {
+        text += "v " + std::to_string(std::cos(i * 0.006)) + ' ' + std::to_string(std::sin(i * 0.006)) + " 0\n";
+        face += ' ' + std::to_string(i + 1);
+    }
+    const auto f = parse_obj(text + face);
+    CHECK(f.surface.cell_count() == 998);
+    REQUIRE(f.notes.size() == 1);
+    CHECK(contains(f.notes[0], "1 with more than 256 corners as fans"));
+}
+
+TEST_CASE("obj: texture coordinates of polygons follow their corners")
+{
+    const auto f = parse_obj(square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/4 2/3 3/2 4/1\n");
+    REQUIRE(f.texcoord_cells.size() == 2);
+    for (std::size_t c = 0; c < 2; ++c)
+        for (std::size_t k = 0; k < 3; ++k) CHECK(f.texcoord_cells[c][k] == 3 - f.surface.cells()[c][k]);
+}
+
+TEST_CASE("obj: texture coordinates by vertex, or the vertex on a seam is named")
+{
+    const std::string head = square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 1 1\nvt 7 7\n";
+    const auto good = parse_obj(head + "f 1/1 2/2 3/3\nf 1/1 3/5 4/4\n").vertex_texcoords(); // 3 and 5 are equal
+    CHECK(good == std::vector<vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+
+    const auto vertex_of = [](const io::surface_file& f)
+    {
+        try
+        {
+            f.vertex_texcoords();
+        }
+        catch (const io::texcoord_error& e)
+        {
+            return e.vertex();
+        }
+        return index(-1);
+    };
+    CHECK(vertex_of(parse_obj(head + "f 1/1 2/2 3/3\nf 1/1 3/6 4/4\n")) == 2);
+    CHECK(vertex_of(parse_obj(head + "f 1/1 2/2 3/3\nf 1/1 3/3 4\n")) == 3);
+    CHECK(vertex_of(parse_obj(square + "f 1 2 3\n")) == 0);
+}
+
+TEST_CASE("obj: malformed lines are named")
+{
+    const auto line = [](const std::string& text)
+    {
+        const auto e = io_error_of(text);
+        CHECK(e.path() == "x.obj");
+        REQUIRE(e.place());
+        CHECK(e.place()->counted_in == io::file_place::line);
+        return e.place()->number;
+    };
+    CHECK(line("v 0 0\n") == 1);
+    CHECK(line("v 0 0 0\nv 1 zero 0\n") == 2);
+    CHECK(line("v 0 0 0\r\n\r\nv 1 0 0x\r\n") == 3);
+    CHECK(line("v 1 2 1.#QNAN\n") == 1);
+    CHECK(line(square + "f 1 2\n") == 5);
+    CHECK(line(square + "f\n") == 5);
+    CHECK(line(square + "f 0 1 2\n") == 5);
+    CHECK(line(square + "f 1 2 -5\n") == 5);
+    CHECK(line(square + "f 1 2 3a\n") == 5);
+    CHECK(line(square + "f 1 2 3.5\n") == 5);
+    CHECK(line(square + "f 1/x 2 3\n") == 5);
+    CHECK(line(square + "f 1/1/1/1 2 3\n") == 5);
+    CHECK(line(square + "f 1 2 99999999999\n") == 5);
+    CHECK(line(square + "f 1 2 99999999999999999999999\n") == 5);
+    CHECK(line(square + "vt nan 0\n") == 5);
+    CHECK(contains(io_error_of("v 0 0 0\nv 1 zero 0\n").what(), "x.obj, line 2: expected a number, found 'zero'"));
+    CHECK(contains(io_error_of("v 0 0\n").what(), "found the end of the line"));
+    CHECK_FALSE(io_error_of(std::string("v 0 0 0\n\0\x01", 10)).place().has_value());
+}
+
+TEST_CASE("obj: a coordinate that is no finite number names vertex and line")
+{
+    for (const char* bad : {"nan", "inf", "-inf", "NaN", "1e999", "-nan"})
+    {
+        const auto e = mesh_error_of("v 0 0 0\n# gap\nv 1 " + std::string(bad) + " 0\n");
+        CHECK(e.fault() == mesh_fault::non_finite);
+        CHECK(e.ids() == std::vector<index>{1});
+        CHECK(contains(e.what(), "x.obj, line 3: vertex 1"));
+    }
+}
+
+TEST_CASE("obj: a face that names a missing vertex is found with its line")
+{
+    const auto e = mesh_error_of(square + "f 1 2 3\nf 1 2 7\nf 1 3 4\n");
+    CHECK(e.fault() == mesh_fault::index_out_of_range);
+    CHECK(e.ids() == std::vector<index>{1, 6});
+    CHECK(contains(e.what(), "x.obj, line 6"));
+    CHECK(mesh_error_of(square + "f 1/1 2/2 3/3\n").fault() == mesh_fault::index_out_of_range);
+}
+
+TEST_CASE("obj: nothing to read is an empty mesh; other faults of meshes name the file")
+{
+    CHECK(mesh_error_of("").fault() == mesh_fault::empty);
+    CHECK(mesh_error_of("# nothing\n").fault() == mesh_fault::empty);
+    CHECK(mesh_error_of(square).fault() == mesh_fault::empty);
+    const auto e = mesh_error_of(square + "f 1 1 2\n");
+    CHECK(e.fault() == mesh_fault::repeated_vertex);
+    CHECK(e.ids() == std::vector<index>{0});
+    CHECK(contains(e.what(), "x.obj"));
+}
