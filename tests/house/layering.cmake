@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+cmake_minimum_required(VERSION 3.22)
 # cmake -DROOT=<repository> -P layering.cmake: holds every #include of include/taut against the layers of
 # docs/architecture.md, keeps Boost and OpenCL headers inside compute/, and looks for cycles and long headers.
 set(allowed_core core)

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// [unwrap]
+#include <iostream>
+#include <taut/taut.hpp>
+
+int main(int argc, char** argv)
+{
+    auto mesh = taut::io::read_surface(argc > 1 ? argv[1] : "surface.obj");
+    taut::queue queue; // $TAUT_DEVICE, else the best device
+
+    auto [uv, report] = taut::parameterize(queue, mesh); // certified: no triangle is flipped
+    std::cout << queue.device() << '\n' << report << '\n';
+    taut::io::write_obj("flat.obj", mesh, uv);
+}
+// [unwrap]

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <taut/compute/queue.hpp>
+#include <taut/map/start_map.hpp>
+#include <taut/solve/report.hpp>
+
+namespace taut
+{
+
+/// What became of a map. Only `valid` comes with a map whose every element keeps its orientation, in exact arithmetic.
+enum class outcome
+{
+    valid,         ///< the map is certified; map_report::solve says why the optimisation ended
+    no_valid_start ///< no injective start was found; map_report::reason and ids say where
+};
+
+/// Wall-clock seconds of the phases of one run.
+struct map_seconds
+{
+    double device = 0; ///< kernel builds and their first launches
+    double setup = 0;  ///< validation, ordering, ideal elements, transfers
+    double start = 0;  ///< start map
+    double solve = 0;  ///< minimisation
+};
+
+/// What one run did and what its map is like.
+struct map_report
+{
+    taut::outcome outcome = outcome::no_valid_start;
+    std::string reason;             ///< why there is no valid map; empty if there is one
+    std::vector<index> ids;         ///< flipped elements of a start that could not be used, the first few
+    std::vector<std::string> notes; ///< what the library decided on its own
+    start_map start;                ///< the map that was optimised
+    certificate flips;              ///< of the map that is returned, exact
+    solve::report solve;            ///< energies are means over the elements, with the chosen weights
+    map_seconds seconds;
+    queue_counters counters; ///< launches, host waits and bytes of this run
+};
+
+inline std::ostream& operator<<(std::ostream& out, const map_report& r)
+{
+    if (r.outcome != outcome::valid) return out << "no valid map: " << r.reason;
+    return out << r.solve << ", " << r.flips.flipped << " of " << r.flips.elements << " flipped";
+}
+
+/// A map and its report; `auto [uv, report] = parameterize(...)`.
+struct map_result
+{
+    std::vector<vec2> uv; ///< one a vertex, in the user's order and the units of the surface
+    map_report report;
+
+    /// True if the map is certified: no triangle is flipped.
+    explicit operator bool() const { return report.outcome == outcome::valid; }
+    const std::string& reason() const { return report.reason; }
+};
+
+} // namespace taut

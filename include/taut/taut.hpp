@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Everything, in the order of the layers.
+#include <taut/version.hpp>
+
+#include <taut/core/error.hpp>
+#include <taut/core/types.hpp>
+
+#include <taut/symbolic/differentiate.hpp>
+#include <taut/symbolic/recording.hpp>
+
+#include <taut/compute/queue.hpp>
+#include <taut/compute/record.hpp>
+#include <taut/compute/vector_space.hpp>
+
+#include <taut/mesh/mesh.hpp>
+#include <taut/mesh/validate.hpp>
+
+#include <taut/energy/algebra.hpp>
+#include <taut/energy/isometric.hpp>
+
+#include <taut/solve/minimize.hpp>
+
+#include <taut/io/read_surface.hpp>
+#include <taut/io/write_obj.hpp>
+
+#include <taut/map/check_gradient.hpp>
+#include <taut/map/parameterize.hpp>
+#include <taut/map/quality.hpp>

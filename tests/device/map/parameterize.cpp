@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include <support/meshes.hpp>
+#include <support/size.hpp>
+
+#include <taut/energy/algebra.hpp>
+#include <taut/map/parameterize.hpp>
+#include <taut/map/quality.hpp>
+
+namespace
+{
+
+using namespace taut;
+using namespace std::chrono_literals;
+
+mesh<triangle> moved(const mesh<triangle>& m, double scale, vec3 by)
+{
+    auto points = m.points();
+    for (auto& p : points) p = p * scale + by;
+    return {points, m.cells()};
+}
+
+mesh<triangle> dome()
+{
+    return test::bumpy(test::sized(16, 3), 0.3, 2);
+}
+
+void check_falling(const solve::report& r)
+{
+    for (std::size_t k = 1; k < r.history.size(); ++k)
+        CHECK(r.history[k].value <= r.history[k - 1].value * (1 + 1e-10));
+}
+
+} // namespace
+
+TEST_CASE("parameterize: every energy, weighting, boundary and precision gives a certified map")
+{
+    queue q;
+    const auto m = dome();
+    for (const auto& energy :
+         {any_energy(energy::isometric{}), any_energy(energy::shape{}), any_energy(energy::area{})})
+        for (const auto weights : {energy::weighting::uniform, energy::weighting::measure})
+            for (const auto boundary : {boundary_mode::free, boundary_mode::fixed})
+                for (const auto how : {precision::full, precision::mixed, precision::single})
+                {
+                    const auto r = parameterize(q, m,
+                                                {.energy = energy,
+                                                 .weights = weights,
+                                                 .boundary = boundary,
+                                                 .precision = how,
+                                                 .solve = {.stopping = {.max_iterations = 15}}});
+                    REQUIRE(r);
+                    CHECK(r.report.flips.flipped == 0);
+                    CHECK(r.report.solve.value < r.report.solve.value_start);
+                    check_falling(r.report.solve);
+                    CHECK(r.uv.size() == m.points().size());
+                    CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
+                }
+}
+
+TEST_CASE("parameterize: a developable surface is flattened without distortion")
+{
+    queue q;
+    // Part of a cylinder: isometric to a rectangle.
+    const auto flat = test::grid(test::sized(12, 4), test::sized(12, 4));
+    auto points = flat.points();
+    for (auto& p : points) p = {std::sin(p.x), p.y, std::cos(p.x)};
+    const mesh<triangle> bent(points, flat.cells());
+    const auto r = parameterize(q, bent, {.solve = {.stopping = {.gradient_tolerance = 1e-7}}});
+    REQUIRE(r);
+    CHECK(r.report.solve.stop == solve::stop::gradient);
+    CHECK(r.report.solve.value == doctest::Approx(4.0).epsilon(1e-3)); // its triangles are chords, almost isometric
+    CHECK(measure_quality(bent, r.uv).stretch_l2.max < 1.05);
+}
+
+TEST_CASE("parameterize: size and place of the model do not matter")
+{
+    queue q;
+    const auto m = dome();
+    const parameterize_params params{.solve = {.stopping = {.max_iterations = 20}}};
+    const auto reference = parameterize(q, m, params);
+    for (const double scale : {1e-9, 0.37, 1e9})
+    {
+        const auto r = parameterize(q, moved(m, scale, vec3(0)), params);
+        REQUIRE(r);
+        CHECK(r.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-3));
+        const double size = glm::length(r.uv.front() - r.uv.back());
+        CHECK(size == doctest::Approx(scale * glm::length(reference.uv.front() - reference.uv.back())).epsilon(1e-2));
+    }
+    const auto far = parameterize(q, moved(m, 1, vec3(1e5, -1e5, 1e5)), params);
+    REQUIRE(far);
+    CHECK(far.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-3));
+}
+
+TEST_CASE("parameterize: a fixed boundary stays where the start has it, bit for bit")
+{
+    queue q;
+    const auto m = dome();
+    for (const auto shape : {boundary_shape::circle, boundary_shape::square})
+        for (const auto how : {precision::full, precision::single})
+        {
+            const auto r = parameterize(q, m,
+                                        {.boundary = boundary_mode::fixed,
+                                         .start = {.boundary = {.shape = shape}},
+                                         .precision = how,
+                                         .solve = {.stopping = {.max_iterations = 10}}});
+            REQUIRE(r);
+            const auto loops = boundary_loops(m);
+            for (const auto v : loops.front())
+                CHECK(r.uv[static_cast<std::size_t>(v)] == r.report.start.uv[static_cast<std::size_t>(v)]);
+        }
+}
+
+TEST_CASE("parameterize: a scale-invariant energy returns the area of the surface")
+{
+    queue q;
+    const auto m = dome();
+    const auto r = parameterize(q, m, {.energy = energy::shape{}, .solve = {.stopping = {.max_iterations = 50}}});
+    REQUIRE(r);
+    double rest = 0, mapped = 0;
+    for (taut::index c = 0; c < m.cell_count(); ++c)
+    {
+        rest += glm::length(glm::cross(m.rest(c)[1] - m.rest(c)[0], m.rest(c)[2] - m.rest(c)[0])) / 2;
+        const auto& t = m.cells()[static_cast<std::size_t>(c)];
+        const auto at = [&](std::size_t k) { return r.uv[static_cast<std::size_t>(t[k])]; };
+        mapped += triangle::determinant({at(0), at(1), at(2)}) / 2;
+    }
+    CHECK(mapped == doctest::Approx(rest).epsilon(1e-12));
+}
+
+TEST_CASE("parameterize: a start of one's own is taken, turned over if it is mirrored, refused if it is folded")
+{
+    queue q;
+    const auto m = dome();
+    auto start = barycentric_map(m).uv;
+    const parameterize_params few{.initial = start, .solve = {.stopping = {.max_iterations = 3}}};
+    CHECK(parameterize(q, m, few));
+
+    auto mirrored = few;
+    for (auto& p : mirrored.initial) p.y = -p.y;
+    const auto turned = parameterize(q, m, mirrored);
+    CHECK(turned);
+    CHECK(turned.report.notes.size() == 1);
+
+    auto folded = few;
+    const auto& t = m.cells()[7];
+    std::swap(folded.initial[static_cast<std::size_t>(t[0])], folded.initial[static_cast<std::size_t>(t[1])]);
+    const auto refused = parameterize(q, m, folded);
+    CHECK_FALSE(refused);
+    CHECK(refused.report.outcome == outcome::no_valid_start);
+    CHECK(refused.reason().find("flipped") != std::string::npos);
+    CHECK_FALSE(refused.report.ids.empty());
+
+    auto wrong_size = few;
+    wrong_size.initial.pop_back();
+    CHECK_THROWS_AS(parameterize(q, m, wrong_size), parameter_error);
+}
+
+TEST_CASE("parameterize: stopping for any reason leaves a valid map")
+{
+    queue q;
+    const auto m = test::bumpy(test::sized(40, 3), 0.5, 3);
+    const auto endless = solve::params{.stopping = {.gradient_tolerance = 1e-15, .max_iterations = 100000}};
+
+    int asked = 0;
+    const auto cancelled =
+        parameterize(q, m, {.solve = endless, .observer = [&](const solve::progress&) { return ++asked < 20; }});
+    CHECK(cancelled);
+    CHECK(cancelled.report.solve.stop == solve::stop::user);
+    CHECK(certify<2>(m.cells(), cancelled.uv).flipped == 0);
+
+    const auto late = parameterize(q, m, {.solve = endless, .time_limit = 1ms});
+    CHECK(late);
+    CHECK(late.report.solve.stop == solve::stop::time);
+
+    const auto none = parameterize(q, m, {.solve = {.stopping = {.max_iterations = 0}}});
+    CHECK(none);
+    CHECK(none.report.solve.iterations == 0);
+}
+
+TEST_CASE("parameterize: unsuitable surfaces are refused with their fault")
+{
+    queue q;
+    const auto fault_of = [&](const mesh<triangle>& m)
+    {
+        try
+        {
+            parameterize(q, m);
+        }
+        catch (const mesh_error& e)
+        {
+            return e.fault();
+        }
+        return mesh_fault::empty;
+    };
+    CHECK(fault_of(test::octahedron()) == mesh_fault::closed_surface);
+    CHECK(fault_of(test::annulus(12)) == mesh_fault::several_boundaries);
+    CHECK(fault_of(test::two_components()) == mesh_fault::several_components);
+    CHECK(parameterize(q, test::annulus(12), {.holes = true, .solve = {.stopping = {.max_iterations = 5}}}));
+}
+
+TEST_CASE("parameterize: the smallest meshes")
+{
+    queue q;
+    for (const auto& m : {test::single_triangle(), test::fan(3), test::fan(5, true)})
+        for (const auto boundary : {boundary_mode::free, boundary_mode::fixed})
+            CHECK(parameterize(q, m, {.boundary = boundary, .solve = {.stopping = {.max_iterations = 20}}}));
+}
+
+TEST_CASE("parameterize: slivers and long tubes")
+{
+    queue q;
+    const auto tube = test::tube(test::sized(12, 4), test::sized(8, 1));
+    CHECK(parameterize(q, tube, {.solve = {.stopping = {.max_iterations = 30}}}));
+
+    auto points = test::grid(6, 6).points();
+    for (auto& p : points) p.y *= 1e-6;
+    CHECK(parameterize(q, mesh<triangle>(points, test::grid(6, 6).cells()),
+                       {.solve = {.stopping = {.max_iterations = 30}}}));
+}
+
+TEST_CASE("parameterize: random disks keep every triangle upright, whatever the iteration limit")
+{
+    queue q;
+    for (unsigned seed = 0; seed < 12; ++seed)
+    {
+        const auto m = test::bumpy(3 + static_cast<int>(seed) % test::sized(6, 2), 0.6, seed);
+        const auto r = parameterize(q, m, {.solve = {.stopping = {.max_iterations = static_cast<int>(seed * 7)}}});
+        REQUIRE(r);
+        CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
+        check_falling(r.report.solve);
+    }
+}

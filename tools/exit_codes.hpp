@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace taut::tools
+{
+
+/// What the program returns to the shell: a promise to scripts, so a number never changes its meaning.
+/// Only `valid` and `time_limit` leave a map behind that is certified to have no flipped element.
+enum class exit_code : int
+{
+    valid = 0,            ///< a valid map was written
+    usage = 2,            ///< unknown option, missing or wrong argument
+    unreadable_input = 3, ///< a file does not exist or cannot be understood
+    unsuitable_input = 4, ///< a mesh or constraints that no map exists for: not a disk, contradicting pins, ...
+    no_device = 5,        ///< no OpenCL device, or none that can do the work
+    no_valid_map = 6,     ///< the solver ended without a map free of flips; nothing was written
+    time_limit = 8,       ///< time ran out; the best valid map so far was written
+    device_failure = 9,   ///< the device or its driver failed: build error, out of memory, lost device
+    interrupted = 130     ///< Ctrl-C: 128 + SIGINT, as shells report it
+};
+
+constexpr int to_int(exit_code code)
+{
+    return static_cast<int>(code);
+}
+
+/// One line for --help and error messages.
+constexpr const char* describe(exit_code code)
+{
+    switch (code)
+    {
+    case exit_code::valid:
+        return "a valid map was written";
+    case exit_code::usage:
+        return "wrong usage";
+    case exit_code::unreadable_input:
+        return "an input file cannot be read";
+    case exit_code::unsuitable_input:
+        return "the input is not suitable";
+    case exit_code::no_device:
+        return "no suitable OpenCL device";
+    case exit_code::no_valid_map:
+        return "no valid map was found";
+    case exit_code::time_limit:
+        return "time limit reached, the best valid map was written";
+    case exit_code::device_failure:
+        return "the OpenCL device failed";
+    case exit_code::interrupted:
+        return "interrupted";
+    }
+    return "unknown";
+}
+
+} // namespace taut::tools
