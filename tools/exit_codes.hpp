@@ -5,7 +5,8 @@ namespace taut::tools
 {
 
 /// What the program returns to the shell: a promise to scripts, so a number never changes its meaning.
-/// Only `valid` and `time_limit` leave a map behind that is certified to have no flipped element.
+/// `valid`, `time_limit` and `interrupted` leave a map behind that is certified to have no flipped element; others
+/// none.
 enum class exit_code : int
 {
     valid = 0,            ///< a valid map was written
@@ -16,7 +17,7 @@ enum class exit_code : int
     no_valid_map = 6,     ///< the solver ended without a map free of flips; nothing was written
     time_limit = 8,       ///< time ran out; the best valid map so far was written
     device_failure = 9,   ///< the device or its driver failed: build error, out of memory, lost device
-    interrupted = 130     ///< Ctrl-C: 128 + SIGINT, as shells report it
+    interrupted = 130     ///< Ctrl-C, 128 + SIGINT as shells report it; the best valid map so far was written
 };
 
 constexpr int to_int(exit_code code)

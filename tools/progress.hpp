@@ -95,7 +95,8 @@ public:
             const auto full = static_cast<std::size_t>(part * cells);
             line.append(1, '[').append(full, '#').append(cells - full, '.').append("] ");
         }
-        line.append(report.phase).append("  step ").append(std::to_string(report.step));
+        line += report.phase;
+        if (report.step > 0 || report.most_steps > 0) line += "  step " + std::to_string(report.step);
         if (std::isfinite(report.energy)) line += "  energy " + io::detail::format_number(report.energy);
         return line + "  " + io::detail::format_number(std::round(report.seconds * 100) / 100, 6) + " s";
     }

@@ -1,0 +1,492 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# run.sh CASE PROGRAM FOLDER CMAKE: one group of tests of the program, in an emptied FOLDER.
+set -u
+case_name=$1 taut=$2 folder=$3 cmake=$4
+here=$(cd "$(dirname "$0")" && pwd)
+
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder" || exit 1
+unset TAUT_DEVICE
+
+fail()
+{
+    echo "FAILED: $*"
+    echo "--- standard output"; cat out 2>/dev/null
+    echo "--- standard error"; cat err 2>/dev/null
+    exit 1
+}
+
+# expect CODE ARGUMENTS...: runs the program; its streams go to the files out and err.
+expect()
+{
+    wanted=$1
+    shift
+    "$taut" "$@" >out 2>err
+    code=$?
+    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: taut $*"
+}
+
+# says FILE PATTERN...: every extended regular expression is found in the file.
+says()
+{
+    file=$1
+    shift
+    for pattern in "$@"; do
+        grep -Eq -e "$pattern" "$file" || fail "$file does not say: $pattern"
+    done
+}
+
+silent() { [ ! -s "$1" ] || fail "$1 is not empty"; }
+absent() { [ ! -e "$1" ] || fail "$1 exists"; }
+
+# error_says PATTERN...: standard error is an error message with these words.
+error_says()
+{
+    says err "^taut: error: " "$@"
+}
+
+# keys FILE KEY...: FILE is JSON with these keys; their values, key=value, go to the file values.
+keys()
+{
+    json=$1
+    shift
+    list=$(IFS=';'; echo "$*")
+    "$cmake" "-DFILE=$json" "-DKEYS=$list" -P "$here/json.cmake" >values 2>>err || fail "$json is not as promised"
+}
+
+# grid N [KIND]: a wavy sheet of 2 N^2 triangles on standard output as obj, off, ply, quads (obj), or with vt that
+# are a plane projection: flat, mirrored, or folded.
+grid()
+{
+    awk -v n="$1" -v kind="${2:-obj}" '
+        function p(i, j) { x = i / n; y = j / n; return sprintf("%.17g %.17g %.17g", x, y, 0.3 * sin(7 * x) * cos(5 * y)) }
+        function vertex(i, j) { return j * (n + 1) + i + one }
+        function face(a, b, c)
+        {
+            if (kind == "off" || kind == "ply") print 3, a, b, c
+            else if (vt) print "f", a "/" a, b "/" b, c "/" c
+            else print "f", a, b, c
+        }
+        BEGIN {
+            nv = (n + 1) * (n + 1); nf = 2 * n * n
+            one = kind != "off" && kind != "ply"
+            vt = kind == "flat" || kind == "mirrored" || kind == "folded"
+            if (kind == "off") print "OFF\n" nv, nf, 0
+            if (kind == "ply")
+                print "ply\nformat ascii 1.0\nelement vertex " nv "\nproperty double x\nproperty double y\n" \
+                      "property double z\nelement face " nf "\nproperty list uchar int vertex_indices\nend_header"
+            for (j = 0; j <= n; ++j)
+                for (i = 0; i <= n; ++i) print (one ? "v " : "") p(i, j)
+            if (vt)
+                for (j = 0; j <= n; ++j)
+                    for (i = 0; i <= n; ++i)
+                        print "vt", (kind == "mirrored" ? -i : kind == "folded" && i == n ? n - 2 : i) / n, j / n
+            for (j = 0; j < n; ++j)
+                for (i = 0; i < n; ++i)
+                    if (kind == "quads") print "f", vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)
+                    else
+                    {
+                        face(vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1))
+                        face(vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1))
+                    }
+        }'
+}
+
+octahedron()
+{
+    printf 'v %s\n' '1 0 0' '-1 0 0' '0 1 0' '0 -1 0' '0 0 1' '0 0 -1'
+    printf 'f %s\n' '1 3 5' '3 2 5' '2 4 5' '4 1 5' '3 1 6' '2 3 6' '4 2 6' '1 4 6'
+}
+
+# A square ring of 8 quads around a hole, split.
+ring()
+{
+    awk 'BEGIN {
+        for (j = 0; j < 4; ++j) for (i = 0; i < 4; ++i) print "v", i, j, i * j / 9
+        for (j = 0; j < 3; ++j) for (i = 0; i < 3; ++i) if (i != 1 || j != 1)
+        {
+            a = 4 * j + i + 1
+            print "f", a, a + 1, a + 5
+            print "f", a, a + 5, a + 4
+        }
+    }'
+}
+
+# same_vertices IN OUT: the v lines have the same numbers in the same order, compared as numbers.
+same_vertices()
+{
+    awk '$1 == "v" { print $2 + 0, $3 + 0, $4 + 0 }' OFMT=%.17g CONVFMT=%.17g "$1" >vertices_in
+    awk '$1 == "v" { print $2 + 0, $3 + 0, $4 + 0 }' OFMT=%.17g CONVFMT=%.17g "$2" >vertices_out
+    cmp -s vertices_in vertices_out || fail "$2 does not keep the vertices of $1"
+}
+
+lines_of() { grep -c "^$1 " "$2"; }
+
+# valid_map FILE: `taut eval` finds no flipped triangle and no crossing.
+valid_map()
+{
+    expect 0 eval "$1" --json
+    cp out eval.json
+    keys eval.json flipped
+    says values '^flipped=0$'
+}
+
+test_usage()
+{
+    grid 4 >in.obj
+    expect 0 --help
+    says out 'unwrap' 'eval' 'devices' 'exit codes: 0 valid map; 2 usage'
+    expect 0 unwrap --help
+    says out '--energy isometric\|shape\|area' '--time-limit' '130 interrupted'
+    expect 0 --version
+    says out '^taut [0-9]+\.[0-9]+\.[0-9]+$'
+
+    expect 2
+    error_says 'subcommand' '--help'
+    expect 2 flatten in.obj
+    error_says '--help'
+    expect 2 unwrap in.obj
+    error_says '--output is required' 'taut unwrap --help'
+    expect 2 unwrap -o out.obj
+    error_says 'IN is required'
+    expect 2 unwrap in.obj -o out.obj --colour red
+    error_says '--colour'
+    expect 2 unwrap in.obj -o out.obj --energy warm
+    error_says '--energy' 'warm' 'isometric'
+    expect 2 unwrap in.obj -o out.obj --iterations many
+    error_says '--iterations'
+    for wrong in '--iterations -1' '--tolerance -1' '--tolerance 2' '--tolerance nan' '--time-limit 0' \
+                 '--time-limit -3' '--time-limit nan' '--boundary circle --start uv' '--precision half'; do
+        # shellcheck disable=SC2086
+        expect 2 unwrap in.obj -o out.obj $wrong
+        error_says "${wrong%% *}"
+        [ "$(wc -l <err)" = 1 ] || fail "more than one line for $wrong"
+    done
+    absent out.obj
+}
+
+test_outputs()
+{
+    grid 4 >in.obj
+    cp in.obj copy.obj
+    expect 2 unwrap in.obj -o missing/out.obj
+    error_says 'no folder missing'
+    expect 2 unwrap in.obj -o out.ply
+    error_says 'must end in .obj'
+    expect 2 unwrap in.obj -o .
+    error_says 'is a folder'
+    expect 2 unwrap in.obj -o out.obj --picture out.jpg
+    error_says '--picture' '.png or .svg'
+    expect 2 unwrap in.obj -o out.obj --stats missing/stats.json
+    error_says '--stats' 'no folder'
+    expect 2 unwrap in.obj -o out.obj --picture same.png --render ./same.png
+    error_says 'is also the file of --picture'
+    mkdir sealed
+    chmod a-w sealed
+    if ! touch sealed/probe 2>/dev/null; then # root writes anywhere
+        expect 2 unwrap in.obj -o sealed/out.obj
+        error_says 'cannot write into folder'
+    fi
+    # Nothing is solved before the outputs are known to be writable: the input need not even be there.
+    expect 2 unwrap nothing.obj -o missing/out.obj
+    absent out.obj
+
+    # A disk that is full when the work is done.
+    if [ -w /dev/full ]; then
+        expect 2 unwrap in.obj -o /dev/full --quiet
+        error_says 'No space left'
+    fi
+
+    # What was there stays when a run fails, and temporary files do not.
+    echo precious >out.obj
+    octahedron >closed.obj
+    expect 4 unwrap closed.obj -o out.obj
+    [ "$(cat out.obj)" = precious ] || fail "a failed run touched its output"
+    [ -z "$(ls | grep part)" ] || fail "temporary files are left"
+
+    # In place, as asked.
+    cp in.obj place.obj
+    expect 0 unwrap place.obj -o place.obj --quiet
+    silent out
+    silent err
+    same_vertices in.obj place.obj
+    valid_map place.obj
+    # The input is no place for anything else.
+    ln -s in.obj link.json
+    expect 2 unwrap in.obj -o out.obj --stats link.json
+    error_says 'overwrite the input'
+    cmp -s in.obj copy.obj || fail "the input was changed"
+}
+
+test_input()
+{
+    expect 3 unwrap nothing.obj -o out.obj
+    error_says 'nothing.obj'
+    expect 3 eval nothing.obj
+    error_says 'nothing.obj'
+    grid 4 >in.stl
+    expect 3 unwrap in.stl -o out.obj
+    error_says '.obj, .off and .ply'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n' >word.obj
+    expect 3 unwrap word.obj -o out.obj
+    error_says 'line 3'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n' >nan.obj
+    expect 3 unwrap nan.obj -o out.obj
+    error_says 'line 3'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >range.obj
+    expect 3 unwrap range.obj -o out.obj
+    error_says 'line 4|4'
+    printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n' >short.off
+    expect 3 unwrap short.off -o out.obj
+    error_says 'short.off'
+    absent out.obj
+}
+
+test_surfaces()
+{
+    octahedron >closed.obj
+    expect 4 unwrap closed.obj -o out.obj
+    error_says 'closed|boundary'
+    ring >ring.obj
+    expect 4 unwrap ring.obj -o out.obj
+    error_says 'boundary loops' '--holes'
+    expect 0 unwrap ring.obj -o ring_out.obj --holes --quiet
+    valid_map ring_out.obj
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n' >two.obj
+    expect 4 unwrap two.obj -o out.obj
+    error_says 'component'
+    printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
+    expect 4 unwrap flat.obj -o out.obj
+    error_says 'flat'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n' >clash.obj
+    expect 4 unwrap clash.obj -o out.obj
+    error_says 'orient'
+    : >empty.obj
+    expect 4 unwrap empty.obj -o out.obj
+    absent out.obj
+}
+
+test_unwrap()
+{
+    grid 12 >in.obj
+    expect 0 unwrap in.obj -o out.obj
+    says out '^mesh .*169 vertices, 288 triangles' '^device ' '^start .*0 flips' '^energy .* -> ' '^stop .*converged' \
+        '^flipped +0 of 288' 'stretch L2' 'angular' '^wrote +out.obj'
+    silent err # no terminal: no bar
+    same_vertices in.obj out.obj
+    [ "$(lines_of vt out.obj)" = 169 ] || fail "not one vt a vertex"
+    [ "$(lines_of f out.obj)" = 288 ] || fail "not one face a triangle"
+    valid_map out.obj
+
+    for kind in off ply; do
+        grid 12 $kind >in.$kind
+        expect 0 unwrap in.$kind -o from_$kind.obj --quiet
+        same_vertices in.obj from_$kind.obj
+        valid_map from_$kind.obj
+    done
+    grid 6 quads >quads.obj
+    expect 0 unwrap quads.obj -o out.obj
+    says err '^taut: note: 36 polygons were split into triangles'
+    same_vertices quads.obj out.obj
+    [ "$(lines_of f out.obj)" = 72 ] || fail "36 quads are not 72 triangles"
+    valid_map out.obj
+    expect 0 unwrap quads.obj -o out.obj --quiet
+    silent err
+
+    # Twice the same: the same map, bit for bit.
+    expect 0 unwrap in.obj -o once.obj --quiet
+    expect 0 unwrap in.obj -o twice.obj --quiet
+    cmp -s once.obj twice.obj || fail "two runs differ"
+
+    grid 8 >small.obj
+    for options in '--energy shape' '--energy area' '--weights uniform' '--boundary circle' '--boundary square' \
+                   '--start mean-value --spacing uniform' '--spacing centripetal' '--solver cg' \
+                   '--solver gd --iterations 20' '--precision float' '--precision mixed' '--iterations 0'; do
+        # shellcheck disable=SC2086
+        expect 0 unwrap small.obj -o out.obj --quiet $options
+        same_vertices small.obj out.obj
+        valid_map out.obj
+    done
+
+    # A fixed boundary stays where the start has it, bit for bit; a free one moves.
+    for boundary in square circle free; do
+        expect 0 unwrap small.obj -o start.obj --quiet --boundary $boundary --iterations 0
+        expect 0 unwrap small.obj -o out.obj --quiet --boundary $boundary
+        for map in start out; do awk '$1 == "vt" && ++n <= 9' $map.obj >first_row_$map; done
+        if cmp -s first_row_start first_row_out; then moved=no; else moved=yes; fi
+        [ "$boundary$moved" = squareno ] || [ "$boundary$moved" = circleno ] || [ "$boundary$moved" = freeyes ] ||
+            fail "boundary $boundary: moved: $moved"
+    done
+}
+
+test_reports()
+{
+    grid 10 >in.obj
+    expect 0 unwrap in.obj -o out.obj --stats stats.json --picture layout.png --render render.png --quiet
+    silent out
+    silent err
+    keys stats.json schema vertices faces device precision stop iterations evaluations gradients energy_start energy \
+        flipped min_det max_det seconds.read seconds.device seconds.setup seconds.start seconds.untangle seconds.solve \
+        seconds.write seconds.total peak_memory_bytes quality.isometric.by_area quality.isometric.mean \
+        quality.shape.by_area quality.area.by_area quality.stretch_l2.rms quality.stretch_linf.max \
+        quality.area_ratio.rms quality.angular quality.boundary_crossings
+    says values '^vertices=121$' '^faces=200$' '^precision=double$' '^stop=gradient$' '^flipped=0$' \
+        '^seconds.total=[0-9.e-]+$' '^peak_memory_bytes=[1-9][0-9]+$' '^energy=4\.[0-9]+$'
+    for picture in layout.png render.png; do
+        [ "$(od -An -tx1 -N8 "$picture" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$picture is no PNG"
+    done
+    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision float --iterations 3 --quiet
+    says layout.svg '<svg ' '</svg>'
+    keys stats.json precision stop iterations
+    says values '^precision=float$' '^stop=iterations$' '^iterations=3$'
+
+    expect 0 unwrap in.obj -o out.obj --progress json
+    "$cmake" -DFILE=err -DLINES=ON "-DKEYS=phase;iteration;energy;gradient;step;seconds" -P "$here/json.cmake" \
+        >values 2>failure || fail "--progress json: $(cat failure)"
+    says err '"phase":"read"' '"phase":"optimize","iteration":[1-9][0-9]*,"energy":4\.' '"phase":"write"'
+    expect 0 unwrap in.obj -o out.obj --progress none
+    silent err
+    says out '^stop '
+}
+
+test_eval()
+{
+    grid 6 flat >flat.obj
+    expect 0 eval flat.obj
+    says out '49 vertices, 72 triangles' '^flipped +0 of 72' '0 crossings' '^isometric +[0-9.]+ +[0-9.]+ +4$' \
+        'stretch L2' 'stretch Linf' '^area ' '^angular '
+    silent err
+    grid 6 mirrored >mirrored.obj
+    expect 0 eval mirrored.obj
+    says out '^flipped +72 of 72'
+    says err 'mirrored as a whole'
+    grid 6 folded >folded.obj
+    expect 0 eval folded.obj --json
+    cp out folded.json
+    keys folded.json schema vertices faces flipped min_det quality.isometric.by_area quality.boundary_crossings
+    says values '^flipped=12$' '^quality.boundary_crossings=[1-9]'
+    says folded.json '"by_area": null' # an energy beyond its barrier is infinite; JSON has no word for that
+
+    # The plane as its own map is an isometry.
+    printf 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 2 3 0\nvt 0 0\nvt 2 0\nvt 0 3\nvt 2 3\nf 1/1 2/2 3/3\nf 2/2 4/4 3/3\n' >same.obj
+    expect 0 eval same.obj --json
+    cp out same.json
+    keys same.json quality.isometric.by_area quality.shape.mean quality.area.mean quality.stretch_l2.rms quality.angular
+    says values '^quality.isometric.by_area=4(\.0+)?$' '^quality.shape.mean=1(\.0+)?$' '^quality.area.mean=2(\.0+)?$'
+
+    # A seam: vertices 2 and 3 have two texture coordinates each. And one vt a corner is no seam.
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 1\nvt 5 1\n' >seam.obj
+    printf 'f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n' >>seam.obj
+    expect 0 eval seam.obj
+    says out '4 vertices, 2 triangles, 2 vertices on seams' '2 loops, 0 crossings'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt 0 1\n' >corners.obj
+    printf 'f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n' >>corners.obj
+    expect 0 eval corners.obj
+    says out '4 vertices, 2 triangles$' '1 loop, 0 crossings'
+
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 2 0\nf 1/1 2/2 3/3\nf 1/1 4/4 2/2\n' >sliver.obj
+    expect 0 eval sliver.obj
+    says err 'note: 1 triangle without area'
+
+    grid 4 >bare.obj
+    expect 4 eval bare.obj
+    error_says 'no texture coordinates'
+    expect 2 eval
+}
+
+test_starts()
+{
+    grid 6 flat >flat.obj
+    expect 0 unwrap flat.obj -o out.obj --start uv --stats stats.json
+    keys stats.json energy_start energy
+    valid_map out.obj
+    grid 6 mirrored >mirrored.obj
+    expect 0 unwrap mirrored.obj -o out.obj --start uv
+    says err 'note: .*mirrored'
+    valid_map out.obj
+    rm out.obj
+
+    grid 6 folded >folded.obj
+    expect 6 unwrap folded.obj -o out.obj --start uv
+    error_says 'no valid map' '12 flipped of 72' '--start tutte'
+    absent out.obj
+    grid 6 >bare.obj
+    expect 4 unwrap bare.obj -o out.obj --start uv
+    error_says 'no texture coordinates'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 1\nvt 5 1\n' >seam.obj
+    printf 'f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n' >>seam.obj
+    expect 4 unwrap seam.obj -o out.obj --start uv
+    error_says 'seam'
+    absent out.obj
+}
+
+test_devices()
+{
+    expect 0 devices
+    says out 'OpenCL' 'TAUT_DEVICE' ' \* '
+    grid 4 >in.obj
+    expect 5 unwrap in.obj -o out.obj --device 'no such device'
+    error_says 'no such device' 'usable'
+    expect 0 unwrap in.obj -o out.obj --device 0 --quiet
+    export TAUT_DEVICE=nowhere
+    expect 5 unwrap in.obj -o out.obj
+    expect 0 unwrap in.obj -o out.obj --device 0 --quiet # the option is louder
+    unset TAUT_DEVICE
+    rm out.obj
+
+    mkdir no_drivers
+    export OCL_ICD_VENDORS="$PWD/no_drivers"
+    expect 5 unwrap in.obj -o out.obj
+    error_says 'no OpenCL device' 'install'
+    expect 5 devices
+    unset OCL_ICD_VENDORS
+
+    # PoCL cannot build a kernel if its cache is a file; other drivers do not mind.
+    if "$taut" devices | grep -q 'pthread'; then
+        export POCL_CACHE_DIR="$PWD/in.obj"
+        expect 9 unwrap in.obj -o out.obj --device pthread
+        error_says 'building kernel' 'driver' '--device'
+    fi
+    absent out.obj
+}
+
+# stopped REASON: the map is valid, and the statistics say why the run ended.
+stopped()
+{
+    keys stats.json stop flipped
+    says values "^stop=$1\$" '^flipped=0$'
+    same_vertices in.obj out.obj
+    valid_map out.obj
+}
+
+test_stops()
+{
+    grid 150 >in.obj
+    expect 8 unwrap in.obj -o out.obj --stats stats.json --time-limit 0.05
+    says out '^stop .*time limit'
+    stopped time
+    rm out.obj stats.json
+
+    # Ctrl-C in the middle of a run that would last for hours.
+    "$taut" unwrap in.obj -o out.obj --stats stats.json --tolerance 0 --iterations 1000000000 --solver gd \
+        --progress json >out 2>err &
+    program=$!
+    waited=0
+    until grep -q '"phase":"optimize","iteration":[1-9]' err; do
+        sleep 0.1
+        waited=$((waited + 1))
+        [ "$waited" -lt 3000 ] || { kill -9 "$program"; fail "no iteration in 5 minutes"; }
+        kill -0 "$program" 2>/dev/null || fail "ended before Ctrl-C"
+    done
+    kill -INT "$program"
+    wait "$program"
+    code=$?
+    [ "$code" = 130 ] || fail "exit code $code instead of 130 after Ctrl-C"
+    says out '^stop .*interrupted'
+    stopped user
+}
+
+"test_$case_name"
+echo "passed: $case_name"

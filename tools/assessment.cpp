@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "assessment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <taut/map/crossings.hpp>
+#include <taut/mesh/validate.hpp>
+
+namespace taut::tools
+{
+
+namespace
+{
+
+std::size_t at(index i)
+{
+    return static_cast<std::size_t>(i);
+}
+
+/// The triangles that have an area at rest.
+std::vector<mesh<triangle>::cell> solid_cells(const mesh<triangle>& surface)
+{
+    auto [flat, inverted] = detail::bad_rest_cells(surface);
+    std::vector<char> keep(surface.cells().size(), 1);
+    for (const index c : flat) keep[at(c)] = 0;
+    std::vector<mesh<triangle>::cell> cells;
+    for (std::size_t c = 0; c < keep.size(); ++c)
+        if (keep[c]) cells.push_back(surface.cells()[c]);
+    return cells;
+}
+
+void look_at_boundary(assessment& a, const mesh<triangle>& surface, std::span<const vec2> uv)
+{
+    const auto sides = facets(surface);
+    if (!sides.manifold() || !sides.oriented())
+    {
+        a.notes.push_back("the boundary is not defined: " + std::string(sides.manifold()
+                                                                            ? "neighbours are oriented differently"
+                                                                            : "an edge has three or more triangles"));
+        return;
+    }
+    const auto loops = boundary_loops(surface, sides);
+    a.boundaries = loops.size();
+    a.crossings = boundary_crossings(loops, uv);
+}
+
+nlohmann::ordered_json to_json(const spread& s)
+{
+    return {{"min", finite(s.min)}, {"max", finite(s.max)}, {"rms", finite(s.rms)}};
+}
+
+nlohmann::ordered_json to_json(const means& m)
+{
+    return {{"by_area", finite(m.measure)}, {"mean", finite(m.uniform)}};
+}
+
+} // namespace
+
+assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv)
+{
+    assessment a;
+    a.vertices = surface.vertex_count();
+    auto solid = solid_cells(surface);
+    a.left_out = surface.cells().size() - solid.size();
+    if (a.left_out == 0)
+        a.quality = measure_quality(surface, uv);
+    else
+    {
+        a.notes.push_back(count(a.left_out, "triangle", "triangles") +
+                          " without area on the surface: left out of everything but the count of flips");
+        const auto all = certify<2>(surface.cells(), uv);
+        if (!solid.empty()) a.quality = measure_quality(mesh<triangle>(surface.points(), std::move(solid)), uv);
+        // Which triangles are flipped does not depend on the surface; the range of det does.
+        a.quality.flips.elements = all.elements;
+        a.quality.flips.flipped = all.flipped;
+        a.quality.flips.ids = all.ids;
+    }
+    if (a.quality.flips.flipped == a.quality.flips.elements && a.quality.flips.max_det < 0)
+        a.notes.push_back("the map is mirrored as a whole: negate u to turn it over");
+    look_at_boundary(a, surface, uv);
+    return a;
+}
+
+cut_surface cut_seams(const io::surface_file& file)
+{
+    const auto& cells = file.surface.cells();
+    std::vector<vec3> points = file.surface.points();
+    std::vector<vec2> uv(points.size(), vec2(0.0));
+    // Sheets of a vertex: a list through `next`, from the vertex itself on. Corners belong together if their texture
+    // coordinates agree in value; many programs write one `vt` a corner.
+    std::vector<index> next(points.size(), -1);
+    std::vector<char> used(points.size(), 0);
+    std::vector<mesh<triangle>::cell> cut = cells;
+    std::size_t seam_vertices = 0;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const index v = cells[c][k];
+            const index t = file.texcoord_cells.empty() ? -1 : file.texcoord_cells[c][k];
+            if (t < 0)
+                throw io::texcoord_error(v,
+                                         "triangle " + std::to_string(c) + " has a corner without texture coordinate");
+            const vec2 x = file.texcoords[at(t)];
+            if (!used[at(v)])
+            {
+                used[at(v)] = 1;
+                uv[at(v)] = x;
+            }
+            index sheet = v;
+            while (uv[at(sheet)] != x && next[at(sheet)] >= 0) sheet = next[at(sheet)];
+            if (uv[at(sheet)] != x)
+            {
+                if (sheet == v) ++seam_vertices;
+                next[at(sheet)] = static_cast<index>(points.size());
+                sheet = next[at(sheet)];
+                points.push_back(vec3(points[at(v)]));
+                uv.push_back(x);
+                next.push_back(-1);
+            }
+            cut[c][k] = sheet;
+        }
+    return {mesh<triangle>(std::move(points), std::move(cut)), std::move(uv), seam_vertices};
+}
+
+nlohmann::ordered_json finite(double x)
+{
+    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json to_json(const assessment& a)
+{
+    const auto& q = a.quality;
+    nlohmann::ordered_json json;
+    json["isometric"] = to_json(q.isometric);
+    json["shape"] = to_json(q.shape);
+    json["area"] = to_json(q.area);
+    json["stretch_l2"] = to_json(q.stretch_l2);
+    json["stretch_l2_total"] = finite(q.stretch_l2_total);
+    json["stretch_linf"] = to_json(q.stretch_linf);
+    json["area_ratio"] = to_json(q.area_ratio);
+    json["angular"] = finite(q.angular);
+    json["scale"] = finite(q.scale);
+    json["boundaries"] = a.boundaries;
+    json["boundary_crossings"] = a.crossings ? nlohmann::ordered_json(*a.crossings) : nlohmann::ordered_json(nullptr);
+    json["left_out"] = a.left_out;
+    return json;
+}
+
+void describe_validity(labelled_lines& lines, const assessment& a)
+{
+    const auto& flips = a.quality.flips;
+    std::string first;
+    for (std::size_t k = 0; k < std::min<std::size_t>(flips.ids.size(), 5); ++k)
+        first += (k == 0 ? ": " : ", ") + std::to_string(flips.ids[k]);
+    if (!first.empty() && flips.flipped > 5) first += ", ...";
+    lines.add("flipped", count(flips.flipped) + " of " + count(flips.elements) + first + "; det " +
+                             number(flips.min_det) + " .. " + number(flips.max_det));
+    lines.add("boundary", count(a.boundaries, "loop", "loops") + ", " +
+                              (a.crossings ? count(*a.crossings, "crossing", "crossings") : "crossings unknown") +
+                              (a.crossings.value_or(0) > 0 ? ": the flat parts overlap" : ""));
+}
+
+void print(std::ostream& out, const assessment& a)
+{
+    const auto& q = a.quality;
+    text_table energies;
+    energies.add({"energy", "by area", "mean", "isometry"});
+    const auto energy = [&](const char* name, const means& m, const char* least) {
+        energies.add({name, number(m.measure), number(m.uniform), least});
+    };
+    energy("isometric", q.isometric, "4");
+    energy("shape", q.shape, "1");
+    energy("area", q.area, "2");
+
+    text_table spreads;
+    spreads.add({"ratio", "min", "max", "rms - 1"});
+    const auto row = [&](const char* name, const spread& s) {
+        spreads.add({name, number(s.min), number(s.max), number(s.rms)});
+    };
+    row("stretch L2", q.stretch_l2);
+    row("stretch Linf", q.stretch_linf);
+    row("area", q.area_ratio);
+    spreads.add({"angular", "", "", number(q.angular)});
+    out << '\n' << energies << '\n' << spreads;
+}
+
+} // namespace taut::tools

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <taut/io/surface_file.hpp>
+#include <taut/map/quality.hpp>
+
+#include "text_table.hpp"
+
+namespace taut::tools
+{
+
+/// A map of a surface and everything the programs say about it.
+struct assessment
+{
+    index vertices = 0; ///< of the surface
+    taut::quality quality;
+    std::size_t left_out = 0;             ///< triangles without area at rest: counted in flips only
+    std::size_t boundaries = 0;           ///< boundary loops of the map, seams included
+    std::optional<std::size_t> crossings; ///< pairs of boundary edges that meet; unknown where an edge has 3 triangles
+    std::vector<std::string> notes;       ///< what could not be measured, and why
+};
+
+/// Measures a map with one position a vertex.
+assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv);
+
+/// A surface cut open along the seams of its texture coordinates, so that each vertex has one.
+struct cut_surface
+{
+    mesh<triangle> surface;
+    std::vector<vec2> uv;
+    std::size_t seam_vertices = 0; ///< vertices of the file that lie on a seam
+};
+
+/// Throws io::texcoord_error if a corner has no texture coordinate.
+cut_surface cut_seams(const io::surface_file& file);
+
+/// The quality columns. What is not a finite number becomes null.
+nlohmann::ordered_json to_json(const assessment& a);
+
+/// A finite number, else null: JSON knows no others.
+nlohmann::ordered_json finite(double x);
+
+/// Adds the lines "flipped" and "boundary".
+void describe_validity(labelled_lines& lines, const assessment& a);
+
+/// The rest for people, in two small tables.
+void print(std::ostream& out, const assessment& a);
+
+} // namespace taut::tools

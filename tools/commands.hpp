@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+#include "exit_codes.hpp"
+
+namespace taut::tools
+{
+
+/// What a subcommand does once its options are parsed. Failures are exceptions; main() knows their exit codes.
+using command = std::function<exit_code()>;
+
+/// Each adds one subcommand with its options and returns what it does. `launch` is when the program started.
+command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point launch);
+command add_eval(CLI::App& program);
+command add_devices(CLI::App& program);
+
+} // namespace taut::tools

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <taut/io/read_surface.hpp>
+
+#include "assessment.hpp"
+#include "commands.hpp"
+#include "failure.hpp"
+#include "text_table.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct eval_options
+{
+    std::string input;
+    bool json = false;
+};
+
+exit_code evaluate(const eval_options& options)
+{
+    const auto file = io::read_surface_file(options.input);
+    if (file.texcoords.empty())
+        throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
+    const auto cut = cut_seams(file);
+    auto a = assess(cut.surface, cut.uv);
+    a.vertices = file.surface.vertex_count();
+    a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());
+    const auto& flips = a.quality.flips;
+
+    if (options.json)
+    {
+        nlohmann::ordered_json json;
+        json["schema"] = "taut.eval/1";
+        json["input"] = options.input;
+        json["vertices"] = a.vertices;
+        json["faces"] = flips.elements;
+        json["seam_vertices"] = cut.seam_vertices;
+        json["flipped"] = flips.flipped;
+        json["flipped_ids"] = flips.ids;
+        json["min_det"] = finite(flips.min_det);
+        json["max_det"] = finite(flips.max_det);
+        json["quality"] = to_json(a);
+        json["notes"] = a.notes;
+        std::cout << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+        return exit_code::valid;
+    }
+    for (const auto& note : a.notes) std::cerr << "taut: note: " << note << '\n';
+    labelled_lines lines;
+    lines.add("mesh",
+              options.input + ": " + count(static_cast<std::size_t>(a.vertices), "vertex", "vertices") + ", " +
+                  count(flips.elements, "triangle", "triangles") +
+                  (cut.seam_vertices > 0 ? ", " + count(cut.seam_vertices, "vertex", "vertices") + " on seams" : ""));
+    describe_validity(lines, a);
+    std::cout << lines;
+    print(std::cout, a);
+    return exit_code::valid;
+}
+
+} // namespace
+
+command add_eval(CLI::App& program)
+{
+    const auto options = std::make_shared<eval_options>();
+    auto& app = *program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
+    app.add_option("IN", options->input, "OBJ file with texture coordinates; seams are cut open")
+        ->required()
+        ->type_name("FILE");
+    app.add_flag("--json", options->json, "Print JSON");
+    return [options] { return evaluate(*options); };
+}
+
+} // namespace taut::tools

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <taut/compute/errors.hpp>
+#include <taut/io/io_error.hpp>
+#include <taut/io/surface_file.hpp>
+#include <taut/mesh/mesh_error.hpp>
+#include <taut/version.hpp>
+
+#include "commands.hpp"
+#include "failure.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+int fail(exit_code code, const std::string& what, const std::string& remedy = {})
+{
+    // Errors of devices have several lines: what was seen, or a compiler's log.
+    const bool one_line = what.find('\n') == std::string::npos;
+    std::cerr << "taut: error: " << what << (remedy.empty() ? "" : (one_line ? "; " : "\n") + remedy) << '\n';
+    return to_int(code);
+}
+
+/// Runs a subcommand; every exception becomes one line and an exit code, see docs/errors.md.
+int guarded(const command& run)
+{
+    try
+    {
+        return to_int(run());
+    }
+    catch (const usage_error& e)
+    {
+        return fail(exit_code::usage, e.what());
+    }
+    catch (const output_error& e)
+    {
+        return fail(exit_code::usage, e.what());
+    }
+    catch (const no_valid_map& e)
+    {
+        return fail(exit_code::no_valid_map, "no valid map", e.what());
+    }
+    catch (const parameter_error& e)
+    {
+        return fail(exit_code::usage, e.what());
+    }
+    catch (const no_device& e)
+    {
+        return fail(exit_code::no_device, e.what());
+    }
+    catch (const device_error& e)
+    {
+        return fail(exit_code::device_failure, e.what(), "`taut devices` lists others, --device chooses one");
+    }
+    catch (const io::io_error& e)
+    {
+        return fail(exit_code::unreadable_input, e.what());
+    }
+    catch (const mesh_error& e)
+    {
+        // A face that names a vertex which is not there, or a NaN, is a broken file rather than a difficult surface.
+        const bool broken = e.fault() == mesh_fault::index_out_of_range || e.fault() == mesh_fault::non_finite;
+        const bool holes = e.fault() == mesh_fault::several_boundaries;
+        return fail(broken ? exit_code::unreadable_input : exit_code::unsuitable_input, e.what(),
+                    holes ? "or take it as it is with --holes" : "");
+    }
+    catch (const error& e) // unsuitable_input, texcoord_error and what the library may add
+    {
+        return fail(exit_code::unsuitable_input, e.what());
+    }
+    catch (const std::bad_alloc&)
+    {
+        return fail(exit_code::unsuitable_input, "not enough memory for this input");
+    }
+}
+
+int usage(const CLI::App& program, const CLI::ParseError& e)
+{
+    std::string name = "taut";
+    for (const auto* app : program.get_subcommands()) name += ' ' + app->get_name();
+    return fail(exit_code::usage, e.what(), '`' + name + " --help` lists the options");
+}
+
+int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
+{
+    CLI::App program("Injective, low-distortion maps of triangle meshes to the plane, on any OpenCL device.", "taut");
+    program.set_version_flag("--version", "taut " TAUT_VERSION_STRING);
+    program.require_subcommand(1);
+    program.footer("exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+                   "  6 no valid map; 8 time limit, with a valid map written; 9 device failure; 130 interrupted,\n"
+                   "  with a valid map written");
+
+    std::vector<command> commands{add_unwrap(program, launch), add_eval(program), add_devices(program)};
+    try
+    {
+        program.parse(argc, argv);
+    }
+    catch (const CLI::Success& e) // --help, --version
+    {
+        return program.exit(e);
+    }
+    catch (const CLI::ParseError& e)
+    {
+        return usage(program, e);
+    }
+    const auto all = program.get_subcommands({});
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (all[k]->parsed()) return guarded(commands[k]);
+    return to_int(exit_code::usage);
+}
+
+} // namespace
+
+} // namespace taut::tools
+
+int main(int argc, char** argv)
+{
+    const auto launch = std::chrono::steady_clock::now();
+    try
+    {
+        return taut::tools::run(argc, argv, launch);
+    }
+    catch (const std::exception& e)
+    {
+        std::cerr << "taut: internal error: " << e.what() << '\n';
+        return 1;
+    }
+}

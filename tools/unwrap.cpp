@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <taut/io/picture/layout_picture.hpp>
+#include <taut/io/picture/layout_svg.hpp>
+#include <taut/io/picture/render_picture.hpp>
+#include <taut/io/picture/symmetric_distortion.hpp>
+#include <taut/io/read_surface.hpp>
+#include <taut/io/write_obj.hpp>
+#include <taut/map/parameterize.hpp>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "outputs.hpp"
+#include "png.hpp"
+#include "progress.hpp"
+#include "unwrap_options.hpp"
+#include "unwrap_report.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// The queue on the device that was asked for. Without a wish for a precision, a device without double is good enough.
+queue open_queue(const unwrap_options& options, parameterize_params& params, std::vector<std::string>& notes)
+{
+    // TAUT_DEVICE is how the library takes a wish; --device is the same thing, said louder.
+    if (!options.device.empty()) ::setenv("TAUT_DEVICE", options.device.c_str(), 1);
+    const bool need = options.precision && *options.precision != precision::single;
+    queue q(choose_device({.fp64 = need}));
+    if (!options.precision && !q.device().has_fp64())
+    {
+        params.precision = precision::single;
+        notes.push_back("the device has no double precision: calculated in float");
+    }
+    return q;
+}
+
+/// One run of `taut unwrap`, phase by phase.
+class unwrap_run
+{
+public:
+    unwrap_run(const unwrap_options& options, std::chrono::steady_clock::time_point launch)
+        : options_(options),
+          launch_(launch),
+          progress_(options.quiet ? progress_mode::none : *parse_progress_mode(options.progress), std::cerr)
+    {
+    }
+
+    exit_code operator()()
+    {
+        check(options_);
+        tell("read");
+        report_.seconds.read = timed([&] { file_ = io::read_surface_file(options_.input); });
+        report_.notes = file_->notes;
+        parameterize();
+        write();
+        progress_.finish();
+        if (!options_.quiet) print(report_, options_);
+        return report_.code;
+    }
+
+private:
+    double now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - launch_).count(); }
+
+    template <class F>
+    double timed(F&& f)
+    {
+        const double begin = now();
+        f();
+        return now() - begin;
+    }
+
+    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = now()}); }
+
+    void parameterize()
+    {
+        auto params = to_params(options_);
+        if (options_.start == start_kind::uv) params.initial = start_from_file();
+        params.observer = [this](const solve::progress& p)
+        {
+            if (p.iterate)
+                progress_.update({.phase = "optimize",
+                                  .step = p.iteration,
+                                  .most_steps = options_.iterations,
+                                  .energy = p.value,
+                                  .gradient = p.gradient,
+                                  .length = p.step,
+                                  .seconds = now()});
+            return !interrupt_.requested();
+        };
+        tell("device");
+        std::optional<queue> q;
+        report_.seconds.queue = timed([&] { q = open_queue(options_, params, report_.notes); });
+        report_.device = q->device().name();
+        report_.device_label = (std::ostringstream() << q->device()).str();
+        report_.precision = params.precision;
+
+        // The limit is one for the whole run: what reading took is gone.
+        if (std::isfinite(options_.time_limit))
+            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - now()));
+        tell("start");
+        auto result = taut::parameterize(*q, file_->surface, params);
+        report_.map = std::move(result.report);
+        report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
+        if (!result)
+            throw no_valid_map(report_.map.reason + (options_.start == start_kind::uv
+                                                         ? "; --start tutte makes a map without flips"
+                                                         : "; --start mean-value or --spacing uniform may succeed"));
+        uv_ = std::move(result.uv);
+        tell("measure");
+        report_.seconds.quality = timed([&] { report_.assess(options_, params, file_->surface, uv_); });
+        // The certificate of exactly what is written, taken by other code than the solver's.
+        if (report_.after.quality.flips.flipped > 0)
+            throw no_valid_map("the map has " + std::to_string(report_.after.quality.flips.flipped) +
+                               " flipped triangles; --precision double may succeed");
+    }
+
+    std::vector<vec2> start_from_file() const
+    {
+        if (file_->texcoords.empty())
+            throw unsuitable_input(options_.input +
+                                   ": has no texture coordinates (vt) for --start uv; use --start tutte");
+        return file_->vertex_texcoords();
+    }
+
+    void write()
+    {
+        tell("write");
+        try
+        {
+            report_.seconds.write = timed([&] { write_files(); });
+            report_.seconds.total = now();
+            if (!options_.stats.empty())
+                write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+        }
+        catch (const io::io_error& e)
+        {
+            throw output_error(e.what());
+        }
+        catch (const picture_error& e)
+        {
+            throw output_error(e.what());
+        }
+        report_.seconds.total = now();
+    }
+
+    void write_files()
+    {
+        const auto& surface = file_->surface;
+        io::write_obj(options_.output, surface, uv_);
+        const std::string title = std::filesystem::path(options_.input).filename().string();
+        if (!options_.picture.empty())
+        {
+            const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
+            const auto loops = boundary_loops(surface);
+            const io::layout_style style{.title = title, .energy = report_.energy, .note = report_.summary()};
+            if (extension(options_.picture) == ".svg")
+                write_text(options_.picture, io::layout_svg(uv_, surface.cells(), distortion, loops, style));
+            else
+                write_png(options_.picture, io::layout_picture(uv_, surface.cells(), distortion, loops, style));
+        }
+        if (!options_.render.empty())
+        {
+            const io::render_style style{.title = title, .up = options_.up, .front = options_.front};
+            write_png(options_.render, io::render_picture(surface.points(), surface.cells(), uv_, style));
+        }
+    }
+
+    static constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace; // file names need not be UTF-8
+
+    unwrap_options options_;
+    std::chrono::steady_clock::time_point launch_;
+    interrupt_guard interrupt_;
+    progress progress_;
+    std::optional<io::surface_file> file_;
+    std::vector<vec2> uv_;
+    unwrap_report report_;
+};
+
+} // namespace
+
+command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<unwrap_options>();
+    declare(*program.add_subcommand("unwrap", "Flatten a surface with little distortion and without folds"), *options);
+    return [options, launch] { return unwrap_run(*options, launch)(); };
+}
+
+} // namespace taut::tools

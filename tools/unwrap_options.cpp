@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "unwrap_options.hpp"
+
+#include <chrono>
+
+#include <taut/energy/area.hpp>
+#include <taut/energy/isometric.hpp>
+#include <taut/energy/shape.hpp>
+
+#include "choices.hpp"
+#include "failure.hpp"
+#include "outputs.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+void declare_map(CLI::App& app, unwrap_options& o)
+{
+    add_choice<energy_kind>(
+        app, "--energy", o.energy,
+        {{"isometric", energy_kind::isometric}, {"shape", energy_kind::shape}, {"area", energy_kind::area}},
+        "What to keep: lengths, angles or areas");
+    add_choice<boundary_kind>(
+        app, "--boundary", o.boundary,
+        {{"free", boundary_kind::free}, {"circle", boundary_kind::circle}, {"square", boundary_kind::square}},
+        "Let the boundary move, or keep it on a circle or square");
+    add_choice<energy::weighting>(app, "--weights", o.weights,
+                                  {{"area", energy::weighting::measure}, {"uniform", energy::weighting::uniform}},
+                                  "Weight of a triangle: its area, or 1");
+    add_choice<start_kind>(
+        app, "--start", o.start,
+        {{"stretch", start_kind::stretch},
+         {"tutte", start_kind::tutte},
+         {"mean-value", start_kind::mean_value},
+         {"uv", start_kind::uv}},
+        "First map: barycentric with evened stretch, uniform or mean value weights, or the file's vt");
+    add_choice<boundary_spacing>(app, "--spacing", o.spacing,
+                                 {{"chord", boundary_spacing::chord},
+                                  {"uniform", boundary_spacing::uniform},
+                                  {"centripetal", boundary_spacing::centripetal}},
+                                 "Gaps on the circle or square: as edge lengths, equal, as their roots");
+    app.add_flag("--holes", o.holes, "Take surfaces with holes; the longest boundary is the outer one");
+}
+
+void declare_solver(CLI::App& app, unwrap_options& o)
+{
+    add_choice<solve::method>(app, "--solver", o.solver,
+                              {{"lbfgs", solve::method::lbfgs},
+                               {"cg", solve::method::conjugate_gradient},
+                               {"gd", solve::method::gradient_descent}},
+                              "Limited-memory BFGS, nonlinear conjugate gradient, gradient descent");
+    app.add_option("--iterations", o.iterations, "Stop after N steps")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber.description(""))
+        ->capture_default_str();
+    app.add_option("--tolerance", o.tolerance, "Stop at this relative gradient, below 1; 0: never")
+        ->type_name("T")
+        ->check(CLI::NonNegativeNumber.description(""))
+        ->capture_default_str();
+    app.add_option("--time-limit", o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)")
+        ->type_name("S")
+        ->check(CLI::PositiveNumber.description(""));
+    const std::vector<choice<taut::precision>> precisions{
+        {"double", precision::full}, {"float", precision::single}, {"mixed", precision::mixed}};
+    auto known = CLI::IsMember({"double", "float", "mixed"});
+    known.description("");
+    app.add_option_function<std::string>(
+           "--precision",
+           [&o, precisions](const std::string& word)
+           {
+               for (const auto& [name, value] : precisions)
+                   if (name == word) o.precision = value;
+           },
+           "Arithmetic of the optimisation; the check for flips is exact in any case")
+        ->type_name("double|float|mixed")
+        ->default_str("double")
+        ->check(known);
+    app.add_option("--device", o.device, "Number or part of the name of an OpenCL device, see `taut devices`")
+        ->type_name("D")
+        ->envname("TAUT_DEVICE");
+}
+
+void declare_reports(CLI::App& app, unwrap_options& o)
+{
+    app.add_option("--stats", o.stats, "Write numbers as JSON")->type_name("FILE.json");
+    app.add_option("--picture", o.picture, "Draw the flat map, coloured by distortion")->type_name("FILE.png|.svg");
+    app.add_option("--render", o.render, "Draw the surface with a checkerboard")->type_name("FILE.png");
+    const std::initializer_list<choice<std::optional<vec3>>> axes = {
+        {"auto", {}},           {"+x", vec3(1, 0, 0)}, {"-x", vec3(-1, 0, 0)}, {"+y", vec3(0, 1, 0)},
+        {"-y", vec3(0, -1, 0)}, {"+z", vec3(0, 0, 1)}, {"-z", vec3(0, 0, -1)}};
+    add_choice<std::optional<vec3>>(app, "--up", o.up, axes, "What is up in the render");
+    add_choice<std::optional<vec3>>(app, "--front", o.front, axes, "Which side the render shows first");
+    add_choice<std::string>(app, "--progress", o.progress, {{"auto", "auto"}, {"json", "json"}, {"none", "none"}},
+                            "On standard error: a bar if it is a terminal, a JSON object a line, nothing");
+    app.add_flag("--quiet", o.quiet, "Print errors only");
+}
+
+} // namespace
+
+void declare(CLI::App& app, unwrap_options& o)
+{
+    app.add_option("IN", o.input, "Surface: OBJ, OFF or PLY; polygons are split into triangles")
+        ->required()
+        ->type_name("FILE");
+    app.add_option("-o,--output", o.output, "OBJ to write: the vertices in their order, one vt a vertex")
+        ->required()
+        ->type_name("OUT.obj");
+    declare_map(app, o);
+    declare_solver(app, o);
+    declare_reports(app, o);
+}
+
+void check(const unwrap_options& o)
+{
+    if (o.start == start_kind::uv && o.boundary != boundary_kind::free)
+        throw usage_error("--boundary circle and square lay the boundary anew, which --start uv does not; "
+                          "leave out one of them");
+    if (!(o.tolerance < 1)) throw usage_error("--tolerance: must be below 1");
+    if (!(o.time_limit > 0)) throw usage_error("--time-limit: must be positive");
+    outputs files;
+    files.add("--stats", o.stats, {".json"});
+    files.add("--picture", o.picture, {".png", ".svg"});
+    files.add("--render", o.render, {".png"});
+    files.protect(o.input); // -o may name the input: it is replaced as a whole, at the end
+    files.add("-o", o.output, {".obj"});
+}
+
+parameterize_params to_params(const unwrap_options& o)
+{
+    parameterize_params p;
+    switch (o.energy)
+    {
+    case energy_kind::isometric:
+        p.energy = energy::isometric{};
+        break;
+    case energy_kind::shape:
+        p.energy = energy::shape{};
+        break;
+    case energy_kind::area:
+        p.energy = energy::area{};
+        break;
+    }
+    p.weights = o.weights;
+    p.boundary = o.boundary == boundary_kind::free ? boundary_mode::free : boundary_mode::fixed;
+    p.start.boundary.shape = o.boundary == boundary_kind::square ? boundary_shape::square : boundary_shape::circle;
+    p.start.boundary.spacing = o.spacing;
+    p.start.weights = o.start == start_kind::tutte ? barycentric_weights::uniform : barycentric_weights::mean_value;
+    if (o.start != start_kind::stretch) p.start.stretch_rounds = 0;
+    p.holes = o.holes;
+    p.precision = o.precision.value_or(precision::full);
+    p.solve.method = o.solver;
+    p.solve.stopping.gradient_tolerance = o.tolerance;
+    p.solve.stopping.max_iterations = o.iterations;
+    p.time_limit = std::chrono::duration<double>(o.time_limit);
+    return p;
+}
+
+std::string to_string(energy_kind kind)
+{
+    return kind == energy_kind::isometric ? "isometric" : kind == energy_kind::shape ? "shape" : "area";
+}
+
+std::string to_string(taut::precision p)
+{
+    return p == precision::full ? "double" : p == precision::mixed ? "mixed" : "float";
+}
+
+std::string describe_start(const unwrap_options& o)
+{
+    if (o.start == start_kind::uv) return "the file's vt";
+    const char* kind = o.start == start_kind::tutte        ? "tutte"
+                       : o.start == start_kind::mean_value ? "mean value"
+                                                           : "evened stretch";
+    return std::string(kind) + " on a " + (o.boundary == boundary_kind::square ? "square" : "circle");
+}
+
+} // namespace taut::tools

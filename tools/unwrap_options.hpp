@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <taut/map/parameterize_params.hpp>
+
+namespace taut::tools
+{
+
+enum class start_kind
+{
+    stretch,
+    tutte,
+    mean_value,
+    uv
+};
+
+enum class boundary_kind
+{
+    free,
+    circle,
+    square
+};
+
+enum class energy_kind
+{
+    isometric,
+    shape,
+    area
+};
+
+/// What the user asked `taut unwrap` for.
+struct unwrap_options
+{
+    std::string input, output, stats, picture, render, device, progress;
+    energy_kind energy{};
+    boundary_kind boundary{};
+    energy::weighting weights{};
+    start_kind start{};
+    boundary_spacing spacing{};
+    solve::method solver{};
+    std::optional<taut::precision> precision; ///< not given: double, or float where no device has double
+    int iterations = 10000;
+    double tolerance = 1e-6;
+    double time_limit = std::numeric_limits<double>::infinity();
+    std::optional<vec3> up, front; ///< of the render; guessed if not given
+    bool holes = false, quiet = false;
+};
+
+/// Declares the options; they are filled when the program's arguments are parsed.
+void declare(CLI::App& app, unwrap_options& options);
+
+/// Throws usage_error for options that do not fit together and for outputs that could not be written.
+void check(const unwrap_options& options);
+
+/// What the library is to do, all but the start's coordinates and the observer.
+parameterize_params to_params(const unwrap_options& options);
+
+/// Words for reports.
+std::string to_string(energy_kind kind);
+std::string to_string(taut::precision precision);
+std::string describe_start(const unwrap_options& options);
+
+} // namespace taut::tools

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "unwrap_report.hpp"
+
+#include <iostream>
+
+#include <sys/resource.h>
+
+#include "text_table.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// Largest resident size of this process so far. A CPU device's buffers are part of it, a GPU's are not.
+std::uint64_t peak_memory()
+{
+    rusage usage{};
+    if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts KiB
+}
+
+means mean_energy(const any_energy& energy, const mesh<triangle>& surface, const ideal_elements<triangle>& ideal,
+                  std::span<const vec2> uv)
+{
+    std::vector<double> values(surface.cells().size());
+    for (std::size_t c = 0; c < values.size(); ++c)
+    {
+        const auto e = mapped_element(surface, ideal, uv, c);
+        values[c] = e.det > 0 ? energy(e) : std::numeric_limits<double>::infinity();
+    }
+    return mean(values, ideal.measure);
+}
+
+/// The stop in words.
+std::string describe(const solve::report& r, const unwrap_options& options)
+{
+    using solve::stop;
+    const std::string why = [&]() -> std::string
+    {
+        switch (r.stop)
+        {
+        case stop::gradient:
+            return "converged: relative gradient " + number(r.gradient_norm, 2) + " <= " + number(options.tolerance);
+        case stop::decrease:
+            return "converged: the energy falls no further, relative gradient " + number(r.gradient_norm, 2);
+        case stop::step:
+            return "converged: the steps are tiny, relative gradient " + number(r.gradient_norm, 2);
+        case stop::iterations:
+            return "limit of iterations, relative gradient " + number(r.gradient_norm, 2);
+        case stop::line_search:
+            return "no lower energy found (rounding), relative gradient " + number(r.gradient_norm, 2);
+        case stop::barrier:
+            return "triangles about to flip block every step, relative gradient " + number(r.gradient_norm, 2);
+        case stop::time:
+            return "time limit, relative gradient " + number(r.gradient_norm, 2);
+        case stop::user:
+            return "interrupted, relative gradient " + number(r.gradient_norm, 2);
+        case stop::not_finite_start:
+            return "the energy of the start is not finite in this precision; the start was written";
+        }
+        return {};
+    }();
+    return why;
+}
+
+std::string identifier(solve::stop stop)
+{
+    std::string word(to_string(stop));
+    for (char& c : word)
+        if (c == ' ') c = '_';
+    return word;
+}
+
+std::string boundary_name(boundary_kind kind)
+{
+    return kind == boundary_kind::free ? "free" : kind == boundary_kind::circle ? "circle" : "square";
+}
+
+} // namespace
+
+void unwrap_report::assess(const unwrap_options& options, const parameterize_params& params,
+                           const mesh<triangle>& surface, std::span<const vec2> uv)
+{
+    const ideal_elements<triangle> ideal(surface);
+    const bool by_area = options.weights == energy::weighting::measure;
+    energy_start = mean_energy(params.energy, surface, ideal, map.start.uv);
+    energy_end = mean_energy(params.energy, surface, ideal, uv);
+    energy_before = by_area ? energy_start.measure : energy_start.uniform;
+    energy = by_area ? energy_end.measure : energy_end.uniform;
+    after = tools::assess(surface, uv);
+    if (map.solve.stop == solve::stop::time) code = exit_code::time_limit;
+    if (map.solve.stop == solve::stop::user) code = exit_code::interrupted;
+    summary_ = to_string(options.energy) + " energy, " + boundary_name(options.boundary) + " boundary, " +
+               count(static_cast<std::uint64_t>(map.solve.iterations), "iteration", "iterations");
+}
+
+nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
+{
+    const auto& flips = r.after.quality.flips;
+    nlohmann::ordered_json json;
+    json["schema"] = "taut.unwrap/1";
+    json["input"] = o.input;
+    json["output"] = o.output;
+    json["vertices"] = r.after.vertices;
+    json["faces"] = flips.elements;
+    json["device"] = r.device;
+    json["precision"] = to_string(r.precision);
+    json["method"] = {{"energy", to_string(o.energy)},
+                      {"weights", o.weights == energy::weighting::measure ? "area" : "uniform"},
+                      {"boundary", boundary_name(o.boundary)},
+                      {"start", describe_start(o)}};
+    json["stop"] = identifier(r.map.solve.stop);
+    json["iterations"] = r.map.solve.iterations;
+    json["evaluations"] = r.map.solve.evaluations;
+    json["gradients"] = r.map.solve.gradients;
+    json["gradient"] = finite(r.map.solve.gradient_norm);
+    json["energy_start"] = finite(r.energy_before);
+    json["energy"] = finite(r.energy);
+    json["flipped"] = flips.flipped;
+    json["min_det"] = finite(flips.min_det);
+    json["max_det"] = finite(flips.max_det);
+    json["seconds"] = {{"read", r.seconds.read},
+                       {"device", r.seconds.queue + r.map.seconds.device},
+                       {"setup", r.map.seconds.setup},
+                       {"start", r.map.seconds.start},
+                       {"untangle", 0.0}, // barycentric starts have nothing to untangle
+                       {"solve", r.map.seconds.solve},
+                       {"quality", r.seconds.quality},
+                       {"write", r.seconds.write},
+                       {"total", r.seconds.total}};
+    json["peak_memory_bytes"] = peak_memory();
+    json["quality"] = to_json(r.after);
+    json["notes"] = r.notes;
+    return json;
+}
+
+void print(const unwrap_report& r, const unwrap_options& o)
+{
+    for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
+    const auto& flips = r.after.quality.flips;
+    const auto& s = r.map.solve;
+    labelled_lines lines;
+    lines.add("mesh", o.input + ": " + count(static_cast<std::uint64_t>(r.after.vertices), "vertex", "vertices") +
+                          ", " + count(flips.elements, "triangle", "triangles"));
+    lines.add("device", r.device_label + ", " + to_string(r.precision));
+    lines.add("start", describe_start(o) + ": E " + number(r.energy_before) + ", " +
+                           count(r.map.start.flips.flipped, "flip", "flips"));
+    lines.add("energy",
+              to_string(o.energy) + ' ' + number(r.energy_before) + " -> " + number(r.energy, 6) +
+                  (o.weights == energy::weighting::measure ? " by area, mean " + number(r.energy_end.uniform, 6)
+                                                           : " mean, by area " + number(r.energy_end.measure, 6)));
+    lines.add("stop", describe(s, o));
+    lines.add("steps", count(static_cast<std::uint64_t>(s.iterations), "iteration", "iterations") + ", " +
+                           count(static_cast<std::uint64_t>(s.evaluations), "evaluation", "evaluations") + ", " +
+                           count(static_cast<std::uint64_t>(s.gradients), "gradient", "gradients"));
+    describe_validity(lines, r.after);
+    lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
+                          duration(r.seconds.queue + r.map.seconds.device) + ", setup " +
+                          duration(r.map.seconds.setup) + ", start " + duration(r.map.seconds.start) + ", solve " +
+                          duration(r.map.seconds.solve) + ", write " + duration(r.seconds.write));
+    lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
+    std::string files = o.output;
+    for (const auto& file : {o.picture, o.render, o.stats})
+        if (!file.empty()) files += ", " + file;
+    lines.add("wrote", files);
+    std::cout << lines;
+    print(std::cout, r.after);
+}
+
+} // namespace taut::tools
