@@ -11,7 +11,7 @@
 #include <taut/symbolic/recording.hpp>
 
 #include <taut/compute/queue.hpp>
-#include <taut/compute/record.hpp>
+#include <taut/compute/handler.hpp>
 #include <taut/compute/vector_space.hpp>
 
 #include <taut/mesh/mesh.hpp>
