@@ -23,8 +23,9 @@ struct conjugate_gradient_params
 {
     conjugacy beta = conjugacy::hestenes_stiefel;
 
-    /// The preconditioner: m pairs of L-BFGS. The paper's released code takes 1; 0 is the plain method.
-    memory_params memory = {.pairs = 1, .scaling = scaling::largest};
+    /// The preconditioner: m pairs of L-BFGS (the paper compares several m, Figure 7; its released code takes 1). 0 is
+    /// the plain method.
+    memory_params memory = {.pairs = 5, .scaling = scaling::largest};
 
     /// Forget the step before every so many iterations. Range >= 0; 0: only where the direction does not descend or
     /// the line search fails. The number of unknowns is the classic choice for the plain method on small problems.
