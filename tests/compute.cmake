@@ -16,9 +16,4 @@ set_tests_properties(device.no_platform PROPERTIES LABELS device
 add_test(NAME device.several COMMAND taut_test_compute "--test-case=devices:*,queue:*")
 set_tests_properties(device.several PROPERTIES LABELS device ENVIRONMENT "POCL_DEVICES=pthread pthread basic;TAUT_DEVICE=2")
 taut_own_kernel_cache(device.several)
-
-# PoCL vectorises the gather over vertices.
-add_test(NAME device.vectorised
-         COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/kernels_check/vectorised $<TARGET_FILE:taut_test_compute>)
-set_tests_properties(device.vectorised PROPERTIES LABELS device)
-set_tests_properties(house.kernels device.vectorised PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(house.kernels PROPERTIES SKIP_RETURN_CODE 77)

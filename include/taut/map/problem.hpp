@@ -120,6 +120,7 @@ public:
         space_.dot(g, g);
         space_.multi_dot(std::span(v, 3), std::span(v, 5), e);
         step(x, 0, d, y);
+        queue_.finish();
     }
 
     /// Norm of a gradient that is typical of the mesh: the same relative gradient then means the same on every mesh and

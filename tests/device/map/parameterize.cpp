@@ -29,10 +29,12 @@ mesh<triangle> dome()
     return test::bumpy(test::sized(16, 3), 0.3, 2);
 }
 
-void check_falling(const solve::report& r)
+/// Energies fall monotonically, up to the rounding of a value.
+void check_falling(const solve::report& r, precision how = precision::full)
 {
+    const double rounding = how == precision::full ? 1e-13 : 2e-8;
     for (std::size_t k = 1; k < r.history.size(); ++k)
-        CHECK(r.history[k].value <= r.history[k - 1].value * (1 + 1e-10));
+        CHECK(r.history[k].value <= r.history[k - 1].value * (1 + rounding));
 }
 
 } // namespace
@@ -56,7 +58,7 @@ TEST_CASE("parameterize: every energy, weighting, boundary and precision gives a
                     REQUIRE(r);
                     CHECK(r.report.flips.flipped == 0);
                     CHECK(r.report.solve.value < r.report.solve.value_start);
-                    check_falling(r.report.solve);
+                    check_falling(r.report.solve, how);
                     CHECK(r.uv.size() == m.points().size());
                     CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
                 }

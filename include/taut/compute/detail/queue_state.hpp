@@ -37,6 +37,12 @@ struct queue_state
     {
     }
 
+    /// Waits: PoCL compiles at launch, on threads of its own, and crashes if the process ends meanwhile.
+    ~queue_state() { clFinish(commands.get()); }
+
+    queue_state(const queue_state&) = delete;
+    queue_state& operator=(const queue_state&) = delete;
+
     taut::device device;
     boost::compute::context context;
     boost::compute::command_queue commands;

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// What the device kernels cost beside plain C++ on all cores in the same run: distortion and its gradient per triangle,
+// and the bandwidth of the vector operations beside a STREAM triad.
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <numeric>
+#include <random>
+
+#include <support/meshes.hpp>
+
+#include <taut/energy/isometric.hpp>
+#include <taut/map/problem.hpp>
+
+#include "measure.hpp"
+#include "native.hpp"
+
+namespace
+{
+
+using namespace taut;
+
+/// The mesh with its vertices, and its cells, in random order.
+mesh<triangle> shuffled(const mesh<triangle>& m)
+{
+    std::mt19937 random(7);
+    const auto lot = [&](taut::index n)
+    {
+        std::vector<taut::index> p(static_cast<std::size_t>(n));
+        std::iota(p.begin(), p.end(), 0);
+        std::shuffle(p.begin(), p.end(), random);
+        return permutation(std::move(p));
+    };
+    return permute(m, mesh_order{lot(m.vertex_count()), lot(m.cell_count())});
+}
+
+/// What the element kernels read, in the order of the mesh or in the library's.
+struct arrays
+{
+    std::size_t cells, vertices, cell_stride, vertex_stride;
+    std::vector<taut::index> corners;
+    std::vector<double> inverse, measure, x;
+    csr incidence;
+
+    /// Positions are the rest positions seen from above.
+    arrays(const mesh<triangle>& m, bool ordered)
+    {
+        const mesh<triangle> local = ordered ? permute(m, locality_order(m)) : m;
+        cells = static_cast<std::size_t>(m.cell_count());
+        vertices = static_cast<std::size_t>(m.vertex_count());
+        incidence = vertex_corners(local);
+        ideal_elements<triangle> ideal(local);
+        auto triangles = local.cells();
+        pad<triangle>(triangles, ideal, layout<triangle>::step);
+        cell_stride = triangles.size();
+        vertex_stride = padded(vertices, layout<triangle>::step);
+        for (std::size_t k = 0; k < 3; ++k)
+            for (const auto& t : triangles) corners.push_back(t[k]);
+        for (const auto& [column, row] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1)})
+            for (const auto& w : ideal.inverse) inverse.push_back(w[column][row]);
+        measure = ideal.measure;
+        x.assign(2 * vertex_stride, 0);
+        for (std::size_t v = 0; v < vertices; ++v)
+            for (int k = 0; k < 2; ++k) x[static_cast<std::size_t>(k) * vertex_stride + v] = local.points()[v][k];
+    }
+};
+
+template <class To, class From>
+std::vector<To> to(const std::vector<From>& v)
+{
+    return {v.begin(), v.end()};
+}
+
+/// The two steps of the gradient on the device.
+template <class P, class R>
+class device_elements
+{
+public:
+    device_elements(queue& q, const arrays& a)
+        : queue_(q),
+          a_(a),
+          kernels_(q, energy::isometric{}),
+          corners_(q, a.corners),
+          inverse_(q, to<R>(a.inverse)),
+          measure_(q, to<R>(a.measure)),
+          x_(q, to<P>(a.x)),
+          energy_(q, a.cell_stride),
+          corner_gradient_(q, 6 * a.cell_stride),
+          gradient_(q, 2 * a.vertex_stride),
+          gather_(make_gather())
+    {
+    }
+
+    void value()
+    {
+        kernels_.value(range(), corners_, inverse_, measure_, measure_, x_, energy_, stride(a_.cell_stride),
+                       stride(a_.vertex_stride));
+        queue_.finish();
+    }
+    void elements()
+    {
+        launch_elements();
+        queue_.finish();
+    }
+    void gradient()
+    {
+        launch_elements();
+        gather_(corner_gradient_, gradient_);
+        queue_.finish();
+    }
+    std::vector<R> result() const { return gradient_.download(); }
+
+private:
+    void launch_elements()
+    {
+        kernels_.gradient(range(), corners_, inverse_, measure_, measure_, x_, energy_, corner_gradient_,
+                          stride(a_.cell_stride), stride(a_.vertex_stride));
+    }
+
+    static taut::index stride(std::size_t n) { return static_cast<taut::index>(n); }
+    taut::range range() const { return {a_.cell_stride, layout<triangle>::step}; }
+
+    gather<R> make_gather()
+    {
+        std::vector<taut::index> cell, corner;
+        for (const auto item : a_.incidence.items)
+        {
+            cell.push_back(item / 3);
+            corner.push_back(item % 3);
+        }
+        return gather<R>(queue_, a_.incidence.offsets, cell, corner,
+                         {.components = 2, .cell_stride = a_.cell_stride, .vertex_stride = a_.vertex_stride});
+    }
+
+    queue queue_;
+    const arrays& a_;
+    element_kernels<triangle, P, R> kernels_;
+    buffer<taut::index> corners_;
+    buffer<R> inverse_, measure_;
+    buffer<P> x_;
+    buffer<R> energy_, corner_gradient_, gradient_;
+    gather<R> gather_;
+};
+
+template <class P, class R>
+native::dirichlet<P, R> native_elements(const arrays& a)
+{
+    native::dirichlet<P, R> n;
+    n.cells = a.cells, n.vertices = a.vertices, n.cell_stride = a.cell_stride, n.vertex_stride = a.vertex_stride;
+    n.corners = a.corners;
+    n.inverse = to<R>(a.inverse);
+    n.weight = to<R>(a.measure);
+    n.x = to<P>(a.x);
+    n.offset = a.incidence.offsets;
+    for (const auto item : a.incidence.items)
+        n.slot.push_back(static_cast<int>(2 * static_cast<std::size_t>(item % 3) * a.cell_stride) + item / 3);
+    n.allocate();
+    return n;
+}
+
+/// The largest difference of two gradients, relative to the largest entry.
+template <class R>
+double difference(const std::vector<R>& a, const std::vector<R>& b)
+{
+    double most = 0, scale = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+        most = std::max(most, std::abs(double(a[i]) - double(b[i])));
+        scale = std::max(scale, std::abs(double(a[i])));
+    }
+    return most / scale;
+}
+
+class kernel_bench
+{
+public:
+    explicit kernel_bench(bool quick) : quick_(quick), report_(bench::circumstances(queue_)) {}
+
+    const nlohmann::ordered_json& report() const { return report_; }
+    bool right() const { return right_; }
+
+    void run()
+    {
+        std::printf("taut %s %s on %s, driver %s; native: C++ on %u threads\n\n", TAUT_VERSION_STRING,
+                    TAUT_BENCH_COMMIT, queue_.device().name().c_str(), queue_.device().driver_version().c_str(),
+                    workers_.size());
+        const std::vector<int> sides = quick_ ? std::vector{20} : std::vector{139, 620};
+        std::vector<mesh<triangle>> meshes;
+        for (const int side : sides) meshes.push_back(shuffled(test::bumpy(side)));
+
+        std::printf("ns a triangle            value           elements        gradient        gradient, given order\n"
+                    "triangles precision      taut  native    taut  native    taut  native    taut  native\n");
+        for (const auto& m : meshes)
+        {
+            const arrays ordered(m, true), given(m, false);
+            elements<double, double>("double", ordered, given);
+            elements<double, float>("mixed", ordered, given);
+            elements<float, float>("float", ordered, given);
+        }
+
+        std::printf("\nGB/s               native\n"
+                    "numbers    type    triad    dot      2 x 8 dots  axpby    sum of 8\n");
+        for (const auto& m : meshes)
+        {
+            const auto n = 2 * padded(static_cast<std::size_t>(m.vertex_count()), layout<triangle>::step);
+            vectors<double>("double", n);
+            vectors<float>("float", n);
+        }
+        if (!quick_)
+        {
+            vectors<double>("double", 8 << 20);
+            vectors<float>("float", 8 << 20);
+        }
+    }
+
+private:
+    int repeats(std::size_t n) const { return quick_ ? 3 : n > 300000 ? 15 : 51; }
+
+    template <class P, class R>
+    void elements(const char* precision, const arrays& ordered, const arrays& given)
+    {
+        device_elements<P, R> device(queue_, ordered), device_given(queue_, given);
+        auto host = native_elements<P, R>(ordered), host_given = native_elements<P, R>(given);
+        const auto gradient = [this](auto& h)
+        {
+            h.elements(workers_);
+            h.gather(workers_);
+        };
+        const auto t =
+            bench::interleaved(repeats(ordered.cells),
+                               {[&] { device.value(); }, [&] { host.value(workers_); }, [&] { device.elements(); },
+                                [&] { host.elements(workers_); }, [&] { device.gradient(); }, [&] { gradient(host); },
+                                [&] { device_given.gradient(); }, [&] { gradient(host_given); }});
+
+        const double error = difference(host.gradient, device.result());
+        if (!(error < (sizeof(R) == 8 ? 1e-10 : 1e-3))) right_ = false;
+
+        nlohmann::ordered_json row = {{"what", "elements"}, {"triangles", ordered.cells}, {"precision", precision}};
+        const char* names[] = {"value",
+                               "native_value",
+                               "elements",
+                               "native_elements",
+                               "gradient",
+                               "native_gradient",
+                               "gradient_given_order",
+                               "native_gradient_given_order"};
+        std::printf("%-9zu %-10s", ordered.cells, precision);
+        const double per_cell = 1e9 / static_cast<double>(ordered.cells);
+        for (std::size_t i = 0; i < t.size(); ++i)
+        {
+            const std::string name = names[i];
+            row[name + "_ns"] = t[i].median * per_cell;
+            row[name + "_least_ns"] = t[i].least * per_cell;
+            std::printf("%s%8.2f", i % 2 || i == 0 ? "" : "  ", t[i].median * per_cell);
+        }
+        const double ratio = t[4].median / t[5].median;
+        std::printf("   x%.2f (least: %.2f / %.2f)\n", ratio, t[4].least * per_cell, t[5].least * per_cell);
+        row["gradient_to_native"] = ratio;
+        row["gradient_difference"] = error;
+        report_["results"].push_back(row);
+    }
+
+    template <class T>
+    void vectors(const char* type, std::size_t n)
+    {
+        const device_vectors<T> space(queue_, n);
+        std::vector<device_vector<T>> v;
+        for (std::size_t k = 0; k < 9; ++k)
+        {
+            v.push_back(space.make());
+            space.axpby(0, v[k], 0, v[k]);
+            v[k].data().fill(T(1) / T(k + 1));
+        }
+        std::vector<const device_vector<T>*> in;
+        for (std::size_t k = 0; k < 8; ++k) in.push_back(&v[k]);
+        const std::vector<double> coefficients = {1, -1, 0.5, 2, -2, 0.25, 3, -1};
+        std::vector<double> products(16);
+        std::vector<T> a(n), b(n, T(1)), c(n, T(2));
+
+        const auto t = bench::interleaved(repeats(n), {[&] { native::triad(workers_, a, b, T(3), c); },
+                                                       [&] { space.dot(v[0], v[1]); },
+                                                       [&] { space.multi_dot(std::span(in).first(2), in, products); },
+                                                       [&]
+                                                       {
+                                                           space.axpby(0.5, v[0], 0.5, v[8]);
+                                                           queue_.finish();
+                                                       },
+                                                       [&]
+                                                       {
+                                                           space.linear_combination(coefficients, in, v[8]);
+                                                           queue_.finish();
+                                                       }});
+        // What an ideal implementation moves: each vector once. (2 x 8 dots: the two are among the eight.)
+        const double moved[] = {3, 2, 8, 3, 9};
+        const char* names[] = {"native_triad", "dot", "multi_dot", "axpby", "linear_combination"};
+        nlohmann::ordered_json row = {{"what", "vectors"}, {"numbers", n}, {"type", type}};
+        std::printf("%-10zu %-7s", n, type);
+        for (std::size_t i = 0; i < t.size(); ++i)
+        {
+            const double bytes = moved[i] * sizeof(T) * static_cast<double>(n);
+            const std::string name = names[i];
+            const double rate = bytes / t[i].median * 1e-9;
+            row[name + "_GBps"] = rate;
+            row[name + "_best_GBps"] = bytes / t[i].least * 1e-9;
+            std::printf("%-9.1f%s", rate, i == 2 ? "   " : "");
+        }
+        std::printf("\n");
+        report_["results"].push_back(row);
+    }
+
+    bool quick_;
+    bool right_ = true;
+    queue queue_;
+    native::crew workers_;
+    nlohmann::ordered_json report_;
+};
+
+} // namespace
+
+int main(int argc, char** argv)
+try
+{
+    const bench::options options(argc, argv);
+    kernel_bench b(options.quick);
+    b.run();
+    options.write(b.report());
+    if (!b.right()) std::fprintf(stderr, "the device's gradient is not the native one\n");
+    return b.right() ? 0 : 1;
+}
+catch (const std::exception& e)
+{
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+}

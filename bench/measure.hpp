@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <taut/compute/queue.hpp>
+#include <taut/version.hpp>
+
+#ifndef TAUT_BENCH_COMMIT
+#define TAUT_BENCH_COMMIT "unknown"
+#endif
+
+/// What the benchmarks share: timing that survives a busy machine, and results with their circumstances.
+namespace bench
+{
+
+using clock = std::chrono::steady_clock;
+
+template <class F>
+double seconds(F&& work)
+{
+    const auto begin = clock::now();
+    work();
+    return std::chrono::duration<double>(clock::now() - begin).count();
+}
+
+/// Seconds of repeated work. The median is what one gets; the least is what the work costs on an idle machine.
+struct timing
+{
+    double median = 0, least = 0;
+};
+
+/// The timing of each piece of work. They take turns, so that what else runs on the machine slows all of them and
+/// ratios hold; one round before the first is not counted.
+inline std::vector<timing> interleaved(int repeats, const std::vector<std::function<void()>>& works)
+{
+    std::vector<std::vector<double>> times(works.size());
+    for (int r = -1; r < repeats; ++r)
+        for (std::size_t i = 0; i < works.size(); ++i)
+        {
+            const double t = seconds(works[i]);
+            if (r >= 0) times[i].push_back(t);
+        }
+    std::vector<timing> summary;
+    for (auto& t : times)
+    {
+        std::sort(t.begin(), t.end());
+        summary.push_back({t[t.size() / 2], t.front()});
+    }
+    return summary;
+}
+
+/// Where, when and with what the figures were measured; `results` is left to fill.
+inline nlohmann::ordered_json circumstances(const taut::queue& q)
+{
+    const auto now = std::time(nullptr);
+    char date[32];
+    std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+    const auto& d = q.device();
+    return {{"library", "taut"},
+            {"version", TAUT_VERSION_STRING},
+            {"commit", TAUT_BENCH_COMMIT},
+            {"date", date},
+            {"device", d.name()},
+            {"platform", d.platform()},
+            {"driver", d.driver_version()},
+            {"compute_units", d.compute_units()},
+            {"host_threads", std::thread::hardware_concurrency()},
+            {"results", nlohmann::ordered_json::array()}};
+}
+
+/// --quick, --json FILE, and paths.
+struct options
+{
+    bool quick = false;
+    std::string json;
+    std::vector<std::string> paths;
+
+    options(int argc, char** argv)
+    {
+        for (int i = 1; i < argc; ++i)
+        {
+            const std::string word = argv[i];
+            if (word == "--quick")
+                quick = true;
+            else if (word == "--json" && i + 1 < argc)
+                json = argv[++i];
+            else if (word.starts_with("-"))
+                throw std::invalid_argument("unknown option " + word + "; usage: [--quick] [--json FILE] [MESH...]");
+            else
+                paths.push_back(word);
+        }
+    }
+
+    void write(const nlohmann::ordered_json& report) const
+    {
+        if (json.empty()) return;
+        std::ofstream file(json);
+        file << report.dump(2) << '\n';
+        if (!file.flush()) throw std::runtime_error("cannot write " + json);
+    }
+};
+
+} // namespace bench
