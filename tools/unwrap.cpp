@@ -45,14 +45,18 @@ queue open_queue(const unwrap_options& options, parameterize_params& params, std
     return q;
 }
 
+/// --quiet hides what nobody asked for; a --progress that is named stays.
+progress_mode progress_of(const unwrap_options& options)
+{
+    return options.quiet && options.progress == "auto" ? progress_mode::none : *parse_progress_mode(options.progress);
+}
+
 /// One run of `taut unwrap`, phase by phase.
 class unwrap_run
 {
 public:
     unwrap_run(const unwrap_options& options, std::chrono::steady_clock::time_point launch)
-        : options_(options),
-          launch_(launch),
-          progress_(options.quiet ? progress_mode::none : *parse_progress_mode(options.progress), std::cerr)
+        : options_(options), launch_(launch), progress_(progress_of(options), std::cerr)
     {
     }
 

@@ -95,7 +95,7 @@ void declare_reports(CLI::App& app, unwrap_options& o)
     add_choice<std::optional<vec3>>(app, "--front", o.front, axes, "Which side the render shows first");
     add_choice<std::string>(app, "--progress", o.progress, {{"auto", "auto"}, {"json", "json"}, {"none", "none"}},
                             "On standard error: a bar if it is a terminal, a JSON object a line, nothing");
-    app.add_flag("--quiet", o.quiet, "Print errors only");
+    app.add_flag("--quiet", o.quiet, "Print errors only, and what --progress asks for by name");
 }
 
 } // namespace

@@ -346,6 +346,8 @@ test_reports()
     "$cmake" -DFILE=err -DLINES=ON "-DKEYS=phase;iteration;energy;gradient;step;seconds" -P "$here/json.cmake" \
         >values 2>failure || fail "--progress json: $(cat failure)"
     says err '"phase":"read"' '"phase":"optimize","iteration":[1-9][0-9]*,"energy":4\.' '"phase":"write"'
+    expect 0 unwrap in.obj -o out.obj --quiet --progress json
+    [ -s err ] || fail "--quiet swallows --progress json"
     expect 0 unwrap in.obj -o out.obj --progress none
     silent err
     says out '^stop '

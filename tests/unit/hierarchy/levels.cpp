@@ -204,6 +204,20 @@ TEST_CASE("hierarchy: surfaces that cannot be thinned have one level")
     CHECK(h.steps.empty());
 }
 
+TEST_CASE("hierarchy: closed surfaces are thinned to the least that there is")
+{
+    const auto m = test::octahedron();
+    const auto h = make_hierarchy(m, {}, {.factor = 2, .min_vertices = 3});
+    REQUIRE(h.levels.size() == 2);
+    CHECK(h.levels[1].vertices.size() == 4); // a tetrahedron
+    CHECK(check(level_mesh(h, 1, m.points()), {.open = false}).empty());
+
+    const auto torus = test::torus(20, false);
+    const auto t = make_hierarchy(torus);
+    CHECK(t.levels.back().vertices.size() < 80);
+    CHECK(euler(level_mesh(t, t.levels.size() - 1, torus.points())) == 0);
+}
+
 TEST_CASE("hierarchy: vertices without triangles have no part in it")
 {
     const auto m = test::grid(15, 15);
