@@ -45,7 +45,7 @@ private:
         const std::string_view kind = key.ends_with("OFF") ? key.substr(0, key.size() - 3) : "?";
         has_texcoords_ = kind.starts_with("ST");
         const std::string_view rest = has_texcoords_ ? kind.substr(2) : kind;
-        if (rest != "" && rest != "C" && rest != "N" && rest != "CN")
+        if (!rest.empty() && rest != "C" && rest != "N" && rest != "CN")
             in_.fail("not an OFF file of points in space: '" + std::string(key.substr(0, 40)) + "'");
         in_.skip_space_and_comments();
         if (!in_.at_digit()) in_.fail("expected the number of vertices; binary OFF is not supported");

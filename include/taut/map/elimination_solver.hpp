@@ -63,7 +63,6 @@ private:
         return x;
     }
 
-private:
     static std::size_t u(index i) { return static_cast<std::size_t>(i); }
 
     /// Rows of a front: `width` weights each, then excess and right-hand side.

@@ -55,8 +55,11 @@ inline std::string build_excerpt(const std::string& source, const std::string& l
         {
             if (last_shown != 0 && last_shown + 1 != number) text += "      ...\n";
             const std::string label = std::to_string(number);
-            text += std::string(label.size() < 5 ? 5 - label.size() : 0, ' ') + label +
-                    (wanted.count(number) ? " > " : " | ") + line + '\n';
+            text.append(label.size() < 5 ? 5 - label.size() : 0, ' ');
+            text += label;
+            text += wanted.count(number) ? " > " : " | ";
+            text += line;
+            text += '\n';
             last_shown = number;
         }
         ++number;

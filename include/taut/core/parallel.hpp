@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace taut
+{
+
+/// Calls body(begin, end) for pieces that cover [0, n), on several threads, and returns when all are done. Pieces are
+/// handed out as threads become free, so the body must not depend on how the range is cut.
+///
+/// threads: how many at most; 0: as many as the machine runs at once
+/// grain:   smallest n that is worth another thread; below it the body runs once, on the calling thread
+///
+/// The first exception of a body is rethrown here; pieces not yet begun are then left out. Programs that call it link
+/// with Threads::Threads.
+template <class Body>
+void parallel_for(std::size_t n, Body&& body, unsigned threads = 0, std::size_t grain = 4096)
+{
+    if (n == 0) return;
+    if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t team = std::min<std::size_t>(threads, n / std::max<std::size_t>(grain, 1));
+    if (team <= 1)
+    {
+        body(std::size_t{0}, n);
+        return;
+    }
+
+    // A few pieces a thread even out a core that others use too.
+    const std::size_t piece = std::max<std::size_t>(1, n / (8 * team));
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> failed{false};
+    std::exception_ptr failure;
+    const auto work = [&]
+    {
+        try
+        {
+            for (std::size_t begin = next.fetch_add(piece); begin < n && !failed; begin = next.fetch_add(piece))
+                body(begin, std::min(n, begin + piece));
+        }
+        catch (...)
+        {
+            if (!failed.exchange(true)) failure = std::current_exception();
+        }
+    };
+    std::vector<std::thread> helpers;
+    helpers.reserve(team - 1);
+    try
+    {
+        while (helpers.size() + 1 < team) helpers.emplace_back(work);
+    }
+    catch (const std::system_error&)
+    {
+        // No more threads to be had: those that run share the work.
+    }
+    work();
+    for (auto& t : helpers) t.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+} // namespace taut
