@@ -161,7 +161,7 @@ private:
     void write_files()
     {
         const auto& surface = file_->surface;
-        io::write_obj(options_.output, surface, uv_);
+        io::write_obj(options_.output, surface, uv_, file_->extras);
         const std::string title = std::filesystem::path(options_.input).filename().string();
         if (!options_.picture.empty())
         {

@@ -45,6 +45,17 @@ void declare_map(CLI::App& app, unwrap_options& o)
     app.add_flag("--holes", o.holes, "Take surfaces with holes; the longest boundary is the outer one");
 }
 
+/// A check whose message is a sentence; CLI11's own writes the range out to the last digit.
+CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
+{
+    return {[=](const std::string& text)
+            {
+                double x = 0;
+                return CLI::detail::lexical_cast(text, x) && holds(x) ? std::string() : text + ' ' + otherwise;
+            },
+            ""};
+}
+
 void declare_solver(CLI::App& app, unwrap_options& o)
 {
     add_choice<solve::method>(app, "--solver", o.solver,
@@ -54,15 +65,15 @@ void declare_solver(CLI::App& app, unwrap_options& o)
                               "Limited-memory BFGS, nonlinear conjugate gradient, gradient descent");
     app.add_option("--iterations", o.iterations, "Stop after N steps")
         ->type_name("N")
-        ->check(CLI::NonNegativeNumber.description(""))
+        ->check(CLI::Range(0, std::numeric_limits<int>::max()).description(""))
         ->capture_default_str();
     app.add_option("--tolerance", o.tolerance, "Stop at this relative gradient, below 1; 0: never")
         ->type_name("T")
-        ->check(CLI::NonNegativeNumber.description(""))
+        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
         ->capture_default_str();
     app.add_option("--time-limit", o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)")
         ->type_name("S")
-        ->check(CLI::PositiveNumber.description(""));
+        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
     const std::vector<choice<taut::precision>> precisions{
         {"double", precision::full}, {"float", precision::single}, {"mixed", precision::mixed}};
     auto known = CLI::IsMember({"double", "float", "mixed"});

@@ -54,6 +54,7 @@ public:
             return to_int(place);
         };
         width_ = common_width(rows, valence);
+        to_int(width_ * layout.vertex_stride); // the kernel computes in int
         sums_ = D * layout.vertex_stride;
 
         std::vector<index> columns(width_ * layout.vertex_stride, -1), which, rest_offsets{0}, rest;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <taut/compute/choose_device.hpp>
@@ -38,10 +39,13 @@ public:
     }
 
     /// In the user's context, on its first device. The context is retained.
-    explicit queue(cl_context context, queue_options options = {}) : queue(boost::compute::context(context), options) {}
+    explicit queue(cl_context context, queue_options options = {})
+        : queue(adopt([&] { return boost::compute::context(context); }), options)
+    {
+    }
 
     /// Through the user's command queue, which is retained and must be in-order.
-    explicit queue(cl_command_queue native) : queue(boost::compute::command_queue(native)) {}
+    explicit queue(cl_command_queue native) : queue(adopt([&] { return boost::compute::command_queue(native); })) {}
 
     const taut::device& device() const noexcept { return state_->device; }
 
@@ -94,6 +98,22 @@ private:
         const auto properties = native.get_info<cl_command_queue_properties>(CL_QUEUE_PROPERTIES);
         if (properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)
             state_->fail("adopting a command queue", "it is out of order; taut relies on the order of commands");
+    }
+
+    /// A handle of the user's, found to be alive. Throws device_error.
+    template <class Wrap>
+    static std::invoke_result_t<Wrap> adopt(Wrap&& wrap)
+    {
+        try
+        {
+            auto handle = wrap();
+            handle.get_device();
+            return handle;
+        }
+        catch (const boost::compute::opencl_error& e)
+        {
+            throw device_error("adopting the user's context or queue", e.error_string(), "", e.error_code());
+        }
     }
 
     template <class MakeContext>

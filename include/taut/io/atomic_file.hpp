@@ -26,13 +26,14 @@ public:
     explicit atomic_file(const std::filesystem::path& path) : path_(path)
     {
         std::error_code ignored;
-        if (std::filesystem::is_symlink(path, ignored))
-            if (auto target = std::filesystem::canonical(path, ignored); !ignored) path_ = std::move(target);
+        if (std::filesystem::is_symlink(path, ignored)) path_ = target_of(path);
         const auto status = std::filesystem::status(path_, ignored);
         if (std::filesystem::is_directory(status)) fail(EISDIR);
         direct_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
         temporary_ = path_;
         if (!direct_) create_temporary();
+        if (!direct_ && std::filesystem::exists(status))
+            std::filesystem::permissions(temporary_, status.permissions(), ignored); // those of the file it replaces
         errno = 0;
         stream_.open(temporary_, std::ios::binary | std::ios::out);
         if (!stream_)
@@ -71,13 +72,22 @@ public:
     }
 
 private:
+    /// What a link names, also where that does not exist yet.
+    static std::filesystem::path target_of(const std::filesystem::path& link)
+    {
+        std::error_code failure;
+        if (auto target = std::filesystem::canonical(link, failure); !failure) return target;
+        const auto target = std::filesystem::read_symlink(link, failure);
+        return failure ? link : link.parent_path() / target;
+    }
+
     void create_temporary()
     {
         std::random_device random;
         for (int attempt = 0; attempt < 16; ++attempt)
         {
-            temporary_ = path_;
-            temporary_ += ".part" + std::to_string(random());
+            // A short name of its own: the file's, made longer, might be too long.
+            temporary_ = path_.parent_path() / (".taut-" + std::to_string(random()));
             errno = 0;
             // "x": fails if the name is taken.
             if (std::FILE* f = std::fopen(temporary_.string().c_str(), "wbx"))

@@ -24,7 +24,10 @@ public:
         {
             const std::string_view key = in_.word();
             if (key == "v")
+            {
                 soup_.add_point(in_.numbers<3>(), in_.path(), in_.here());
+                if (!in_.line_ends()) read_extra();
+            }
             else if (key == "vt")
             {
                 const double u = in_.number();
@@ -49,6 +52,16 @@ private:
         const char* position = nullptr;
         std::size_t face = 0;
     };
+
+    /// What a v line holds behind the position: a weight or a colour, kept as it is written.
+    void read_extra()
+    {
+        std::string extra;
+        while (!in_.line_ends() && !in_.at('#')) extra.append(extra.empty() ? "" : " ").append(in_.word());
+        if (extra.empty()) return;
+        soup_.extras.resize(soup_.points.size());
+        soup_.extras.back() = std::move(extra);
+    }
 
     void read_face()
     {

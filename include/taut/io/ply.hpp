@@ -115,6 +115,8 @@ private:
 
     void read_faces(const ply_element& e)
     {
+        if (soup_.points.empty() && e.rows > 0)
+            throw io_error(path_, "the faces stand before the vertices; write the vertex element first");
         const auto is = [](const ply_property& p, std::string_view a, std::string_view b)
         { return p.counts && (p.name == a || p.name == b); };
         soup_.sizes.reserve(e.rows);

@@ -22,6 +22,7 @@ struct polygon_soup
 {
     std::vector<vec3> points;
     std::vector<vec2> texcoords;
+    std::vector<std::string> extras;  // further text of v lines; may end before the points do
     std::vector<index> corners;       // vertices of all polygons, one after the other
     std::vector<index> corner_coords; // texcoords of the corners, -1 or missing at the end: none
     std::vector<index> sizes;         // corners of each polygon
@@ -117,7 +118,7 @@ struct polygon_soup
         try
         {
             return {mesh<triangle>(std::move(points), std::move(cells)), std::move(texcoords), std::move(coord_cells),
-                    std::move(notes)};
+                    std::move(extras), std::move(notes)};
         }
         catch (const mesh_error& e)
         {

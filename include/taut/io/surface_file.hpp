@@ -27,8 +27,9 @@ struct surface_file
     mesh<triangle> surface;
     std::vector<vec2> texcoords; ///< as in the file; empty if it has none
     std::vector<std::array<index, 3>>
-        texcoord_cells;             ///< one triple a triangle, into texcoords; -1: that corner has none
-    std::vector<std::string> notes; ///< what was changed in reading, in sentences
+        texcoord_cells;                   ///< one triple a triangle, into texcoords; -1: that corner has none
+    std::vector<std::string> extras = {}; ///< OBJ: what stands on v lines behind the position (colours); else empty
+    std::vector<std::string> notes = {};  ///< what was changed in reading, in sentences
 
     /// The texture coordinate of each vertex; 0 for a vertex without a triangle.
     /// Throws texcoord_error if a vertex has none, or lies on a seam: corners with different ones.

@@ -39,8 +39,10 @@ inline void append_line(std::string& text, const char* key, std::initializer_lis
 
 /// Writes a surface and a map of it to the plane as OBJ: the vertices in their order with values that read back bit
 /// for bit, one vt a vertex, faces v/vt. The file appears complete or not at all.
-/// uv: one a vertex. Throws io_error; parameter_error if uv has another size.
-inline void write_obj(const std::filesystem::path& path, const mesh<triangle>& surface, std::span<const vec2> uv)
+/// uv: one a vertex. extras: surface_file::extras, further text for the v lines; may be shorter than the vertices.
+/// Throws io_error; parameter_error if uv has another size.
+inline void write_obj(const std::filesystem::path& path, const mesh<triangle>& surface, std::span<const vec2> uv,
+                      std::span<const std::string> extras = {})
 {
     if (uv.size() != surface.points().size())
         throw parameter_error("uv", std::to_string(uv.size()) + " texture coordinates for " +
@@ -55,9 +57,11 @@ inline void write_obj(const std::filesystem::path& path, const mesh<triangle>& s
         file.write(text);
         text.clear();
     };
-    for (const vec3& p : surface.points())
+    for (std::size_t v = 0; v < uv.size(); ++v)
     {
+        const vec3& p = surface.points()[v];
         detail::append_line(text, "v", {p.x, p.y, p.z});
+        if (v < extras.size() && !extras[v].empty()) text.insert(text.size() - 1, ' ' + extras[v]);
         flush(block);
     }
     for (const vec2& x : uv)

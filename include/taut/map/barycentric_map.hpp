@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,6 +27,9 @@ struct barycentric_params
     /// itself; one to three commonly lower the distortion of a deep surface ten to a hundred times. It ends early when
     /// a round gains less than 5 %, and the best map is kept.
     int stretch_rounds = 0;
+
+    /// Asked before each further round: go on? Without it every round is made.
+    std::function<bool()> proceed = {};
 };
 
 namespace detail
@@ -130,6 +134,7 @@ start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const b
     start_map result;
     for (int round = 0; round <= params.stretch_rounds; ++round)
     {
+        if (round > 0 && params.proceed && !params.proceed()) break;
         if (round > 0) detail::weaken_stretched(pull, m, ideal, next.uv);
         const auto system = make_barycentric_system(points, cells, fixed, next.uv, params.weights, pull);
         const std::vector<vec2> x = solver(system);

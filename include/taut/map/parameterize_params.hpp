@@ -39,7 +39,8 @@ struct parameterize_params
 
     boundary_mode boundary = boundary_mode::free;
 
-    /// Start: these coordinates, one a vertex, if there are any; else a barycentric map on a convex polygon with its
+    /// Start: these coordinates, one a vertex, if there are any (with a free boundary their place and scale do not
+    /// matter); else a barycentric map on a convex polygon with its
     /// stretch evened out, which costs little and saves most of the iterations. A start that is mirrored as a whole is
     /// turned over.
     std::vector<vec2> initial = {};
@@ -56,8 +57,21 @@ struct parameterize_params
     /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned.
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
-    /// Asked at every iterate and trial step whether to go on.
+    /// Asked at every iterate and trial step, and between the rounds of the start map, whether to go on.
     solve::observer observer = {};
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (!(time_limit.count() >= 0)) throw parameter_error("time_limit", "must not be negative");
+        if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
+            throw parameter_error("weights", "must be uniform or measure");
+        if (boundary != boundary_mode::free && boundary != boundary_mode::fixed)
+            throw parameter_error("boundary", "must be free or fixed");
+        if (precision != precision::full && precision != precision::mixed && precision != precision::single)
+            throw parameter_error("precision", "must be full, mixed or single");
+        solve.validate();
+    }
 };
 
 } // namespace taut

@@ -153,10 +153,9 @@ private:
             cell[k] = corners.items[k] / Element::corners;
             corner[k] = corners.items[k] % Element::corners;
         }
-        return gather<R>(queue_, std::span(corners.offsets).first(rows + 1), cell, corner,
-                         {.components = D,
-                          .cell_stride = layout_->cell_stride,
-                          .vertex_stride = layout_->vertex_stride});
+        return gather<R>(
+            queue_, std::span(corners.offsets).first(rows + 1), cell, corner,
+            {.components = D, .cell_stride = layout_->cell_stride, .vertex_stride = layout_->vertex_stride});
     }
 
     double summed()
@@ -213,7 +212,14 @@ private:
     static double stiffness(const any_energy& energy)
     {
         const auto at = [&](const mat<D>& S) { return energy(element<double, D>{S, glm::determinant(S), 1.0}); };
-        constexpr double h = 1e-4;
+        // At a kink the quotient grows as 1/h: such an energy has no stiffness, and 1 is as good as any.
+        const double coarse = stiffness(at, 1e-3), fine = stiffness(at, 1e-4);
+        return coarse > 0 && std::isfinite(fine) && fine < 2 * coarse ? fine : 1;
+    }
+
+    template <class Function>
+    static double stiffness(const Function& at, double h)
+    {
         double most = 0;
         const auto probe = [&](const mat<D>& direction)
         {
@@ -230,7 +236,7 @@ private:
                 direction[r][c] = 1;
                 probe(direction);
             }
-        return most > 0 ? most : 1;
+        return most;
     }
 
     queue queue_;

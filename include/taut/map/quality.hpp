@@ -155,7 +155,11 @@ quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& i
 template <class Element>
 quality measure_quality(const mesh<Element>& m, std::span<const vec<Element::dimension>> x)
 {
-    return measure_quality(m, ideal_elements<Element>(m), x);
+    // In units of the model, so that squares neither overflow nor vanish.
+    const double unit = unit_scale(m);
+    std::vector<vec<Element::dimension>> scaled(x.begin(), x.end());
+    for (auto& p : scaled) p *= unit;
+    return measure_quality<Element>(m, ideal_elements<Element>(m, unit), scaled);
 }
 
 } // namespace taut

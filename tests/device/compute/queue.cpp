@@ -119,3 +119,9 @@ TEST_CASE("queue: events complete, and tell the time where the queue profiles")
     CHECK(none.complete());
     CHECK(!none.seconds().has_value());
 }
+
+TEST_CASE("queue: a dead handle of the user's is a device_error")
+{
+    CHECK_THROWS_AS(taut::queue(static_cast<cl_context>(nullptr)), taut::device_error);
+    CHECK_THROWS_AS(taut::queue(static_cast<cl_command_queue>(nullptr)), taut::device_error);
+}

@@ -162,6 +162,100 @@ TEST_CASE("parameterize: a start of one's own is taken, turned over if it is mir
     CHECK_THROWS_AS(parameterize(q, m, wrong_size), parameter_error);
 }
 
+TEST_CASE("parameterize: place and scale of a start do not matter to a free boundary, in float either")
+{
+    queue q;
+    const auto m = dome();
+    const auto start = barycentric_map(m).uv;
+    for (const auto how : {precision::full, precision::single})
+    {
+        const auto run = [&](double scale, double shift)
+        {
+            auto initial = start;
+            for (auto& p : initial) p = p * scale + vec2(shift);
+            const solve::params few{.stopping = {.max_iterations = 20}};
+            return parameterize(q, m, {.initial = initial, .precision = how, .solve = few}).report.solve.value;
+        };
+        const double reference = run(1, 0);
+        CHECK(run(1, 1e4) == doctest::Approx(reference).epsilon(1e-2));
+        CHECK(run(1e-3, 0) == doctest::Approx(reference).epsilon(1e-2));
+        CHECK(run(std::ldexp(1.0, 960), 0) == doctest::Approx(reference).epsilon(1e-2));
+    }
+}
+
+TEST_CASE("parameterize: models of extreme size do not overflow")
+{
+    queue q;
+    for (const double scale : {1e-290, 1e290})
+    {
+        const auto r = parameterize(q, moved(dome(), scale, vec3(0)), {.solve = {.stopping = {.max_iterations = 20}}});
+        REQUIRE(r);
+        CHECK(std::isfinite(r.report.solve.value));
+        CHECK(r.report.solve.value < r.report.solve.value_start);
+        CHECK(measure_quality<triangle>(moved(dome(), scale, vec3(0)), r.uv).isometric.measure ==
+              doctest::Approx(r.report.solve.value).epsilon(1e-6));
+    }
+}
+
+namespace
+{
+/// No barrier, and least where everything collapses to a point.
+struct dirichlet
+{
+    static constexpr bool barrier = false;
+    template <class T, int D>
+    T operator()(const element<T, D>& e) const
+    {
+        return norm2(e.S);
+    }
+};
+} // namespace
+
+TEST_CASE("parameterize: an energy without a barrier folds nothing; what cannot be certified gives the start back")
+{
+    queue q;
+    const auto m = dome();
+    const auto r = parameterize(q, m, {.energy = dirichlet{}});
+    REQUIRE(r);
+    CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
+    if (r.uv == r.report.start.uv)
+    {
+        CHECK(r.report.notes.size() == 1);
+        CHECK(r.report.solve.value == r.report.solve.value_start);
+    }
+}
+
+TEST_CASE("parameterize: without double precision the start survives what float cannot hold")
+{
+    queue q(choose_device().without_fp64());
+    const auto m = dome();
+    const auto r = parameterize(q, m, {.energy = dirichlet{}, .precision = precision::single});
+    CHECK(r);
+    CHECK_THROWS_AS(parameterize(q, m), device_error);
+}
+
+TEST_CASE("parameterize: parameters outside their domain are named")
+{
+    queue q;
+    const auto m = test::single_triangle();
+    const auto field_of = [&](const parameterize_params& p)
+    {
+        try
+        {
+            parameterize(q, m, p);
+        }
+        catch (const parameter_error& e)
+        {
+            return e.field();
+        }
+        return std::string();
+    };
+    CHECK(field_of({.precision = static_cast<precision>(9)}) == "precision");
+    CHECK(field_of({.boundary = static_cast<boundary_mode>(7)}) == "boundary");
+    CHECK(field_of({.time_limit = -3s}) == "time_limit");
+    CHECK(field_of({.start = {.stretch_rounds = -1}}) == "stretch_rounds");
+}
+
 TEST_CASE("parameterize: stopping for any reason leaves a valid map")
 {
     queue q;
@@ -178,6 +272,12 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map")
     const auto late = parameterize(q, m, {.solve = endless, .time_limit = 1ms});
     CHECK(late);
     CHECK(late.report.solve.stop == solve::stop::time);
+
+    // Between the rounds of the start already.
+    int rounds = 0;
+    const auto early = parameterize(q, m, {.observer = [&](const solve::progress&) { return ++rounds < 1; }});
+    CHECK(early);
+    CHECK(early.report.solve.iterations == 0);
 
     const auto none = parameterize(q, m, {.solve = {.stopping = {.max_iterations = 0}}});
     CHECK(none);

@@ -213,3 +213,37 @@ TEST_CASE("atomic_file: a full disk is an error" * doctest::skip(!std::filesyste
     CHECK_THROWS_AS(write_all(), io::io_error);
     CHECK_FALSE(std::filesystem::is_regular_file("/dev/full"));
 }
+
+TEST_CASE("write_obj: colours behind the positions of an OBJ come back as they were written")
+{
+    const temporary_folder folder;
+    folder.write(folder / "a.obj", "v 0 0 0\nv 1 0 0 0.25 1 0.5 # a comment\nv 0 1 0\nf 1 2 3\n");
+    const auto file = io::read_surface_file(folder / "a.obj");
+    io::write_obj(folder / "b.obj", file.surface, flattened(file.surface), file.extras);
+    CHECK(folder.read(folder / "b.obj").starts_with("v 0 0 0\nv 1 0 0 0.25 1 0.5\nv 0 1 0\nvt "));
+}
+
+TEST_CASE("atomic_file: a link to a file that is not there yet makes that file")
+{
+    const temporary_folder folder;
+    std::filesystem::create_symlink("target", folder / "link");
+    io::atomic_file f(folder / "link");
+    f.write("text");
+    f.commit();
+    CHECK(std::filesystem::is_symlink(folder / "link"));
+    CHECK(folder.read(folder / "target") == "text");
+}
+
+TEST_CASE("atomic_file: the longest legal name can be written, and a replaced file keeps its permissions")
+{
+    const temporary_folder folder;
+    const auto path = folder / std::string(255, 'n');
+    folder.write(path, "old");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    io::atomic_file f(path);
+    f.write("new");
+    f.commit();
+    CHECK(folder.read(path) == "new");
+    CHECK(std::filesystem::status(path).permissions() ==
+          (std::filesystem::perms::owner_read | std::filesystem::perms::owner_write));
+}

@@ -220,3 +220,12 @@ TEST_CASE("ply: vertices that are missing or not finite are faults of the mesh, 
     CHECK(fault(ascii_head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n") == mesh_fault::non_finite);
     CHECK(fault("ply\nformat ascii 1.0\nend_header\n") == mesh_fault::empty);
 }
+
+TEST_CASE("ply: faces before the vertices are refused with the remedy")
+{
+    const std::string text = "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+                             "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+                             "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n";
+    CHECK_THROWS_WITH_AS(taut::io::parse_ply(text), doctest::Contains("write the vertex element first"),
+                         taut::io::io_error);
+}
