@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <support/meshes.hpp>
+#include <taut/compute/block_assembly.hpp>
+#include <taut/compute/multigrid.hpp>
+#include <taut/mesh/hierarchy/hierarchy.hpp>
+
+#include "support.hpp"
+
+using namespace taut;
+
+namespace
+{
+
+/// A multigrid of the energy of small displacements (sum of squared gradients plus squared divergence, D components
+/// over a planar triangulation), as element blocks. With pins, the boundary of the lower side is fixed.
+template <class T>
+multigrid<T> elastic(queue& q, const mesh<triangle>& m, int D, bool pinned, lane_form form)
+{
+    const std::size_t n = m.points().size(), d = std::size_t(D), cells = m.cells().size(), stride = padded(cells, 256);
+    std::vector<char> fixed(n, 0);
+    if (pinned)
+        for (std::size_t v = 0; v < n; ++v) fixed[v] = m.points()[v].y == 0;
+    const auto h = make_hierarchy(m, fixed);
+    std::vector<transfer_weights> transfers;
+    for (std::size_t l = 0; l < h.steps.size(); ++l)
+    {
+        transfers.push_back(
+            {h.steps[l].interpolation.columns, h.steps[l].interpolation.weights, h.levels[l + 1].vertices.size()});
+        std::vector<char> flags;
+        for (const taut::index v : h.levels[l + 1].vertices) flags.push_back(fixed[std::size_t(v)]);
+        drop_fixed(transfers.back(), flags);
+    }
+    std::vector<T> blocks(6 * d * d * stride, T(0));
+    for (std::size_t cell = 0; cell < cells; ++cell)
+    {
+        vec2 x[3], gradient[3];
+        for (std::size_t k = 0; k < 3; ++k) x[k] = vec2(m.points()[std::size_t(m.cells()[cell][k])]);
+        const double twice = (x[1].x - x[0].x) * (x[2].y - x[0].y) - (x[1].y - x[0].y) * (x[2].x - x[0].x);
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const vec2 e = x[(k + 2) % 3] - x[(k + 1) % 3];
+            gradient[k] = vec2(-e.y, e.x) / twice;
+        }
+        for (std::size_t k = 0, pair = 0; k < 3; ++k)
+            for (std::size_t l = k; l < 3; ++l, ++pair)
+                for (std::size_t a = 0; a < d; ++a)
+                    for (std::size_t b = 0; b < d; ++b)
+                    {
+                        const double div = a < 2 && b < 2 ? gradient[k][int(a)] * gradient[l][int(b)] : 0;
+                        const double same = a == b ? glm::dot(gradient[k], gradient[l]) : 0;
+                        blocks[(pair * d * d + a * d + b) * stride + cell] = T(twice * (same + div));
+                    }
+    }
+    block_matrix<T> A(q, pattern_of_cells(m.cells(), n), D, form);
+    const block_assembly<T> assembly(A, m.cells(), stride, fixed);
+    assembly(buffer<T>(q, blocks), A);
+    q.finish();
+    multigrid<T> mg(std::move(A), transfers);
+    mg.refresh();
+    return mg;
+}
+
+/// A right side that the matrix reaches.
+template <class T>
+device_vector<T> image(const multigrid<T>& mg, unsigned seed)
+{
+    const auto& A = mg.matrix();
+    auto x = A.vector(), b = A.vector();
+    const auto values = test::random_values<T>(A.rows(), seed);
+    std::vector<T> host(std::size_t(A.block_size()) * A.stride(), T(0));
+    for (std::size_t c = 0; c < std::size_t(A.block_size()); ++c)
+        for (std::size_t r = 0; r < A.rows(); ++r) host[c * A.stride() + r] = values[(r * (c + 1)) % A.rows()];
+    x.upload(host);
+    A.multiply(x, b);
+    return b;
+}
+
+/// Iterations of preconditioned conjugate gradients until the residual has fallen by `tolerance`.
+template <class T>
+int solve(queue& q, multigrid<T>& mg, double tolerance)
+{
+    const auto& A = mg.matrix();
+    auto r = image(mg, 3), x = A.vector(), z = A.vector(), p = A.vector(), Ap = A.vector();
+    const device_vectors<T> space(q, x.size());
+    const double start = std::sqrt(space.dot(r, r));
+    mg.apply(r, z);
+    space.copy(z, p);
+    double rz = space.dot(r, z);
+    for (int k = 1; k <= 60; ++k)
+    {
+        A.multiply(p, Ap);
+        const double a = rz / space.dot(p, Ap);
+        space.axpby(a, p, 1, x);
+        space.axpby(-a, Ap, 1, r);
+        if (std::sqrt(space.dot(r, r)) <= tolerance * start) return k;
+        mg.apply(r, z);
+        const double next = space.dot(r, z);
+        REQUIRE(next > 0);
+        space.axpby(1, z, next / rz, p);
+        rz = next;
+    }
+    return 1000;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("multigrid: the cycle is symmetric and positive", T, float, double)
+{
+    queue q;
+    const auto m = test::grid(test::sized(40, 14), test::sized(30, 12));
+    for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
+        for (const bool pinned : {true, false})
+            for (const int D : {2, 3})
+            {
+                CAPTURE(D);
+                CAPTURE(pinned);
+                auto mg = elastic<T>(q, m, D, pinned, form);
+                CHECK(mg.levels() >= 2);
+                CHECK(mg.solves_coarsest());
+                const auto u = image(mg, 1), v = image(mg, 2);
+                auto Mu = mg.matrix().vector(), Mv = mg.matrix().vector();
+                const auto before = q.counters();
+                mg.apply(u, Mu);
+                CHECK(q.counters().launches - before.launches == mg.launches());
+                CHECK(q.counters().waits == before.waits);
+                mg.apply(v, Mv);
+                const device_vectors<T> space(q, u.size());
+                const double uMv = space.dot(u, Mv), vMu = space.dot(v, Mu), uMu = space.dot(u, Mu),
+                             vMv = space.dot(v, Mv);
+                CHECK(uMu > 0);
+                CHECK(vMv > 0);
+                const double eps = std::is_same_v<T, double> ? 1e-9 : 2e-3;
+                CHECK(std::abs(uMv - vMu) <= eps * std::sqrt(uMu * vMv));
+                if (!pinned) continue;
+                const auto host = Mu.download();
+                for (std::size_t w = 0; w < m.points().size(); ++w)
+                    if (m.points()[w].y == 0) REQUIRE(host[w] == 0);
+            }
+}
+
+TEST_CASE("multigrid: conjugate gradients need as many cycles on fine meshes as on coarse ones")
+{
+    queue q;
+    const auto form = lane_form::for_device(q.device());
+    for (const bool pinned : {false, true})
+        for (const int D : {2, 3})
+            for (const int n : {test::sized(45, 10), test::sized(100, 14), test::sized(224, 18)})
+            {
+                auto mg = elastic<double>(q, test::grid(n, n), D, pinned, form);
+                const int its = solve(q, mg, 1e-8);
+                MESSAGE("n ", n, " D ", D, " pinned ", pinned, ": ", its, " iterations, ", mg.levels(), " levels");
+                CHECK(its <= 22);
+            }
+    auto mg = elastic<float>(q, test::grid(test::sized(100, 14), test::sized(100, 14)), 2, true, form);
+    CHECK(solve(q, mg, 1e-4) <= 14);
+}
