@@ -80,6 +80,44 @@ concept has_precondition = objective<O> && requires(O& f, const vector_of<O>& v,
     f.precondition(v, out);
 };
 
+/// Optional: `gradient(x, g)`, g = the gradient, without the value and without a wait.
+template <class O>
+concept has_gradient = objective<O> && requires(O& f, const typename O::point& x, vector_of<O>& g)
+{
+    f.gradient(x, g);
+};
+
+/// Optional: `capped_values(x, d, fraction, a, out)`, out[i] = f(x + u a[i] d) with u = min(1, fraction * max_step),
+/// which is returned: the barrier and several trial steps in one wait.
+template <class O>
+concept has_capped_values = objective<O> && requires(O& f, const typename O::point& x, const vector_of<O>& d, double u,
+                                                     std::span<const double> a, std::span<double> out)
+{
+    {
+        f.capped_values(x, d, u, a, out)
+        } -> std::convertible_to<double>;
+};
+
+/// What Newton's method needs: `linearize(x, exact)` fixes the point of all that follows; `hessian_product(v, out)`,
+/// out = A v, where A is the Hessian if `exact` and else a positive semi-definite stand-in; `precondition(v, out)`,
+/// out = M v with M an approximate inverse of the stand-in in either case.
+template <class O>
+concept has_hessian = has_precondition<O> &&
+    requires(O& f, const typename O::point& x, bool exact, const vector_of<O>& v, vector_of<O>& out)
+{
+    f.linearize(x, exact);
+    f.hessian_product(v, out);
+};
+
+/// Optional: `relax(x)` lowers f by other means than steps along one direction; whether it moved x.
+template <class O>
+concept has_relax = objective<O> && requires(O& f, typename O::point& x)
+{
+    {
+        f.relax(x)
+        } -> std::convertible_to<bool>;
+};
+
 /// Optional: `rounding()`, the relative rounding error of a value where it is above that of double.
 template <class O>
 concept has_rounding = objective<O> && requires(O& f)

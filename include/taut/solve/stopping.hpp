@@ -62,12 +62,12 @@ struct stopping_params
 /// An accepted step as the stopping tests see it.
 struct step_record
 {
-    int iteration;       ///< 1 for the first step
-    double value_before; ///< f(x_k)
-    double value;        ///< f(x_{k+1})
-    double gradient;     ///< relative norm at x_{k+1}
-    double length;       ///< |s_k|
-    bool capped;         ///< cut by a barrier
+    int iteration = 0;       ///< 1 for the first step
+    double value_before = 0; ///< f(x_k)
+    double value = 0;        ///< f(x_{k+1})
+    double gradient = 0;     ///< relative norm at x_{k+1}
+    double length = 0;       ///< |s_k|
+    bool capped = false;     ///< cut by a barrier
 };
 
 /// The tests of stopping_params over a run, with their memory of the steps before.

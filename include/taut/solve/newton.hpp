@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/solve/descent_params.hpp>
+#include <taut/solve/monitor.hpp>
+#include <taut/solve/objective.hpp>
+#include <taut/solve/pcg.hpp>
+#include <taut/solve/report.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace taut::solve
+{
+
+/// Newton's method with inexact directions.
+struct newton_params
+{
+    pcg_params pcg = {};
+
+    /// The Hessian itself takes the place of its positive semi-definite stand-in once an iteration lowers the value by
+    /// less than this part: near a minimum it halves the iterations, far from one it misleads. Range [0, 1).
+    double exact_below = 1e-3;
+
+    /// After a step shorter than this the objective is asked to relax what cut it short. Range [0, 1].
+    double relax_below = 0.5;
+
+    void validate() const
+    {
+        pcg.validate();
+        if (!(exact_below >= 0 && exact_below < 1)) throw parameter_error("newton.exact_below", "must be in [0, 1)");
+        if (!(relax_below >= 0 && relax_below <= 1)) throw parameter_error("newton.relax_below", "must be in [0, 1]");
+    }
+};
+
+namespace detail
+{
+
+/// The loop of newton(). Truncated Newton's method with a line search (Nocedal & Wright, Algorithm 7.1): the direction
+/// by preconditioned conjugate gradients, then the best of four trial steps that meets the Armijo condition.
+///
+/// | here                | meaning                                                     |
+/// |---------------------|-------------------------------------------------------------|
+/// | `x_, g_, value_`    | x_k, its gradient and value                                 |
+/// | `d_`                | d_k                                                         |
+/// | `unit`              | the longest trial step: min(1, fraction of the first flip)  |
+///
+/// Host waits of an iteration: the products of pcg and the trial steps, 2; one more for the gradient where the decrease
+/// is small enough to expect the end.
+template <objective Objective>
+class newton_loop
+{
+public:
+    using point = typename Objective::point;
+    using vector = vector_of<Objective>;
+
+    newton_loop(Objective& f, point& x, const newton_params& params, const descent_params& common, const observer& ask)
+        : f_(f),
+          x_(x),
+          params_(params),
+          common_(common),
+          rounding_(rounding(f, common)),
+          monitor_(ask, common.stopping.time_limit),
+          test_(common.stopping, rounding_),
+          pcg_(f.space(), params.pcg),
+          previous_(f.make_point()),
+          g_(f.space().make()),
+          d_(f.space().make())
+    {
+    }
+
+    report run()
+    {
+        std::optional<solve::stop> reason = start();
+        while (!reason) reason = iterate();
+        report_.stop = *reason;
+        report_.evaluations = monitor_.evaluations();
+        report_.gradients = monitor_.gradients();
+        report_.seconds = monitor_.seconds();
+        return std::move(report_);
+    }
+
+private:
+    static double rounding(Objective& f, const descent_params& common)
+    {
+        if constexpr (has_rounding<Objective>) return std::max<double>(f.rounding(), common.line_search.rounding);
+        return common.line_search.rounding;
+    }
+
+    std::optional<solve::stop> start()
+    {
+        value_ = report_.value_start = report_.value = f_.value_gradient(x_, g_);
+        monitor_.count(1, 1);
+        const double norm = std::sqrt(f_.space().dot(g_, g_));
+        if (!std::isfinite(value_) || !std::isfinite(norm)) return solve::stop::not_finite_start;
+        scale_ = norm;
+        if constexpr (has_gradient_scale<Objective>) scale_ = f_.gradient_scale(x_);
+        scale_ = std::max(scale_, std::numeric_limits<double>::min());
+        step_.value_before = std::numeric_limits<double>::infinity();
+        record(norm);
+        if (const auto reason = test_.start(norm / scale_)) return reason;
+        return monitor_.reason();
+    }
+
+    std::optional<solve::stop> iterate()
+    {
+        const bool exact = step_.value_before - value_ < params_.exact_below * std::abs(value_);
+        if (auto reason = direction(exact)) return reason;
+        // An indefinite Hessian may have misled; its stand-in does not.
+        std::optional<trial> found = search();
+        if (!found && exact && !monitor_.reason())
+        {
+            if (auto reason = direction(false)) return reason;
+            found = search();
+        }
+        if (monitor_.reason()) return monitor_.reason();
+        if (!found) return solve::stop::line_search;
+        return accept(*found);
+    }
+
+    /// d_ for the current point; a reason to stop if the norm of the gradient, which comes with it, gives one.
+    std::optional<solve::stop> direction(bool exact)
+    {
+        f_.linearize(x_, exact);
+        if (!monitor_.proceed()) return monitor_.reason();
+        model_ = pcg_.solve(
+            g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
+            [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_);
+        report_.products += model_.steps;
+        if (!pending_) return std::nullopt;
+        if (std::isfinite(model_.gradient_squared)) return settle(std::sqrt(model_.gradient_squared));
+        // The step went beyond what the arithmetic can tell from a fold.
+        f_.copy(previous_, x_);
+        return solve::stop::line_search;
+    }
+
+    struct trial
+    {
+        double step, value;
+        bool capped;
+    };
+
+    /// The step of the lowest value among four, or among ever shorter ones until one meets the Armijo condition; the
+    /// longest of those that rounding cannot tell apart.
+    std::optional<trial> search()
+    {
+        if (!(model_.slope < 0)) return std::nullopt;
+        constexpr double armijo = 1e-4;
+        constexpr int rounds = 8;
+        const double noise = rounding_ * std::abs(value_);
+        double unit = 1, longest = 1;
+        for (int round = 0; round < rounds && monitor_.proceed(); ++round, longest /= 16)
+        {
+            std::array<double, 4> a, values;
+            for (std::size_t i = 0; i < a.size(); ++i) a[i] = std::ldexp(longest, -int(i));
+            if (round == 0)
+                unit = first_values(a, values);
+            else
+                later_values(unit, a, values);
+            monitor_.count(int(a.size()), 0);
+            double least = std::numeric_limits<double>::infinity();
+            const auto good = [&](std::size_t i)
+            { return values[i] <= value_ + armijo * unit * a[i] * model_.slope + noise; };
+            for (std::size_t i = 0; i < a.size(); ++i)
+                if (good(i)) least = std::min(least, values[i]);
+            for (std::size_t i = 0; i < a.size(); ++i)
+                if (good(i) && values[i] <= least + noise) return trial{unit * a[i], values[i], unit < 1 && a[i] == 1};
+        }
+        return std::nullopt;
+    }
+
+    /// Values at unit * a; returns the unit.
+    double first_values(std::span<const double> a, std::span<double> values)
+    {
+        const double fraction = common_.line_search.barrier_fraction;
+        if constexpr (has_capped_values<Objective>)
+            return f_.capped_values(x_, d_, fraction, a, values);
+        else
+        {
+            double unit = 1;
+            if constexpr (has_max_step<Objective>) unit = std::min(1.0, fraction * f_.max_step(x_, d_));
+            later_values(unit, a, values);
+            return unit;
+        }
+    }
+
+    void later_values(double unit, std::span<const double> a, std::span<double> values)
+    {
+        std::vector<double> steps;
+        for (const double s : a) steps.push_back(unit * s);
+        if constexpr (has_values<Objective>)
+            f_.values(x_, d_, steps, values);
+        else
+            for (std::size_t i = 0; i < steps.size(); ++i)
+            {
+                f_.copy(x_, previous_);
+                f_.step(x_, steps[i], d_, previous_);
+                values[i] = f_.value(previous_);
+            }
+    }
+
+    /// x_k -> x_{k+1}.
+    std::optional<solve::stop> accept(const trial& t)
+    {
+        f_.copy(x_, previous_);
+        f_.step(previous_, t.step, d_, x_);
+        step_ = {.iteration = ++report_.iterations,
+                 .value_before = std::exchange(value_, t.value),
+                 .value = t.value,
+                 .gradient = 0,
+                 .length = t.step * std::sqrt(-model_.slope),
+                 .capped = t.capped};
+        taken_ = t.step;
+        if constexpr (has_relax<Objective>)
+            if (t.step < params_.relax_below && f_.relax(x_))
+            {
+                step_.value = value_ = f_.value(x_);
+                monitor_.count(1, 0);
+            }
+        gradient();
+        pending_ = true;
+        constexpr double near_end = 1e-2;
+        if (step_.value_before - value_ > near_end * std::abs(value_)) return monitor_.reason();
+        return settle(std::sqrt(f_.space().dot(g_, g_)));
+    }
+
+    void gradient()
+    {
+        if constexpr (has_gradient<Objective>)
+            f_.gradient(x_, g_);
+        else
+            value_ = step_.value = f_.value_gradient(x_, g_);
+        monitor_.count(0, 1);
+    }
+
+    /// Books the last step, now that its gradient is known.
+    std::optional<solve::stop> settle(double norm)
+    {
+        pending_ = false;
+        record(norm);
+        step_.gradient = norm / scale_;
+        const auto reason = test_.after(step_);
+        return reason ? reason : monitor_.reason();
+    }
+
+    void record(double norm)
+    {
+        report_.value = value_;
+        report_.gradient_norm = norm / scale_;
+        monitor_.iterate(report_.iterations, value_, report_.gradient_norm, taken_);
+        report_.history.push_back({.iteration = report_.iterations,
+                                   .value = value_,
+                                   .gradient = report_.gradient_norm,
+                                   .step = taken_,
+                                   .capped = step_.capped,
+                                   .evaluations = monitor_.evaluations(),
+                                   .seconds = monitor_.seconds()});
+    }
+
+    Objective& f_;
+    point& x_;
+    newton_params params_;
+    descent_params common_;
+    double rounding_;
+    monitor monitor_;
+    stopping_test test_;
+    solve::pcg<space_of<Objective>> pcg_;
+    point previous_;
+    vector g_, d_;
+    pcg_result model_;
+    step_record step_;
+    double value_ = 0, scale_ = 1, taken_ = 0;
+    bool pending_ = false; // the last step has no gradient norm yet
+    report report_;
+};
+
+} // namespace detail
+
+/// Minimises f from x by truncated Newton's method with the preconditioner of the objective. x ends at the best
+/// iterate whatever the reason to stop. Throws parameter_error, and nothing else but what f and the observer do.
+template <objective Objective>
+    requires has_hessian<Objective> report newton(Objective& f, typename Objective::point& x,
+                                                  const newton_params& params = {}, const descent_params& common = {},
+                                                  const observer& ask = {})
+    {
+        params.validate();
+        common.validate();
+        return detail::newton_loop<Objective>(f, x, params, common, ask).run();
+    }
+
+} // namespace taut::solve

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "functions.hpp"
+
+#include <taut/solve/newton.hpp>
+
+#include <doctest/doctest.h>
+
+using namespace taut::solve;
+
+namespace
+{
+
+using matrix = std::vector<std::vector<double>>;
+
+/// Adds a Hessian to a function with a gradient; the preconditioner is the inverse of the stand-in's diagonal.
+template <class Function, class Hessian>
+class with_hessian : public Function
+{
+public:
+    with_hessian(Function f, Hessian h) : Function(std::move(f)), h_(std::move(h)) {}
+
+    void linearize(const std::vector<double>& x, bool exact)
+    {
+        A_ = h_(x, exact);
+        stand_in_ = h_(x, false);
+        exact_iterations += exact;
+    }
+    void hessian_product(const std::vector<double>& v, std::vector<double>& out) const
+    {
+        for (std::size_t i = 0; i < v.size(); ++i)
+        {
+            out[i] = 0;
+            for (std::size_t j = 0; j < v.size(); ++j) out[i] += A_[i][j] * v[j];
+        }
+    }
+    void precondition(const std::vector<double>& v, std::vector<double>& out) const
+    {
+        for (std::size_t i = 0; i < v.size(); ++i) out[i] = v[i] / stand_in_[i][i];
+    }
+
+    int exact_iterations = 0;
+
+private:
+    Hessian h_;
+    matrix A_, stand_in_;
+};
+
+/// The Hessian of functions::rosenbrock, and its Gauss-Newton part.
+matrix rosenbrock_hessian(const std::vector<double>& x, bool exact)
+{
+    const std::size_t n = x.size();
+    matrix H(n, std::vector<double>(n, 0.0));
+    for (std::size_t i = 0; i + 1 < n; ++i)
+    {
+        const double b = x[i + 1] - x[i] * x[i];
+        H[i][i] += 2 + 800 * x[i] * x[i] - (exact ? 400 * b : 0);
+        H[i + 1][i + 1] += 200;
+        H[i][i + 1] -= 400 * x[i];
+        H[i + 1][i] -= 400 * x[i];
+    }
+    return H;
+}
+
+/// Rosenbrock's function and 1: relative decreases then become small.
+auto rosenbrock(std::size_t n)
+{
+    auto raised =
+        host_objective(n,
+                       [f = functions::rosenbrock(n), n](std::span<const double> x, std::span<double> g) mutable
+                       {
+                           std::vector<double> gradient(n);
+                           const double value = f.value_gradient({x.begin(), x.end()}, gradient);
+                           std::copy(gradient.begin(), gradient.end(), g.begin());
+                           return value + 1;
+                       });
+    return with_hessian(std::move(raised), rosenbrock_hessian);
+}
+
+/// Residual norms of textbook conjugate gradients from 0 for A = diag(1..n), M = 1.
+double model_after(const std::vector<double>& g, int steps)
+{
+    const std::size_t n = g.size();
+    std::vector<double> d(n, 0.0), r(n), p(n);
+    for (std::size_t i = 0; i < n; ++i) p[i] = r[i] = -g[i];
+    for (int k = 0; k < steps; ++k)
+    {
+        double rr = 0, pAp = 0, new_rr = 0;
+        for (std::size_t i = 0; i < n; ++i) rr += r[i] * r[i], pAp += p[i] * double(i + 1) * p[i];
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            d[i] += rr / pAp * p[i];
+            r[i] -= rr / pAp * double(i + 1) * p[i];
+            new_rr += r[i] * r[i];
+        }
+        for (std::size_t i = 0; i < n; ++i) p[i] = r[i] + new_rr / rr * p[i];
+    }
+    double model = 0;
+    for (std::size_t i = 0; i < n; ++i) model -= g[i] * d[i] + double(i + 1) * d[i] * d[i] / 2;
+    return model;
+}
+
+} // namespace
+
+TEST_CASE("pcg: any block size reaches what conjugate gradients reach after as many steps")
+{
+    const std::size_t n = 40;
+    host_space space(n);
+    std::vector<double> g(n), d(n);
+    for (std::size_t i = 0; i < n; ++i) g[i] = std::sin(double(7 * i + 1));
+    const auto A = [](const std::vector<double>& v, std::vector<double>& out)
+    {
+        for (std::size_t i = 0; i < v.size(); ++i) out[i] = double(i + 1) * v[i];
+    };
+    const auto M = [](const std::vector<double>& v, std::vector<double>& out) { out = v; };
+
+    for (const int block : {1, 2, 3})
+        for (const int steps : {block, 2 * block})
+        {
+            pcg solver(space, pcg_params{.max_steps = steps, .block = block, .gain = 1e-12});
+            const auto result = solver.solve(g, A, M, d);
+            CAPTURE(block);
+            CAPTURE(steps);
+            CHECK(result.steps == steps);
+            CHECK(result.decrease == doctest::Approx(model_after(g, steps)));
+            CHECK(result.gradient_squared == doctest::Approx(space.dot(g, g)));
+            CHECK(result.slope == doctest::Approx(space.dot(g, d)));
+        }
+}
+
+TEST_CASE("pcg: an exact preconditioner needs one step and stops by itself")
+{
+    const std::size_t n = 10;
+    host_space space(n);
+    std::vector<double> g(n, 1.0), d(n);
+    const auto A = [](const std::vector<double>& v, std::vector<double>& out)
+    {
+        for (std::size_t i = 0; i < v.size(); ++i) out[i] = double(i + 1) * v[i];
+    };
+    const auto M = [](const std::vector<double>& v, std::vector<double>& out)
+    {
+        for (std::size_t i = 0; i < v.size(); ++i) out[i] = v[i] / double(i + 1);
+    };
+    const auto result = pcg(space, {}).solve(g, A, M, d);
+    CHECK(result.steps == 1);
+    for (std::size_t i = 0; i < n; ++i) CHECK(d[i] == doctest::Approx(-1 / double(i + 1)));
+}
+
+TEST_CASE("pcg: negative curvature ends the search with a direction of descent")
+{
+    host_space space(2);
+    const auto M = [](const std::vector<double>& v, std::vector<double>& out) { out = v; };
+    std::vector<double> d(2);
+    SUBCASE("at once")
+    {
+        const auto A = [](const std::vector<double>& v, std::vector<double>& out) { out = {-v[0], -2 * v[1]}; };
+        const auto result = pcg(space, {}).solve({1.0, 2.0}, A, M, d);
+        CHECK(result.steps == 1);
+        CHECK(d == std::vector<double>{-1.0, -2.0});
+        CHECK(result.slope == doctest::Approx(-5));
+    }
+    SUBCASE("in the second step")
+    {
+        const auto A = [](const std::vector<double>& v, std::vector<double>& out) { out = {4 * v[0], -v[1]}; };
+        const auto result = pcg(space, {}).solve({1.0, 1.0}, A, M, d);
+        CHECK(result.steps == 1);
+        CHECK(result.slope < 0);
+    }
+}
+
+TEST_CASE("newton: finds the minimum of Rosenbrock's function in few iterations")
+{
+    for (const std::size_t n : {2, 10, 30})
+    {
+        auto f = rosenbrock(n);
+        std::vector<double> x = functions::rosenbrock_start(n);
+        if (n > 2) // away from the second, local minimum
+            for (double& v : x) v = 0.5;
+        const auto r = newton(f, x, {.pcg = {.max_steps = 16, .gain = 0.01}},
+                              {.stopping = {.gradient_tolerance = 1e-10, .max_iterations = 200}});
+        CAPTURE(n);
+        CHECK(r.stop == stop::gradient);
+        CHECK(r.iterations <= 80);
+        CHECK(f.exact_iterations > 0);
+        for (const double v : x) CHECK(v == doctest::Approx(1));
+        for (std::size_t k = 1; k < r.history.size(); ++k) CHECK(r.history[k].value <= r.history[k - 1].value);
+        CHECK(r.history.back().value == r.value);
+    }
+}
+
+TEST_CASE("newton: a quadratic takes one iteration for each space of directions")
+{
+    const std::size_t n = 12;
+    auto f = with_hessian(functions::quadratic(n, 1e4),
+                          [](const std::vector<double>& x, bool)
+                          {
+                              matrix H(x.size(), std::vector<double>(x.size(), 0.0));
+                              for (std::size_t i = 0; i < x.size(); ++i)
+                                  H[i][i] = std::pow(1e4, double(i) / double(x.size() - 1));
+                              return H;
+                          });
+    std::vector<double> x(n, 0.0);
+    const auto r = newton(f, x, {}, {.stopping = {.gradient_tolerance = 1e-12}});
+    CHECK(r.iterations == 1); // the preconditioner is the inverse
+    CHECK(r.stop == stop::gradient);
+}
+
+TEST_CASE("newton: limits, the observer and bad parameters end a run as in the other methods")
+{
+    auto f = rosenbrock(2);
+    auto x = functions::rosenbrock_start(2);
+    CHECK(newton(f, x, {}, {.stopping = {.max_iterations = 3}}).stop == stop::iterations);
+    CHECK(newton(f, x, {}, {}, [](const progress& p) { return p.iteration < 2; }).stop == stop::user);
+    std::vector<double> bad{std::numeric_limits<double>::infinity(), 0.0};
+    CHECK(newton(f, bad).stop == stop::not_finite_start);
+    CHECK_THROWS_AS(newton(f, x, {.pcg = {.block = 5}}), taut::parameter_error);
+    CHECK_THROWS_AS(newton(f, x, {.exact_below = 1}), taut::parameter_error);
+}
