@@ -6,6 +6,7 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -79,14 +80,16 @@ inline nlohmann::ordered_json circumstances(const taut::queue& q)
             {"results", nlohmann::ordered_json::array()}};
 }
 
-/// --quick, --json FILE, and paths.
+/// --quick, --json FILE, further options with a value that the program names, and paths.
 struct options
 {
     bool quick = false;
     std::string json;
+    std::map<std::string, std::string> values; ///< of the further options that were given
     std::vector<std::string> paths;
 
-    options(int argc, char** argv)
+    /// further: their names, "--levels 0,1" say as "--levels".
+    options(int argc, char** argv, const std::vector<std::string>& further = {})
     {
         for (int i = 1; i < argc; ++i)
         {
@@ -95,11 +98,19 @@ struct options
                 quick = true;
             else if (word == "--json" && i + 1 < argc)
                 json = argv[++i];
+            else if (std::find(further.begin(), further.end(), word) != further.end() && i + 1 < argc)
+                values[word] = argv[++i];
             else if (word.starts_with("-"))
-                throw std::invalid_argument("unknown option " + word + "; usage: [--quick] [--json FILE] [MESH...]");
+                throw std::invalid_argument("unknown option " + word + usage(further));
             else
                 paths.push_back(word);
         }
+    }
+
+    std::string value(const std::string& name, const std::string& otherwise) const
+    {
+        const auto found = values.find(name);
+        return found == values.end() ? otherwise : found->second;
     }
 
     void write(const nlohmann::ordered_json& report) const
@@ -108,6 +119,14 @@ struct options
         std::ofstream file(json);
         file << report.dump(2) << '\n';
         if (!file.flush()) throw std::runtime_error("cannot write " + json);
+    }
+
+private:
+    static std::string usage(const std::vector<std::string>& further)
+    {
+        std::string text = "; usage: [--quick] [--json FILE]";
+        for (const auto& name : further) text += " [" + name + " VALUE]";
+        return text + " [MESH...]";
     }
 };
 

@@ -93,10 +93,11 @@ try
     // The released code of the paper keeps one pair and searches lines by values (hybrid); more pairs, and a gradient
     // at every trial (strong Wolfe), are what the same launches can buy.
     using enum solve::line_search_method;
-    const variant variants[] = {{"hybrid, 5 pairs", precision::full, hybrid, 5}, // the library's default for this method
-                                {"the same, mixed", precision::mixed, hybrid, 5},
-                                {"hybrid, 1 pair", precision::full, hybrid, 1}, // as in the authors' released code
-                                {"Wolfe, 5 pairs", precision::full, strong_wolfe, 5}};
+    const variant variants[] = {
+        {"hybrid, 5 pairs", precision::full, hybrid, 5}, // the library's default for this method
+        {"the same, mixed", precision::mixed, hybrid, 5},
+        {"hybrid, 1 pair", precision::full, hybrid, 1}, // as in the authors' released code
+        {"Wolfe, 5 pairs", precision::full, strong_wolfe, 5}};
     std::printf("mesh             triangles  variant          its      E - 1  seconds    ms/it enqueues   waits  "
                 "values  stop\n");
     for (const auto& [name, m] : surfaces)

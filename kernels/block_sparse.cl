@@ -7,13 +7,14 @@
 // Missing nonzeros have value 0 and name their own row.
 // Vectors: component c of vertex v at [c * stride + v]; stride is a multiple of 256 and its padding zero.
 //
-// Macros: REAL float or double; D block size; C rows a slice; V rows an item. (16, 16): CPUs, where explicit vectors
-// keep the arithmetic wide although the gathers are not; (32, 1): GPUs, where a slice is a warp.
+// Macros: REAL float or double; D block size; C rows a slice; V rows an item; TEAM items of the group of invert_dense.
+// (C, V) = (16, 16): CPUs, where explicit vectors keep the arithmetic wide although the gathers are not; (32, 1): GPUs,
+// where a slice is a warp.
 //
-// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=2 -DC=16 -DV=16 -DEPSILON=1e-12
-// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=3 -DC=16 -DV=16 -DEPSILON=2e-6f
-// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=2 -DC=32 -DV=1 -DEPSILON=2e-6f
-// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DC=32 -DV=1 -DEPSILON=1e-12
+// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=2 -DC=16 -DV=16 -DTEAM=1 -DEPSILON=1e-12
+// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=3 -DC=16 -DV=16 -DTEAM=1 -DEPSILON=2e-6f
+// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=2 -DC=32 -DV=1 -DTEAM=64 -DEPSILON=2e-6f
+// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DC=32 -DV=1 -DTEAM=64 -DEPSILON=1e-12
 
 #if REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -97,13 +98,12 @@ __kernel void residual(const int stride, __global const int* offsets, __global c
     UNROLLED (int c = 0; c < D; ++c) STORE(LOAD(b, c * stride + i) - sum[c], r, c * stride + i);
 }
 
-/// One step of a polynomial smoother: out = now x + past before + scale inverse (b - A x). out may be before, not x.
-__kernel void smooth(const int stride, __global const int* offsets, __global const int* columns,
-                     __global const REAL* A, __global const REAL* inverse, __global const REAL* b,
-                     __global const REAL* x, __global const REAL* before, const REAL now, const REAL past,
-                     const REAL scale, __global REAL* out)
+inline void smooth_rows(const int slice, const int lane, const int stride, __global const int* offsets,
+                        __global const int* columns, __global const REAL* A, __global const REAL* inverse,
+                        __global const REAL* b, __global const REAL* x, __global const REAL* before, const REAL now,
+                        const REAL past, const REAL scale, __global REAL* out)
 {
-    const int slice = SLICE, lane = LANE, i = slice * C + lane;
+    const int i = slice * C + lane;
     REALV r[D], d[D];
     multiply(slice, lane, stride, offsets, columns, A, x, r);
     UNROLLED (int c = 0; c < D; ++c) r[c] = LOAD(b, c * stride + i) - r[c];
@@ -112,15 +112,29 @@ __kernel void smooth(const int stride, __global const int* offsets, __global con
         STORE(now * LOAD(x, c * stride + i) + past * LOAD(before, c * stride + i) + scale * d[c], out, c * stride + i);
 }
 
-/// out = scale inverse b
-__kernel void jacobi(const int stride, __global const REAL* inverse, __global const REAL* b, const REAL scale,
-                     __global REAL* out)
+/// One step of a polynomial smoother: out = now x + past before + scale inverse (b - A x). out may be before, not x.
+__kernel void smooth(const int stride, __global const int* offsets, __global const int* columns,
+                     __global const REAL* A, __global const REAL* inverse, __global const REAL* b,
+                     __global const REAL* x, __global const REAL* before, const REAL now, const REAL past,
+                     const REAL scale, __global REAL* out)
 {
-    const int i = SLICE * C + LANE;
+    smooth_rows(SLICE, LANE, stride, offsets, columns, A, inverse, b, x, before, now, past, scale, out);
+}
+
+inline void first_step(const int i, const int stride, __global const REAL* inverse, __global const REAL* b,
+                       const REAL scale, __global REAL* out)
+{
     REALV r[D], d[D];
     UNROLLED (int c = 0; c < D; ++c) r[c] = LOAD(b, c * stride + i);
     invert(i, stride, inverse, r, d);
     UNROLLED (int c = 0; c < D; ++c) STORE(scale * d[c], out, c * stride + i);
+}
+
+/// out = scale inverse b
+__kernel void jacobi(const int stride, __global const REAL* inverse, __global const REAL* b, const REAL scale,
+                     __global REAL* out)
+{
+    first_step(SLICE * C + LANE, stride, inverse, b, scale, out);
 }
 
 /// Inverses of the diagonal blocks (nonzero 0 of each row), packed. The factorization L d L' keeps each pivot above
@@ -163,68 +177,141 @@ __kernel void invert_blocks(const int stride, __global const int* offsets, __glo
         }
 }
 
-/// Values from element blocks: the blocks of C places at a time, each the sum of its list of slots. Slot
-/// pair * D * D * cells + cell, or its complement where the transposed block counts, or NONE.
+/// The sum of a list of element blocks. Slot: where entry 0 is; entries are `cells` apart. NONE ends a lane's list; the
+/// complement of a slot stands for the transposed block. Diagonal blocks hold their upper triangle.
 #define NONE 0x7fffffff
-__kernel void assemble(const int slices, const int cells, __global const int* offsets, __global const int* slots,
-                       __global const REAL* blocks, __global REAL* A)
+inline REALV entries(__global const REAL* blocks, const INTV from, const INTV none)
 {
-    const int slice = SLICE, lane = LANE;
-    if (slice >= slices) return;
-    REALV sum[D * D];
-    UNROLLED (int e = 0; e < D * D; ++e) sum[e] = 0;
-    const int end = offsets[slice + 1];
-    for (int at = offsets[slice]; at < end; at += C)
-    {
-        const INTV s = LOAD(slots, at + lane);
-        const INTV from = WHERE_INT(s == NONE, (INTV)0, WHERE_INT(s < 0, ~s, s));
-        UNROLLED (int r = 0; r < D; ++r)
-            UNROLLED (int c = 0; c < D; ++c)
-            {
-                const INTV entry = WHERE_INT(s < 0, (INTV)((c * D + r) * cells), (INTV)((r * D + c) * cells));
-                const REALV value = GATHER(blocks, from + entry);
+    const REALV value = GATHER(blocks, from);
 #if V > 1 && REAL_IS_DOUBLE
-                sum[r * D + c] += WHERE(convert_long16(s == NONE), (REALV)0, value);
+    return select(value, (REALV)0, convert_long16(none));
 #else
-                sum[r * D + c] += WHERE(s == NONE, (REALV)0, value);
+    return WHERE(none, (REALV)0, value);
 #endif
-            }
-    }
-    UNROLLED (int e = 0; e < D * D; ++e) STORE(sum[e], A, slice * C * D * D + e * C + lane);
 }
 
-/// Values of the coarse matrix P' A P: block by block, the sum of its list of fine blocks with weights. targets: where
-/// each block goes, -1 for none; lists of like length share a slice.
-__kernel void galerkin(const int slices, __global const int* offsets, __global const int* places,
-                       __global const REAL* weights, __global const int* targets, __global const REAL* fine,
-                       __global REAL* coarse)
+/// Values from element blocks, a slice of rows an item. The lists of the diagonal belong to rows, the others to C places
+/// at a time.
+__kernel void assemble(const int cells, __global const int* offsets, __global const int* diagonal_offsets,
+                       __global const int* diagonal_slots, __global const int* slot_offsets,
+                       __global const int* slots, __global const REAL* blocks, __global REAL* A)
 {
     const int slice = SLICE, lane = LANE;
-    if (slice >= slices) return;
+    if (offsets[slice] == offsets[slice + 1]) return;
     REALV sum[D * D];
-    UNROLLED (int e = 0; e < D * D; ++e) sum[e] = 0;
-    const int end = offsets[slice + 1];
-    for (int at = offsets[slice]; at < end; at += C)
+    UNROLLED (int e = 0; e < PACKED; ++e) sum[e] = 0;
+    for (int at = diagonal_offsets[slice]; at < diagonal_offsets[slice + 1]; at += C)
     {
-        const INTV from = LOAD(places, at + lane);
-        const REALV w = LOAD(weights, at + lane);
-        UNROLLED (int e = 0; e < D * D; ++e) sum[e] += w * GATHER(fine, from + e * C);
+        const INTV s = LOAD(diagonal_slots, at + lane), none = s == NONE, from = WHERE_INT(none, (INTV)0, s);
+        UNROLLED (int e = 0; e < PACKED; ++e) sum[e] += entries(blocks, from + e * cells, none);
     }
-    for (int e = 0; e < D * D; ++e)
+    UNROLLED (int r = 0; r < D; ++r)
+        UNROLLED (int c = 0; c < D; ++c)
+            STORE(sum[PACK(r, c)], A, offsets[slice] * D * D + (r * D + c) * C + lane);
+
+    for (int place = offsets[slice] + C; place < offsets[slice + 1]; place += C)
     {
-        REAL s[V];
-        STORE(sum[e], s, 0);
-        for (int v = 0; v < V; ++v)
+        UNROLLED (int e = 0; e < D * D; ++e) sum[e] = 0;
+        for (int at = slot_offsets[place / C]; at < slot_offsets[place / C + 1]; at += C)
         {
-            const int target = targets[slice * C + lane + v];
-            if (target >= 0) coarse[target + e * C] = s[v];
+            const INTV s = LOAD(slots, at + lane), none = s == NONE, below = s < 0;
+            const INTV from = WHERE_INT(none, (INTV)0, WHERE_INT(below, ~s, s));
+            UNROLLED (int r = 0; r < D; ++r)
+                UNROLLED (int c = 0; c < D; ++c)
+                {
+                    const INTV entry = WHERE_INT(below, (INTV)((c * D + r) * cells), (INTV)((r * D + c) * cells));
+                    sum[r * D + c] += entries(blocks, from + entry, none);
+                }
         }
+        UNROLLED (int e = 0; e < D * D; ++e) STORE(sum[e], A, place * D * D + e * C + lane);
     }
 }
 
-/// b = P' r, and the smoother's first step from zero: x = scale inverse b.
+/// Adds P(i, I) A(i, j) P(j, J) to the block of J in row I for all nonzeros of row I of P' A P, I = slice * C + lane.
+/// `find` tells where the block of column J is; its entries are `step` apart. A row of P without weights has no columns;
+/// in others, places without a weight repeat a column, which saves a branch.
+#define ADD_TERMS(find, target, step)                                                                                  \
+    for (int t = transpose_offsets[slice] + lane; t < transpose_offsets[slice + 1]; t += C)                            \
+    {                                                                                                                  \
+        const int term = transpose[t];                                                                                 \
+        if (term < 0) break;                                                                                           \
+        const REAL left = weights[term];                                                                               \
+        const int i = term - ((term >= fine_stride) + (term >= 2 * fine_stride)) * fine_stride, fine_lane = i % C;     \
+        const int first = fine_offsets[i / C], end = fine_offsets[i / C + 1];                                          \
+        for (int at = first; at < end; at += C)                                                                        \
+        {                                                                                                              \
+            const int j = fine_columns[at + fine_lane];                                                                \
+            if (j == i && at > first) break;                                                                           \
+            REAL block[D * D];                                                                                         \
+            UNROLLED (int e = 0; e < D * D; ++e) block[e] = left * fine[at * D * D + e * C + fine_lane];               \
+            REAL right[3];                                                                                             \
+            UNROLLED (int l = 0; l < 3; ++l) right[l] = weights[l * fine_stride + j];                                  \
+            if (right[0] == 0 && right[1] == 0 && right[2] == 0) continue;                                             \
+            UNROLLED (int l = 0; l < 3; ++l)                                                                           \
+            {                                                                                                          \
+                const int J = prolongation[l * fine_stride + j];                                                       \
+                find;                                                                                                  \
+                UNROLLED (int e = 0; e < D * D; ++e) target[e * step] += right[l] * block[e];                          \
+            }                                                                                                          \
+        }                                                                                                              \
+    }
+
+/// Rows of so many nonzeros are summed in private memory, with a table of four times as many places.
+#define SHORT_ROW 32
+#define TABLE 128
+#define HASH(J) (((uint)(J)*0x9e3779b1u) >> 25)
+
+/// Values of the coarse matrix P' A P, row by row; an item does a lane or, on CPUs, all rows of its slice. transpose:
+/// for each coarse row the places in `weights` of its column of P, ended by -1.
+__kernel void galerkin(const int rows, const int fine_stride, __global const int* transpose_offsets,
+                       __global const int* transpose, __global const int* prolongation, __global const REAL* weights,
+                       __global const int* fine_offsets, __global const int* fine_columns, __global const REAL* fine,
+                       __global const int* offsets, __global const int* columns, __global REAL* coarse)
+{
+    const int slice = SLICE;
+    if (slice * C >= rows) return;
+    const int start = offsets[slice], stop = offsets[slice + 1];
+    for (int lane = LANE; lane < LANE + V; ++lane)
+    {
+        const int I = slice * C + lane;
+        int length = I < rows ? 1 : 0;
+        while (I < rows && start + length * C < stop && columns[start + length * C + lane] != I) ++length;
+        __global REAL* row = coarse + start * D * D + lane;
+#if V > 1
+        if (length <= SHORT_ROW)
+        {
+            REAL sums[SHORT_ROW * D * D];
+            int keys[TABLE], numbers[TABLE];
+            for (int k = 0; k < TABLE; ++k) keys[k] = -1;
+            for (int j = 0; j < length; ++j)
+            {
+                const int column = columns[start + j * C + lane];
+                uint h = HASH(column);
+                while (keys[h] >= 0) h = (h + 1) % TABLE;
+                keys[h] = column;
+                numbers[h] = j;
+            }
+            for (int k = 0; k < length * D * D; ++k) sums[k] = 0;
+            if (length > 0)
+                ADD_TERMS(uint h = HASH(J); while (keys[h] != J) h = (h + 1) % TABLE;
+                          REAL* sum = sums + numbers[h] * D * D, sum, 1)
+            for (int j = 0; start + j * C < stop; ++j)
+                UNROLLED (int e = 0; e < D * D; ++e)
+                    row[j * C * D * D + e * C] = j < length ? sums[j * D * D + e] : 0;
+            continue;
+        }
+#endif
+        for (int j = 0; start + j * C < stop; ++j)
+            UNROLLED (int e = 0; e < D * D; ++e) row[j * C * D * D + e * C] = 0;
+        if (length > 0)
+            ADD_TERMS(int number = 0; while (columns[start + number * C + lane] != J)++ number;
+                      __global REAL* sum = row + number * C * D * D, sum, C)
+    }
+}
+
+/// b = P' r, and the smoother's first step from zero: x = scale inverse b. transpose: see galerkin.
 __kernel void restrict_residual(const int fine_stride, const int stride, __global const int* offsets,
-                                __global const int* rows, __global const REAL* weights, __global const REAL* r,
+                                __global const int* transpose, __global const REAL* weights, __global const REAL* r,
                                 __global const REAL* inverse, const REAL scale, __global REAL* b, __global REAL* x)
 {
     const int slice = SLICE, lane = LANE, i = slice * C + lane;
@@ -233,9 +320,12 @@ __kernel void restrict_residual(const int fine_stride, const int stride, __globa
     const int end = offsets[slice + 1];
     for (int at = offsets[slice]; at < end; at += C)
     {
-        const INTV from = LOAD(rows, at + lane);
-        const REALV w = LOAD(weights, at + lane);
-        UNROLLED (int c = 0; c < D; ++c) sum[c] += w * GATHER(r + c * fine_stride, from);
+        const INTV term = LOAD(transpose, at + lane), none = term < 0, place = WHERE_INT(none, (INTV)0, term);
+        const REALV w = entries(weights, place, none);
+        const INTV second = WHERE_INT(place >= fine_stride, (INTV)fine_stride, (INTV)0);
+        const INTV third = WHERE_INT(place >= 2 * fine_stride, (INTV)fine_stride, (INTV)0);
+        const INTV row = place - second - third;
+        UNROLLED (int c = 0; c < D; ++c) sum[c] += w * GATHER(r + c * fine_stride, row);
     }
     invert(i, stride, inverse, sum, d);
     UNROLLED (int c = 0; c < D; ++c)
@@ -245,11 +335,9 @@ __kernel void restrict_residual(const int fine_stride, const int stride, __globa
     }
 }
 
-/// x += P coarse, three weights a row: columns and weights at [k * stride + row].
-__kernel void prolong(const int stride, const int coarse_stride, __global const int* columns,
-                      __global const REAL* weights, __global const REAL* coarse, __global REAL* x)
+inline void prolong_rows(const int i, const int stride, const int coarse_stride, __global const int* columns,
+                         __global const REAL* weights, __global const REAL* coarse, __global REAL* x)
 {
-    const int i = SLICE * C + LANE;
     REALV sum[D];
     UNROLLED (int c = 0; c < D; ++c) sum[c] = LOAD(x, c * stride + i);
     UNROLLED (int k = 0; k < 3; ++k)
@@ -261,12 +349,16 @@ __kernel void prolong(const int stride, const int coarse_stride, __global const 
     UNROLLED (int c = 0; c < D; ++c) STORE(sum[c], x, c * stride + i);
 }
 
-/// x = inverse b with a dense symmetric matrix of `size` rows, padded to `pitch`; unknown k is number at[k] of a vector.
-__kernel void dense(const int size, const int pitch, __global const int* at, __global const REAL* inverse,
-                    __global const REAL* b, __global REAL* x)
+/// x += P coarse, three weights a row: columns and weights at [k * stride + row].
+__kernel void prolong(const int stride, const int coarse_stride, __global const int* columns,
+                      __global const REAL* weights, __global const REAL* coarse, __global REAL* x)
 {
-    const int first = SLICE * C + LANE;
-    if (first >= pitch) return;
+    prolong_rows(SLICE * C + LANE, stride, coarse_stride, columns, weights, coarse, x);
+}
+
+inline void dense_rows(const int first, const int size, const int pitch, __global const int* at,
+                       __global const REAL* inverse, __global const REAL* b, __global REAL* x)
+{
     REALV even = 0, odd = 0;
     int k = 0;
     for (; k + 1 < size; k += 2)
@@ -280,3 +372,127 @@ __kernel void dense(const int size, const int pitch, __global const int* at, __g
     for (int v = 0; v < V; ++v)
         if (first + v < size) x[at[first + v]] = s[v];
 }
+
+/// x = inverse b with a dense symmetric matrix of `size` rows, padded to `pitch`; unknown k is number at[k] of a vector.
+__kernel void dense(const int size, const int pitch, __global const int* at, __global const REAL* inverse,
+                    __global const REAL* b, __global REAL* x)
+{
+    const int first = SLICE * C + LANE;
+    if (first < pitch) dense_rows(first, size, pitch, at, inverse, b, x);
+}
+
+/// The inverse X of a semi-definite matrix of `size` rows with rows `pitch` apart, by one group of TEAM items. numbers:
+/// the unknowns of row r are D * numbers[r] and on, or none for -1. work has size + 2 rows.
+///
+/// The matrix is scaled to a unit diagonal and shifted, so that directions which it does not see get a large, finite
+/// answer. Elimination turns rows into those of L^-1 place by place: A = L d L', X = sum of (row / sqrt d)' (row / sqrt
+/// d), which is semi-definite as computed. A pivot that is not well positive takes its unknown out.
+#if TEAM > 1
+#define SYNC barrier(CLK_GLOBAL_MEM_FENCE)
+#else
+#define SYNC
+#endif
+__kernel void invert_dense(const int rows, const int size, const int pitch, const REAL shift,
+                           __global const int* offsets, __global const int* columns, __global const REAL* A,
+                           __global const int* numbers, __global REAL* work, __global REAL* X)
+{
+    const int item = (int)get_local_id(0);
+    __global REAL* scale = work + size * pitch;
+    __global REAL* root = scale + pitch;
+    for (int k = item * V; k < (size + 2) * pitch; k += TEAM * V) STORE((REALV)0, work, k);
+    SYNC;
+    for (int r = item; r < rows; r += TEAM)
+    {
+        if (numbers[r] < 0) continue;
+        const int first = offsets[r / C] + r % C;
+        for (int at = first; at < offsets[r / C + 1]; at += C)
+        {
+            if (columns[at] == r && at > first) break;
+            const int to = numbers[columns[at]];
+            if (to < 0) continue;
+            __global const REAL* block = A + (at - r % C) * D * D + r % C;
+            UNROLLED (int k = 0; k < D; ++k)
+                UNROLLED (int l = 0; l < D; ++l)
+                    work[(numbers[r] * D + k) * pitch + to * D + l] = block[(k * D + l) * C];
+        }
+    }
+    SYNC;
+    for (int i = item; i < size; i += TEAM) scale[i] = work[i * pitch + i] > 0 ? 1 / sqrt(work[i * pitch + i]) : 0;
+    SYNC;
+    for (int i = item; i < size; i += TEAM)
+    {
+        for (int j = 0; j < size; ++j)
+            work[i * pitch + j] = scale[i] * scale[j] > 0 ? work[i * pitch + j] * (scale[i] * scale[j]) : 0;
+        work[i * pitch + i] += shift;
+    }
+    for (int k = 0; k < size; ++k)
+    {
+        SYNC;
+        __global REAL* row = work + k * pitch;
+        const REAL pivot = row[k];
+        const bool good = pivot > (REAL)0.1 * shift && pivot < INFINITY;
+        if (item == 0) root[k] = good ? 1 / sqrt(pivot) : 0;
+        for (int i = k + 1 + item; i < size; i += TEAM)
+        {
+            __global REAL* other = work + i * pitch;
+            const REAL f = good ? other[k] / pivot : 0;
+            if (good)
+                for (int j = 0; j < pitch; j += V) STORE(LOAD(other, j) - f * LOAD(row, j), other, j);
+            other[k] = -f;
+        }
+    }
+    SYNC;
+    for (int k = item; k < size; k += TEAM)
+    {
+        __global REAL* row = work + k * pitch;
+        row[k] = 1;
+        for (int j = 0; j < pitch; ++j) row[j] = root[k] > 0 && j <= k ? row[j] * (root[k] * scale[j]) : 0;
+    }
+    SYNC;
+    for (int i = item; i < size; i += TEAM)
+        for (int j = 0; j < pitch; j += V)
+        {
+            REALV sum = 0;
+            for (int k = i; k < size; ++k) sum += work[k * pitch + i] * LOAD(work, k * pitch + j);
+            STORE(sum, X, i * pitch + j);
+        }
+}
+
+#if V > 1
+/// The whole cycle of the two coarsest levels, by one item: a handful of launches would take longer than the work.
+__kernel void small_cycle(const int rows, const int stride, const int coarse_stride, const int size, const int pitch,
+                          const REAL first, const REAL momentum, const REAL second, __global const int* offsets,
+                          __global const int* columns, __global const REAL* A, __global const REAL* inverse,
+                          __global const int* prolongation, __global const REAL* weights, __global const int* at,
+                          __global const REAL* dense_inverse, __global const REAL* b, __global REAL* coarse_b,
+                          __global REAL* coarse_x, __global REAL* y, __global REAL* x)
+{
+    const REAL now = 1 + momentum;
+    for (int i = 0; i < rows; i += V) first_step(i, stride, inverse, b, first, y);
+    for (int i = 0; i < rows; i += V)
+        smooth_rows(i / C, 0, stride, offsets, columns, A, inverse, b, y, y, now, 0, second, x);
+
+    for (int k = 0; k < D * coarse_stride; k += V) STORE((REALV)0, coarse_b, k);
+    for (int i = 0; i < rows; i += V)
+    {
+        REALV sum[D];
+        REAL r[D][V];
+        multiply(i / C, 0, stride, offsets, columns, A, x, sum);
+        UNROLLED (int c = 0; c < D; ++c) STORE(LOAD(b, c * stride + i) - sum[c], r[c], 0);
+        for (int v = 0; v < V && i + v < rows; ++v)
+            for (int l = 0; l < 3; ++l)
+            {
+                const int place = l * stride + i + v;
+                UNROLLED (int c = 0; c < D; ++c)
+                    coarse_b[c * coarse_stride + prolongation[place]] += weights[place] * r[c][v];
+            }
+    }
+    for (int k = 0; k < pitch; k += V) dense_rows(k, size, pitch, at, dense_inverse, coarse_b, coarse_x);
+    for (int i = 0; i < rows; i += V) prolong_rows(i, stride, coarse_stride, prolongation, weights, coarse_x, x);
+
+    for (int i = 0; i < rows; i += V)
+        smooth_rows(i / C, 0, stride, offsets, columns, A, inverse, b, x, x, 1, 0, first, y);
+    for (int i = 0; i < rows; i += V)
+        smooth_rows(i / C, 0, stride, offsets, columns, A, inverse, b, y, x, now, -momentum, second, x);
+}
+#endif

@@ -30,18 +30,15 @@ namespace taut::tools
 namespace
 {
 
-/// The queue on the device that was asked for. Without a wish for a precision, a device without double is good enough.
-queue open_queue(const unwrap_options& options, parameterize_params& params, std::vector<std::string>& notes)
+/// The queue on the device that was asked for. A wish for double or mixed precision needs a device with double.
+queue open_queue(const unwrap_options& options, std::vector<std::string>& notes)
 {
     // TAUT_DEVICE is how the library takes a wish; --device is the same thing, said louder.
     if (!options.device.empty()) ::setenv("TAUT_DEVICE", options.device.c_str(), 1);
-    const bool need = options.precision && *options.precision != precision::single;
+    const bool need = options.precision == precision::full || options.precision == precision::mixed;
     queue q(choose_device({.fp64 = need}));
-    if (!options.precision && !q.device().has_fp64())
-    {
-        params.precision = precision::single;
+    if (options.precision == precision::automatic && !q.device().has_fp64())
         notes.push_back("the device has no double precision: calculated in float");
-    }
     return q;
 }
 
@@ -93,7 +90,7 @@ private:
         params.observer = [this](const solve::progress& p)
         {
             if (p.iterate)
-                progress_.update({.phase = "optimize",
+                progress_.update({.phase = p.level > 0 ? "coarse levels" : "optimize",
                                   .step = p.iteration,
                                   .most_steps = options_.iterations,
                                   .energy = p.value,
@@ -104,10 +101,9 @@ private:
         };
         tell("device");
         std::optional<queue> q;
-        report_.seconds.queue = timed([&] { q = open_queue(options_, params, report_.notes); });
+        report_.seconds.queue = timed([&] { q = open_queue(options_, report_.notes); });
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
-        report_.precision = params.precision;
 
         // The limit is one for the whole run: what reading took is gone.
         if (std::isfinite(options_.time_limit))

@@ -32,11 +32,15 @@ void declare_map(CLI::App& app, unwrap_options& o)
                                   "Weight of a triangle: its area, or 1");
     add_choice<start_kind>(
         app, "--start", o.start,
-        {{"stretch", start_kind::stretch},
+        {{"auto", start_kind::automatic},
+         {"coarse", start_kind::coarse},
+         {"stretch", start_kind::stretch},
          {"tutte", start_kind::tutte},
          {"mean-value", start_kind::mean_value},
+         {"conformal", start_kind::conformal},
          {"uv", start_kind::uv}},
-        "First map: barycentric with evened stretch, uniform or mean value weights, or the file's vt");
+        "First map: from a coarser mesh; barycentric with evened stretch, uniform or mean value weights; least squares "
+        "conformal; the file's vt. auto: coarse for newton and mg-lbfgs, else stretch");
     add_choice<boundary_spacing>(app, "--spacing", o.spacing,
                                  {{"chord", boundary_spacing::chord},
                                   {"uniform", boundary_spacing::uniform},
@@ -58,11 +62,14 @@ CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
 
 void declare_solver(CLI::App& app, unwrap_options& o)
 {
-    add_choice<solve::method>(app, "--solver", o.solver,
-                              {{"lbfgs", solve::method::lbfgs},
-                               {"cg", solve::method::conjugate_gradient},
-                               {"gd", solve::method::gradient_descent}},
-                              "Limited-memory BFGS, nonlinear conjugate gradient, gradient descent");
+    add_choice<solver_kind>(app, "--solver", o.solver,
+                            {{"newton", solver_kind::newton},
+                             {"mg-lbfgs", solver_kind::multigrid_lbfgs},
+                             {"lbfgs", solver_kind::lbfgs},
+                             {"cg", solver_kind::conjugate_gradient},
+                             {"gd", solver_kind::gradient_descent}},
+                            "Newton's method or limited-memory BFGS, both with multigrid; plain BFGS; the paper's "
+                            "conjugate gradient; gradient descent");
     app.add_option("--iterations", o.iterations, "Stop after N steps")
         ->type_name("N")
         ->check(CLI::Range(0, std::numeric_limits<int>::max()).description(""))
@@ -74,21 +81,12 @@ void declare_solver(CLI::App& app, unwrap_options& o)
     app.add_option("--time-limit", o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)")
         ->type_name("S")
         ->check(number_that([](double x) { return x > 0; }, "must be positive"));
-    const std::vector<choice<taut::precision>> precisions{
-        {"double", precision::full}, {"float", precision::single}, {"mixed", precision::mixed}};
-    auto known = CLI::IsMember({"double", "float", "mixed"});
-    known.description("");
-    app.add_option_function<std::string>(
-           "--precision",
-           [&o, precisions](const std::string& word)
-           {
-               for (const auto& [name, value] : precisions)
-                   if (name == word) o.precision = value;
-           },
-           "Arithmetic of the optimisation; the check for flips is exact in any case")
-        ->type_name("double|float|mixed")
-        ->default_str("double")
-        ->check(known);
+    add_choice<taut::precision>(app, "--precision", o.precision,
+                                {{"auto", precision::automatic},
+                                 {"double", precision::full},
+                                 {"float", precision::single},
+                                 {"mixed", precision::mixed}},
+                                "Arithmetic of the optimisation; the check for flips is exact in any case");
     app.add_option("--device", o.device, "Number or part of the name of an OpenCL device, see `taut devices`")
         ->type_name("D")
         ->envname("TAUT_DEVICE");
@@ -159,10 +157,18 @@ parameterize_params to_params(const unwrap_options& o)
     p.start.boundary.shape = o.boundary == boundary_kind::square ? boundary_shape::square : boundary_shape::circle;
     p.start.boundary.spacing = o.spacing;
     p.start.weights = o.start == start_kind::tutte ? barycentric_weights::uniform : barycentric_weights::mean_value;
-    if (o.start != start_kind::stretch) p.start.stretch_rounds = 0;
+    if (o.start == start_kind::tutte || o.start == start_kind::mean_value) p.start.stretch_rounds = 0;
+    p.first = o.start == start_kind::automatic   ? start_method::automatic
+              : o.start == start_kind::coarse    ? start_method::coarse
+              : o.start == start_kind::conformal ? start_method::conformal
+                                                 : start_method::barycentric;
     p.holes = o.holes;
-    p.precision = o.precision.value_or(precision::full);
-    p.solve.method = o.solver;
+    p.precision = o.precision;
+    p.multigrid = o.solver == solver_kind::multigrid_lbfgs;
+    p.solve.method = o.solver == solver_kind::newton               ? solve::method::newton
+                     : o.solver == solver_kind::conjugate_gradient ? solve::method::conjugate_gradient
+                     : o.solver == solver_kind::gradient_descent   ? solve::method::gradient_descent
+                                                                   : solve::method::lbfgs;
     p.solve.stopping.gradient_tolerance = o.tolerance;
     p.solve.stopping.max_iterations = o.iterations;
     p.time_limit = std::chrono::duration<double>(o.time_limit);
@@ -174,14 +180,50 @@ std::string to_string(energy_kind kind)
     return kind == energy_kind::isometric ? "isometric" : kind == energy_kind::shape ? "shape" : "area";
 }
 
+std::string to_string(solver_kind kind)
+{
+    switch (kind)
+    {
+    case solver_kind::newton:
+        return "newton";
+    case solver_kind::multigrid_lbfgs:
+        return "mg-lbfgs";
+    case solver_kind::lbfgs:
+        return "lbfgs";
+    case solver_kind::conjugate_gradient:
+        return "cg";
+    case solver_kind::gradient_descent:
+        break;
+    }
+    return "gd";
+}
+
 std::string to_string(taut::precision p)
 {
-    return p == precision::full ? "double" : p == precision::mixed ? "mixed" : "float";
+    return p == precision::full     ? "double"
+           : p == precision::mixed  ? "mixed"
+           : p == precision::single ? "float"
+                                    : "auto";
 }
 
 std::string describe_start(const unwrap_options& o)
 {
-    if (o.start == start_kind::uv) return "the file's vt";
+    switch (o.start)
+    {
+    case start_kind::uv:
+        return "the file's vt";
+    case start_kind::conformal:
+        if (o.boundary == boundary_kind::free) return "conformal";
+        break;
+    case start_kind::automatic:
+    case start_kind::coarse:
+        if (to_params(o).uses_levels()) return "coarse";
+        break;
+    case start_kind::stretch:
+    case start_kind::tutte:
+    case start_kind::mean_value:
+        break;
+    }
     const char* kind = o.start == start_kind::tutte        ? "tutte"
                        : o.start == start_kind::mean_value ? "mean value"
                                                            : "evened stretch";

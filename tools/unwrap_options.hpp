@@ -14,10 +14,22 @@ namespace taut::tools
 
 enum class start_kind
 {
+    automatic,
+    coarse,
     stretch,
     tutte,
     mean_value,
+    conformal,
     uv
+};
+
+enum class solver_kind
+{
+    newton,
+    multigrid_lbfgs,
+    lbfgs,
+    conjugate_gradient,
+    gradient_descent
 };
 
 enum class boundary_kind
@@ -43,8 +55,8 @@ struct unwrap_options
     energy::weighting weights{};
     start_kind start{};
     boundary_spacing spacing{};
-    solve::method solver{};
-    std::optional<taut::precision> precision; ///< not given: double, or float where no device has double
+    solver_kind solver{};
+    taut::precision precision{};
     int iterations = 10000;
     double tolerance = 1e-6;
     double time_limit = std::numeric_limits<double>::infinity();
@@ -63,6 +75,7 @@ parameterize_params to_params(const unwrap_options& options);
 
 /// Words for reports.
 std::string to_string(energy_kind kind);
+std::string to_string(solver_kind kind);
 std::string to_string(taut::precision precision);
 std::string describe_start(const unwrap_options& options);
 

@@ -85,9 +85,13 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
 {
     const ideal_elements<triangle> ideal(surface);
     const bool by_area = options.weights == energy::weighting::measure;
-    energy_start = mean_energy(params.energy, surface, ideal, map.start.uv);
     energy_end = mean_energy(params.energy, surface, ideal, uv);
-    energy_before = by_area ? energy_start.measure : energy_start.uniform;
+    energy_before = map.solve.value_start;
+    if (!map.start.uv.empty())
+    {
+        const auto start = mean_energy(params.energy, surface, ideal, map.start.uv);
+        energy_before = by_area ? start.measure : start.uniform;
+    }
     energy = by_area ? energy_end.measure : energy_end.uniform;
     after = tools::assess(surface, uv);
     if (map.solve.stop == solve::stop::time) code = exit_code::time_limit;
@@ -106,13 +110,15 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["vertices"] = r.after.vertices;
     json["faces"] = flips.elements;
     json["device"] = r.device;
-    json["precision"] = to_string(r.precision);
+    json["precision"] = to_string(r.map.precision);
     json["method"] = {{"energy", to_string(o.energy)},
                       {"weights", o.weights == energy::weighting::measure ? "area" : "uniform"},
                       {"boundary", boundary_name(o.boundary)},
+                      {"solver", to_string(o.solver)},
                       {"start", describe_start(o)}};
     json["stop"] = identifier(r.map.solve.stop);
     json["iterations"] = r.map.solve.iterations;
+    json["hessian_products"] = r.map.solve.products;
     json["evaluations"] = r.map.solve.evaluations;
     json["gradients"] = r.map.solve.gradients;
     json["gradient"] = finite(r.map.solve.gradient_norm);
@@ -121,15 +127,21 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["flipped"] = flips.flipped;
     json["min_det"] = finite(flips.min_det);
     json["max_det"] = finite(flips.max_det);
-    json["seconds"] = {{"read", r.seconds.read},
-                       {"device", r.seconds.queue + r.map.seconds.device},
-                       {"setup", r.map.seconds.setup},
-                       {"start", r.map.seconds.start},
-                       {"untangle", 0.0}, // barycentric starts have nothing to untangle
-                       {"solve", r.map.seconds.solve},
-                       {"quality", r.seconds.quality},
-                       {"write", r.seconds.write},
-                       {"total", r.seconds.total}};
+    json["seconds"] = {{"read", r.seconds.read},       {"device", r.seconds.queue + r.map.seconds.device},
+                       {"setup", r.map.seconds.setup}, {"hierarchy", r.map.seconds.hierarchy},
+                       {"start", r.map.seconds.start}, {"untangle", 0.0}, // barycentric starts have nothing to untangle
+                       {"solve", r.map.seconds.solve}, {"quality", r.seconds.quality},
+                       {"write", r.seconds.write},     {"total", r.seconds.total}};
+    json["levels"] = nlohmann::ordered_json::array();
+    for (const auto& l : r.map.levels)
+        json["levels"].push_back({{"level", l.level},
+                                  {"vertices", l.vertices},
+                                  {"iterations", l.solve.iterations},
+                                  {"energy_start", finite(l.solve.value_start)},
+                                  {"energy", finite(l.solve.value)},
+                                  {"seconds", l.solve.seconds}});
+    json["launches"] = r.map.counters.launches;
+    json["waits"] = r.map.counters.waits;
     json["peak_memory_bytes"] = peak_memory();
     json["quality"] = to_json(r.after);
     json["notes"] = r.notes;
@@ -144,7 +156,7 @@ void print(const unwrap_report& r, const unwrap_options& o)
     labelled_lines lines;
     lines.add("mesh", o.input + ": " + count(static_cast<std::uint64_t>(r.after.vertices), "vertex", "vertices") +
                           ", " + count(flips.elements, "triangle", "triangles"));
-    lines.add("device", r.device_label + ", " + to_string(r.precision));
+    lines.add("device", r.device_label + ", " + to_string(r.map.precision));
     lines.add("start", describe_start(o) + ": E " + number(r.energy_before) + ", " +
                            count(r.map.start.flips.flipped, "flip", "flips"));
     lines.add("energy",
@@ -158,8 +170,9 @@ void print(const unwrap_report& r, const unwrap_options& o)
     describe_validity(lines, r.after);
     lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
                           duration(r.seconds.queue + r.map.seconds.device) + ", setup " +
-                          duration(r.map.seconds.setup) + ", start " + duration(r.map.seconds.start) + ", solve " +
-                          duration(r.map.seconds.solve) + ", write " + duration(r.seconds.write));
+                          duration(r.map.seconds.setup) + ", hierarchy " + duration(r.map.seconds.hierarchy) +
+                          ", start " + duration(r.map.seconds.start) + ", solve " + duration(r.map.seconds.solve) +
+                          ", write " + duration(r.seconds.write));
     lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
     std::string files = o.output;
     for (const auto& file : {o.picture, o.render, o.stats})

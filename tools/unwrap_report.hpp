@@ -26,11 +26,10 @@ struct unwrap_report
 {
     exit_code code = exit_code::valid;
     std::string device, device_label;
-    taut::precision precision = precision::full;
     std::vector<std::string> notes;
     map_report map;
-    means energy_start, energy_end;       ///< of the energy that was minimised, in double on the host
-    double energy_before = 0, energy = 0; ///< the same by the chosen weights
+    means energy_end;                     ///< of the energy that was minimised, in double on the host
+    double energy_before = 0, energy = 0; ///< at the start and at the end, by the chosen weights
     assessment after;
     program_seconds seconds;
 

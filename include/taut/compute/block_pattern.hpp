@@ -1,159 +1,174 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <span>
-#include <vector>
 
-#include <taut/core/error.hpp>
-#include <taut/core/types.hpp>
+#include <taut/compute/sliced_lists.hpp>
 
 namespace taut
 {
 
-/// The nonzero blocks of a square, structurally symmetric matrix: the columns of row r are columns[offsets[r]] ..
-/// columns[offsets[r + 1] - 1], the diagonal first, the others in increasing order.
+/// The nonzero blocks of a square, structurally symmetric matrix, in slices of equal width (sliced ELLPACK): nonzero j
+/// of row r is in column columns[place(r, j)]. The diagonal is nonzero 0, the others are in no special order; places
+/// behind the last one of a row name the row itself. Rows are padded to a multiple of 256, and slices of padding alone
+/// are 0 wide.
 struct block_pattern
 {
-    std::vector<index> offsets{0};
+    index slice = 16;              ///< rows a slice
+    std::size_t count = 0;         ///< rows
+    std::vector<index> offsets{0}; ///< of slices, in places
     std::vector<index> columns;
 
-    std::size_t rows() const { return offsets.size() - 1; }
-    std::size_t length(std::size_t r) const { return static_cast<std::size_t>(offsets[r + 1] - offsets[r]); }
-    std::span<const index> row(std::size_t r) const { return {columns.data() + offsets[r], length(r)}; }
-
-    /// The number within its row of column c; length(r) if there is none.
+    std::size_t rows() const { return count; }
+    std::size_t place(std::size_t r, std::size_t j) const
+    {
+        const auto C = static_cast<std::size_t>(slice);
+        return static_cast<std::size_t>(offsets[r / C]) + j * C + r % C;
+    }
+    /// Nonzeros of the longest row of the slice of row r.
+    std::size_t width(std::size_t r) const
+    {
+        const auto s = r / static_cast<std::size_t>(slice);
+        return static_cast<std::size_t>((offsets[s + 1] - offsets[s]) / slice);
+    }
+    index column(std::size_t r, std::size_t j) const { return columns[place(r, j)]; }
+    /// Nonzeros of row r.
+    std::size_t length(std::size_t r) const
+    {
+        std::size_t j = 1;
+        while (j < width(r) && column(r, j) != static_cast<index>(r)) ++j;
+        return j;
+    }
+    /// The number within row r of column c; length(r) if there is none.
     std::size_t find(std::size_t r, index c) const
     {
-        const auto all = row(r);
-        if (!all.empty() && all[0] == c) return 0;
-        const auto at = std::lower_bound(all.begin() + 1, all.end(), c);
-        return at != all.end() && *at == c ? static_cast<std::size_t>(at - all.begin()) : all.size();
-    }
-};
-
-/// Weights of a linear interpolation, at most three a row; a place with weight 0 does not count. The columns of a row
-/// differ where their weights are not 0.
-struct transfer_weights
-{
-    std::vector<std::array<index, 3>> columns;
-    std::vector<std::array<double, 3>> weights;
-    std::size_t coarse = 0; ///< rows of the coarse side
-
-    /// The places 3 * row + k with a weight, by column, ascending: offsets of coarse + 1 runs, then the places.
-    struct transposed
-    {
-        std::vector<index> offsets, places;
-    };
-    transposed transpose() const
-    {
-        transposed t;
-        t.offsets.assign(coarse + 1, 0);
-        for (std::size_t i = 0; i < columns.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-            {
-                if (columns[i][k] < 0 || static_cast<std::size_t>(columns[i][k]) >= coarse)
-                    throw parameter_error("transfer_weights.columns", "row " + std::to_string(i) + " is out of range");
-                if (weights[i][k] != 0) ++t.offsets[static_cast<std::size_t>(columns[i][k]) + 1];
-            }
-        for (std::size_t j = 0; j < coarse; ++j) t.offsets[j + 1] += t.offsets[j];
-        t.places.resize(static_cast<std::size_t>(t.offsets.back()));
-        auto at = t.offsets;
-        for (std::size_t i = 0; i < columns.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-                if (weights[i][k] != 0)
-                    t.places[static_cast<std::size_t>(at[static_cast<std::size_t>(columns[i][k])]++)] =
-                        static_cast<index>(3 * i + k);
-        return t;
+        const std::size_t n = length(r);
+        std::size_t j = 0;
+        while (j < n && column(r, j) != c) ++j;
+        return j;
     }
 };
 
 namespace detail
 {
 
-/// Appends a row: the diagonal, then what `others` holds beside it, sorted.
-inline void append_row(block_pattern& p, std::vector<index>& others)
+/// Up to 16 different numbers >= 0, searched without a branch.
+class short_list
 {
-    const auto r = static_cast<index>(p.rows());
-    std::sort(others.begin(), others.end());
-    p.columns.push_back(r);
-    for (const index c : others)
-        if (c != r) p.columns.push_back(c);
-    p.offsets.push_back(static_cast<index>(p.columns.size()));
+public:
+    static constexpr std::size_t most = 16;
+
+    void clear()
+    {
+        size_ = 0;
+        items_.fill(-1);
+    }
+    void add(index c) { items_[size_++] = c; }
+    std::size_t size() const { return size_; }
+    /// The number of c, or -1.
+    int find(index c) const
+    {
+        int at = -1;
+        for (int k = 0; k < static_cast<int>(most); ++k) at = items_[static_cast<std::size_t>(k)] == c ? k : at;
+        return at;
+    }
+
+private:
+    std::size_t size_ = 0;
+    std::array<index, most> items_{};
+};
+
+/// A row at hand, to look its columns up.
+class sliced_row
+{
+public:
+    void read(const block_pattern& p, std::size_t r)
+    {
+        const auto C = static_cast<std::size_t>(p.slice);
+        const std::size_t first = p.place(r, 0), end = first + p.width(r) * C;
+        columns_.clear();
+        for (std::size_t at = first; at < end && (at == first || p.columns[at] != p.columns[first]); at += C)
+            columns_.push_back(p.columns[at]);
+        const std::size_t n = columns_.size();
+        sorted_.clear();
+        short_.clear();
+        if (n <= short_list::most)
+        {
+            for (const index c : columns_) short_.add(c);
+            return;
+        }
+        for (std::size_t j = 0; j < n; ++j) sorted_.emplace_back(columns_[j], j);
+        std::sort(sorted_.begin(), sorted_.end());
+    }
+
+    /// Which nonzero column c is. Throws parameter_error if it is none.
+    std::size_t find(index c) const
+    {
+        if (const int k = short_.find(c); k >= 0) return static_cast<std::size_t>(k);
+        std::size_t j = columns_.size();
+        if (const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(c, std::size_t{0}));
+            at != sorted_.end() && at->first == c)
+            j = at->second;
+        if (j == columns_.size()) throw parameter_error("cells", "couple vertices that the pattern does not");
+        return j;
+    }
+
+private:
+    short_list short_;
+    std::vector<index> columns_;
+    std::vector<std::pair<index, std::size_t>> sorted_;
+};
+
+/// A pattern row by row. make_row() is called once a chunk and gives row(r, others), which appends the columns beside
+/// the diagonal, each once.
+template <class MakeRow>
+block_pattern make_pattern(std::size_t rows, index slice, const MakeRow& make_row)
+{
+    const auto C = static_cast<std::size_t>(slice);
+    std::vector<list_chunk> chunks(chunk_count(rows));
+    for_each_chunk(rows,
+                   [&](std::size_t k, std::size_t begin, std::size_t end)
+                   {
+                       auto row = make_row();
+                       auto& [items, sizes] = chunks[k];
+                       std::vector<index> others;
+                       std::vector<std::size_t> ends(C + 1);
+                       sizes.reserve((end - begin) / C + 1);
+                       items.reserve(8 * (end - begin));
+                       for (std::size_t first = begin; first < end; first += C)
+                       {
+                           others.clear();
+                           std::size_t width = 0;
+                           for (std::size_t lane = 0; lane < C; ++lane)
+                           {
+                               ends[lane] = others.size();
+                               if (first + lane >= rows) continue;
+                               row(first + lane, others);
+                               width = std::max(width, others.size() - ends[lane] + 1);
+                           }
+                           ends[C] = others.size();
+                           const std::size_t base = items.size();
+                           items.resize(base + width * C);
+                           for (std::size_t lane = 0; lane < C; ++lane)
+                           {
+                               index* const at = items.data() + base + lane;
+                               at[0] = static_cast<index>(first + lane);
+                               const std::size_t n = ends[lane + 1] - ends[lane];
+                               for (std::size_t j = 1; j < width; ++j)
+                                   at[j * C] = j <= n ? others[ends[lane] + j - 1] : at[0];
+                           }
+                           sizes.push_back(static_cast<index>(width * C));
+                       }
+                   });
+    block_pattern p;
+    p.slice = slice;
+    p.count = rows;
+    p.offsets = slice_offsets(chunks, (std::max<std::size_t>(rows, 1) + 255) / 256 * 256 / C);
+    p.columns.reserve(static_cast<std::size_t>(p.offsets.back()));
+    for (const auto& chunk : chunks) p.columns.insert(p.columns.end(), chunk.items.begin(), chunk.items.end());
+    return p;
 }
 
 } // namespace detail
-
-/// The pattern of a matrix that is a sum of element matrices. cells: arrays of corner numbers.
-template <class Cells>
-block_pattern pattern_of_cells(const Cells& cells, std::size_t rows)
-{
-    std::vector<index> offsets(rows + 1, 0);
-    for (const auto& t : cells)
-        for (const index v : t) ++offsets[static_cast<std::size_t>(v) + 1];
-    for (std::size_t v = 0; v < rows; ++v) offsets[v + 1] += offsets[v];
-    std::vector<index> around(static_cast<std::size_t>(offsets.back())), at(offsets);
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        for (const index v : cells[c]) around[static_cast<std::size_t>(at[static_cast<std::size_t>(v)]++)] = index(c);
-
-    block_pattern p;
-    std::vector<index> seen(rows, -1), others;
-    for (std::size_t v = 0; v < rows; ++v)
-    {
-        others.clear();
-        for (index k = offsets[v]; k < offsets[v + 1]; ++k)
-            for (const index w : cells[static_cast<std::size_t>(around[static_cast<std::size_t>(k)])])
-                if (seen[static_cast<std::size_t>(w)] != static_cast<index>(v))
-                {
-                    seen[static_cast<std::size_t>(w)] = static_cast<index>(v);
-                    others.push_back(w);
-                }
-        detail::append_row(p, others);
-    }
-    return p;
-}
-
-/// Calls visit(i, j, k, l, J) for each term P(i, I) A(i, j) P(j, J) of row I of P' A P: P(i, I) is place i of the
-/// transpose's run, j the j-th nonzero of fine row i, l the place of P in the row of that column.
-template <class Visit>
-void visit_terms(const block_pattern& fine, const transfer_weights& P, const transfer_weights::transposed& t,
-                 std::size_t I, const Visit& visit)
-{
-    for (index k = t.offsets[I]; k < t.offsets[I + 1]; ++k)
-    {
-        const auto place = static_cast<std::size_t>(t.places[static_cast<std::size_t>(k)]);
-        const std::size_t i = place / 3;
-        const double left = P.weights[i][place % 3];
-        const auto row = fine.row(i);
-        for (std::size_t j = 0; j < row.size(); ++j)
-        {
-            const auto column = static_cast<std::size_t>(row[j]);
-            for (std::size_t l = 0; l < 3; ++l)
-                if (P.weights[column][l] != 0) visit(i, j, left * P.weights[column][l], P.columns[column][l]);
-        }
-    }
-}
-
-/// The pattern of P' A P.
-inline block_pattern pattern_of_product(const block_pattern& fine, const transfer_weights& P)
-{
-    const auto t = P.transpose();
-    block_pattern p;
-    std::vector<index> seen(P.coarse, -1), others;
-    for (std::size_t I = 0; I < P.coarse; ++I)
-    {
-        others.clear();
-        visit_terms(fine, P, t, I,
-                    [&](std::size_t, std::size_t, double, index J)
-                    {
-                        if (seen[static_cast<std::size_t>(J)] == static_cast<index>(I)) return;
-                        seen[static_cast<std::size_t>(J)] = static_cast<index>(I);
-                        others.push_back(J);
-                    });
-        detail::append_row(p, others);
-    }
-    return p;
-}
 
 } // namespace taut

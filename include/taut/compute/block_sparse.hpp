@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-#include <vector>
+#include <memory>
 
 #include <taut/compute/block_pattern.hpp>
 #include <taut/compute/detail/kernels/block_sparse.hpp>
-#include <taut/compute/sliced_lists.hpp>
+#include <taut/compute/lane_form.hpp>
 #include <taut/compute/vector_space.hpp>
 
 namespace taut
@@ -15,15 +14,36 @@ namespace taut
 namespace detail
 {
 
+/// Items that invert a dense matrix together.
+inline index dense_team(const device& d)
+{
+    return quirks::wants_serial_items(d) ? 1 : 64;
+}
+
 /// A kernel of kernels/block_sparse.cl for D x D blocks of T.
 template <class T, class... Args>
 void load_block_kernel(typed_kernel<Args...>& kernel, queue& q, const char* name, int D, lane_form form)
 {
     const bool wide = std::is_same_v<T, double>;
     kernel = {q, kernels::block_sparse, name,
-              std::string("-DREAL=") + cl_name<T>() + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
-                  " -DD=" + std::to_string(D) + " -DC=" + std::to_string(form.slice) +
-                  " -DV=" + std::to_string(form.lanes) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f")};
+              std::string("-DREAL=") + cl_name<T>() + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") + " -DD=" +
+                  std::to_string(D) + " -DC=" + std::to_string(form.slice) + " -DV=" + std::to_string(form.lanes) +
+                  " -DTEAM=" + std::to_string(dense_team(q.device())) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f")};
+}
+
+/// Lists on a device, from their pieces.
+inline buffer<index> upload_lists(queue& q, const std::vector<list_chunk>& chunks)
+{
+    std::size_t size = 0;
+    for (const auto& chunk : chunks) size += chunk.items.size();
+    buffer<index> all(q, size);
+    std::size_t at = 0;
+    for (const auto& chunk : chunks)
+    {
+        all.upload(chunk.items, at);
+        at += chunk.items.size();
+    }
+    return all;
 }
 
 } // namespace detail
@@ -39,148 +59,181 @@ public:
         : block_matrix(q, std::move(pattern), D, lane_form::for_device(q.device()))
     {
     }
+    /// The pattern has form.slice rows a slice. Throws parameter_error.
     block_matrix(taut::queue& q, block_pattern pattern, int D, lane_form form)
-        : queue_(q),
-          pattern_(std::move(pattern)),
-          D_(D),
-          form_(form),
-          stride_(padded(std::max<std::size_t>(pattern_.rows(), 1), 256)),
-          lists_(pattern_.rows(), stride_, form.slice, [this](std::size_t r) { return pattern_.length(r); }),
-          values_(q, lists_.size() * blocks()),
-          inverse_(q, stride_ * d() * (d() + 1) / 2)
+        : shared_(std::make_shared<structure>(q, std::move(pattern), D, form)),
+          values_(q, shared_->places * blocks()),
+          inverse_(q, inverse_size())
     {
-        if (D < 2 || D > 3) throw parameter_error("D", "must be 2 or 3");
-        if (lists_.size() * blocks() > static_cast<std::size_t>(std::numeric_limits<index>::max()))
-            throw parameter_error("block_matrix", "more than 2^31 values");
-        std::vector<index> columns(lists_.size());
-        const auto C = static_cast<std::size_t>(form.slice);
-        for (std::size_t r = 0; r < stride_; ++r)
-        {
-            const std::size_t n = r < pattern_.rows() ? pattern_.length(r) : 0;
-            const auto width = static_cast<std::size_t>(lists_.offsets[r / C + 1] - lists_.offsets[r / C]) / C;
-            for (std::size_t j = 0; j < width; ++j)
-                columns[lists_.place(r, j)] = j < n ? pattern_.row(r)[j] : static_cast<index>(r);
-        }
-        offsets_ = buffer<index>(q, lists_.offsets);
-        columns_ = buffer<index>(q, columns);
         values_.fill(0);
         inverse_.fill(0);
-        detail::load_block_kernel<T>(product_, q, "product", D, form);
-        detail::load_block_kernel<T>(residual_, q, "residual", D, form);
-        detail::load_block_kernel<T>(smooth_, q, "smooth", D, form);
-        detail::load_block_kernel<T>(jacobi_, q, "jacobi", D, form);
-        detail::load_block_kernel<T>(invert_, q, "invert_blocks", D, form);
     }
 
-    int block_size() const noexcept { return D_; }
-    lane_form form() const noexcept { return form_; }
-    std::size_t rows() const noexcept { return pattern_.rows(); }
-    std::size_t stride() const noexcept { return stride_; }
-    const block_pattern& pattern() const noexcept { return pattern_; }
-    const sliced_lists& lists() const noexcept { return lists_; }
-    taut::queue& queue() const noexcept { return queue_; }
+    /// Another matrix of this pattern; it shares the lists and has its own values, 0 so far. Its diagonal has no
+    /// inverses until invert_diagonal().
+    block_matrix like() const { return block_matrix(shared_); }
+
+    int block_size() const noexcept { return shared_->D; }
+    lane_form form() const noexcept { return shared_->form; }
+    std::size_t rows() const noexcept { return shared_->rows; }
+    std::size_t stride() const noexcept { return shared_->stride; }
+    taut::queue& queue() const noexcept { return shared_->queue; }
+
+    /// Waits to read it back after forget_pattern().
+    const block_pattern& pattern() const { return shared_->pattern(); }
+    /// Frees the host's copy of the pattern.
+    void forget_pattern() { shared_->host = {}; }
 
     /// The zero vector of the space that the matrix acts on: D * stride() numbers.
-    device_vector<T> vector() const { return {queue_, d() * stride_}; }
+    device_vector<T> vector() const { return {shared_->queue, d() * stride()}; }
 
     /// y = A x; x and y differ.
     void multiply(const device_vector<T>& x, device_vector<T>& y) const
     {
         check(x, y);
-        product_(items(), pitch(), offsets_, columns_, values_, x.data(), y.data());
+        shared_->product(items(), pitch(), offsets(), columns(), values_, x.data(), y.data());
     }
     /// r = b - A x; r may be b, not x.
     void residual(const device_vector<T>& x, const device_vector<T>& b, device_vector<T>& r) const
     {
         check(x, b, r);
-        residual_(items(), pitch(), offsets_, columns_, values_, x.data(), b.data(), r.data());
+        shared_->residual(items(), pitch(), offsets(), columns(), values_, x.data(), b.data(), r.data());
     }
     /// out = now x + past before + scale B^-1 (b - A x) with B the block diagonal; out may be before, not x.
     void smooth(const device_vector<T>& b, const device_vector<T>& x, const device_vector<T>& before, double now,
                 double past, double scale, device_vector<T>& out) const
     {
         check(b, x, before, out);
-        smooth_(items(), pitch(), offsets_, columns_, values_, inverse_, b.data(), x.data(), before.data(), T(now),
-                T(past), T(scale), out.data());
+        shared_->smooth(items(), pitch(), offsets(), columns(), values_, inverse(), b.data(), x.data(), before.data(),
+                        T(now), T(past), T(scale), out.data());
     }
     /// out = scale B^-1 b
     void jacobi(const device_vector<T>& b, double scale, device_vector<T>& out) const
     {
         check(b, out);
-        jacobi_(items(), pitch(), inverse_, b.data(), T(scale), out.data());
+        shared_->jacobi(items(), pitch(), inverse(), b.data(), T(scale), out.data());
     }
 
     /// Inverts the diagonal blocks; call it after the values have changed. Pivots are kept above a small multiple of
     /// the trace, and a block without a positive trace gets inverse 0, so that fixed rows stay 0.
-    void invert_diagonal() { invert_(items(), pitch(), offsets_, values_, inverse_); }
+    void invert_diagonal()
+    {
+        if (inverse_.empty())
+        {
+            inverse_ = buffer<T>(shared_->queue, inverse_size());
+            inverse_.fill(0);
+        }
+        shared_->invert(items(), pitch(), offsets(), values_, inverse_);
+    }
 
-    /// Values in the order of the pattern, D * D numbers a block, by rows.
+    /// Values by place of the pattern, D * D numbers a block, by rows.
     std::vector<T> download() const
     {
         const auto device = values_.download();
-        std::vector<T> host(pattern_.columns.size() * blocks());
-        each_block([&](std::size_t k, std::size_t e, std::size_t at) { host[k * blocks() + e] = device[at]; });
+        std::vector<T> host(device.size());
+        for (std::size_t at = 0; at < host.size(); ++at) host[at] = device[device_place(at)];
         return host;
     }
     void upload(std::span<const T> host)
     {
-        if (host.size() != pattern_.columns.size() * blocks())
-            throw parameter_error("block_matrix.upload", "D * D values a block are needed");
-        std::vector<T> device(values_.size(), T(0));
-        each_block([&](std::size_t k, std::size_t e, std::size_t at) { device[at] = host[k * blocks() + e]; });
+        if (host.size() != values_.size())
+            throw parameter_error("block_matrix.upload", "D * D values a place are needed");
+        std::vector<T> device(host.size());
+        for (std::size_t at = 0; at < host.size(); ++at) device[device_place(at)] = host[at];
         values_.upload(device);
     }
 
-    /// Where entry 0 of nonzero j of row r is in values(); entry e is e * form().slice further on.
-    std::size_t value_place(std::size_t r, std::size_t j) const
-    {
-        const std::size_t C = static_cast<std::size_t>(form_.slice), p = lists_.place(r, j);
-        return p / C * C * blocks() + p % C;
-    }
     buffer<T>& values() noexcept { return values_; }
     const buffer<T>& values() const noexcept { return values_; }
-    const buffer<T>& inverse() const noexcept { return inverse_; }
+    /// Packed inverses of the diagonal blocks. Throws parameter_error before they exist.
+    const buffer<T>& inverse() const
+    {
+        if (inverse_.empty()) throw parameter_error("block_matrix", "call invert_diagonal() first");
+        return inverse_;
+    }
+    const buffer<index>& offsets() const noexcept { return shared_->offsets; }
+    const buffer<index>& columns() const noexcept { return shared_->columns; }
 
     /// What one product must move: values, columns, the vector read once and the result written.
-    std::size_t product_bytes() const { return values_.bytes() + columns_.bytes() + 2 * d() * stride_ * sizeof(T); }
+    std::size_t product_bytes() const { return values_.bytes() + columns().bytes() + 2 * d() * stride() * sizeof(T); }
+    /// Bytes on the device: values, inverses, and the lists that like() shares.
+    std::size_t bytes() const { return values_.bytes() + inverse_.bytes() + offsets().bytes() + columns().bytes(); }
 
 private:
-    std::size_t d() const { return static_cast<std::size_t>(D_); }
+    /// What matrices of one pattern share.
+    struct structure
+    {
+        structure(taut::queue& q, block_pattern pattern, int size, lane_form lanes)
+            : queue(q),
+              D(size),
+              form(lanes),
+              rows(pattern.rows()),
+              stride(padded(std::max<std::size_t>(pattern.rows(), 1), 256)),
+              places(pattern.columns.size()),
+              host(std::move(pattern))
+        {
+            if (D < 2 || D > 3) throw parameter_error("D", "must be 2 or 3");
+            if (host.slice != form.slice) throw parameter_error("pattern", "has other slices than the device wants");
+            if (places * static_cast<std::size_t>(D * D) > static_cast<std::size_t>(std::numeric_limits<index>::max()))
+                throw parameter_error("block_matrix", "more than 2^31 values");
+            offsets = buffer<index>(q, host.offsets);
+            columns = buffer<index>(q, host.columns);
+            detail::load_block_kernel<T>(product, q, "product", D, form);
+            detail::load_block_kernel<T>(residual, q, "residual", D, form);
+            detail::load_block_kernel<T>(smooth, q, "smooth", D, form);
+            detail::load_block_kernel<T>(jacobi, q, "jacobi", D, form);
+            detail::load_block_kernel<T>(invert, q, "invert_blocks", D, form);
+        }
+
+        const block_pattern& pattern()
+        {
+            if (host.columns.size() != places) host = {form.slice, rows, offsets.download(), columns.download()};
+            return host;
+        }
+
+        taut::queue queue;
+        int D;
+        lane_form form;
+        std::size_t rows, stride, places;
+        block_pattern host;
+        buffer<index> offsets, columns;
+        using in = const buffer<T>;
+        using list = const buffer<index>;
+        typed_kernel<index, list, list, in, in, buffer<T>> product;
+        typed_kernel<index, list, list, in, in, in, buffer<T>> residual;
+        typed_kernel<index, list, list, in, in, in, in, in, T, T, T, buffer<T>> smooth;
+        typed_kernel<index, in, in, T, buffer<T>> jacobi;
+        typed_kernel<index, list, in, buffer<T>> invert;
+    };
+
+    explicit block_matrix(std::shared_ptr<structure> shared)
+        : shared_(std::move(shared)), values_(shared_->queue, shared_->places * blocks())
+    {
+        values_.fill(0);
+    }
+
+    std::size_t d() const { return static_cast<std::size_t>(shared_->D); }
     std::size_t blocks() const { return d() * d(); }
-    index pitch() const { return static_cast<index>(stride_); }
-    range items() const { return form_.items(stride_); }
+    std::size_t inverse_size() const { return stride() * d() * (d() + 1) / 2; }
+    index pitch() const { return static_cast<index>(stride()); }
+    range items() const { return form().items(stride()); }
+
+    /// Where entry at % (D * D) of the block of place at / (D * D) is on the device.
+    std::size_t device_place(std::size_t at) const
+    {
+        const std::size_t C = static_cast<std::size_t>(form().slice), place = at / blocks(), lane = place % C;
+        return (place - lane) * blocks() + at % blocks() * C + lane;
+    }
 
     template <class... Vectors>
     void check(const Vectors&... v) const
     {
-        if (((v.padded_size() < d() * stride_) || ...))
-            throw parameter_error("block_matrix", "vectors of " + std::to_string(d() * stride_) + " are needed");
-    }
-    template <class F>
-    void each_block(const F& f) const
-    {
-        for (std::size_t r = 0; r < rows(); ++r)
-            for (std::size_t j = 0; j < pattern_.length(r); ++j)
-                for (std::size_t e = 0; e < blocks(); ++e)
-                    f(static_cast<std::size_t>(pattern_.offsets[r]) + j, e,
-                      value_place(r, j) + e * static_cast<std::size_t>(form_.slice));
+        if (((v.padded_size() < d() * stride()) || ...))
+            throw parameter_error("block_matrix", "vectors of " + std::to_string(d() * stride()) + " are needed");
     }
 
-    mutable taut::queue queue_;
-    block_pattern pattern_;
-    int D_;
-    lane_form form_;
-    std::size_t stride_;
-    sliced_lists lists_;
+    std::shared_ptr<structure> shared_;
     buffer<T> values_, inverse_;
-    buffer<index> offsets_, columns_;
-    using in = const buffer<T>;
-    using list = const buffer<index>;
-    typed_kernel<index, list, list, in, in, buffer<T>> product_;
-    typed_kernel<index, list, list, in, in, in, buffer<T>> residual_;
-    typed_kernel<index, list, list, in, in, in, in, in, T, T, T, buffer<T>> smooth_;
-    typed_kernel<index, in, in, T, buffer<T>> jacobi_;
-    typed_kernel<index, list, in, buffer<T>> invert_;
 };
 
 } // namespace taut

@@ -1,55 +1,77 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-#include <vector>
+#include <taut/compute/block_sparse.hpp>
 
 namespace taut::detail
 {
 
-/// The inverse of a symmetric positive semi-definite n x n matrix, row by row, on the host. The matrix is scaled to a
-/// unit diagonal and shifted by `shift`, ten times more until its Cholesky factorization exists: directions that it
-/// does not see get a large, finite answer. Diagonals must be positive. n^3 operations.
-inline std::vector<double> dense_inverse(std::vector<double> A, std::size_t n, double shift)
+/// The inverse of a small symmetric positive semi-definite block matrix on its device, dense, for some of its rows.
+/// The matrix is scaled to a unit diagonal and shifted a little, so that directions which it does not see get a large,
+/// finite answer; unknowns without a positive pivot, or whose entries are not finite, get 0. Only enqueues.
+template <class T>
+class dense_inverse
 {
-    std::vector<double> scale(n);
-    for (std::size_t i = 0; i < n; ++i) scale[i] = 1 / std::sqrt(A[i * n + i]);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) A[i * n + j] *= scale[i] * scale[j];
+public:
+    /// None: empty() holds.
+    dense_inverse() = default;
 
-    std::vector<double> L;
-    const auto factorize = [&]
+    /// rows: of A, ascending, each once.
+    dense_inverse(const block_matrix<T>& A, const std::vector<index>& rows)
+        : rows_(static_cast<index>(A.rows())), size_(static_cast<index>(rows.size()) * A.block_size())
     {
-        L = A;
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = 0; j <= i; ++j)
-            {
-                double s = L[i * n + j] + (i == j ? shift : 0.0);
-                for (std::size_t k = 0; k < j; ++k) s -= L[i * n + k] * L[j * n + k];
-                if (i == j && !(s > 0.1 * shift)) return false;
-                L[i * n + j] = i == j ? std::sqrt(s) : s / L[j * n + j];
-            }
-        return true;
-    };
-    // A matrix with entries that are not finite never factorizes; its inverse is taken as 0.
-    while (!factorize())
-        if ((shift *= 10) > 10) return std::vector<double>(n * n, 0.0);
-
-    // R = L^-1 by rows, then the inverse R' R.
-    std::vector<double> R(n * n, 0.0), inverse(n * n, 0.0);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-        R[i * n + i] = 1;
-        for (std::size_t k = 0; k < i; ++k)
-            for (std::size_t j = 0; j <= k; ++j) R[i * n + j] -= L[i * n + k] * R[k * n + j];
-        for (std::size_t j = 0; j <= i; ++j) R[i * n + j] /= L[i * n + i];
+        if (size_ == 0) return;
+        auto& q = A.queue();
+        const auto form = A.form();
+        const auto size = static_cast<std::size_t>(size_),
+                   pitch = padded(size, static_cast<std::size_t>(std::max(form.lanes, index{16})));
+        pitch_ = static_cast<index>(pitch);
+        std::vector<index> numbers(A.rows(), -1), at;
+        for (const index r : rows)
+        {
+            numbers[static_cast<std::size_t>(r)] = static_cast<index>(at.size()) / A.block_size();
+            for (int c = 0; c < A.block_size(); ++c) at.push_back(static_cast<index>(A.stride()) * c + r);
+        }
+        numbers_ = buffer<index>(q, numbers);
+        at_ = buffer<index>(q, at);
+        work_ = buffer<T>(q, (size + 2) * pitch);
+        inverse_ = buffer<T>(q, size * pitch);
+        items_ = form.items(padded(pitch, static_cast<std::size_t>(form.lanes)));
+        const auto team = static_cast<std::size_t>(dense_team(q.device()));
+        team_ = {team, team};
+        load_block_kernel<T>(invert_, q, "invert_dense", A.block_size(), form);
+        load_block_kernel<T>(apply_, q, "dense", A.block_size(), form);
     }
-    for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t i = 0; i <= k; ++i)
-            for (std::size_t j = 0; j <= k; ++j) inverse[i * n + j] += R[k * n + i] * R[k * n + j];
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) inverse[i * n + j] *= scale[i] * scale[j];
-    return inverse;
-}
+
+    bool empty() const noexcept { return size_ == 0; }
+    index size() const noexcept { return size_; }
+    index pitch() const noexcept { return pitch_; }
+    /// Where the unknowns are in vectors of the matrix.
+    const buffer<index>& at() const noexcept { return at_; }
+    const buffer<T>& inverse() const noexcept { return inverse_; }
+
+    void refresh(const block_matrix<T>& A)
+    {
+        invert_(team_, rows_, size_, pitch_, T(std::is_same_v<T, double> ? 1e-8 : 1e-4), A.offsets(), A.columns(),
+                A.values(), numbers_, work_, inverse_);
+    }
+    /// x = A^-1 b at the rows; other places of x stay as they are.
+    void apply(const device_vector<T>& b, device_vector<T>& x) const
+    {
+        apply_(items_, size_, pitch_, at_, inverse_, b.data(), x.data());
+    }
+
+    std::size_t bytes() const { return numbers_.bytes() + at_.bytes() + work_.bytes() + inverse_.bytes(); }
+
+private:
+    index rows_ = 0, size_ = 0, pitch_ = 0;
+    range items_{0}, team_{0};
+    buffer<index> numbers_, at_;
+    buffer<T> work_, inverse_;
+    using in = const buffer<T>;
+    using list = const buffer<index>;
+    typed_kernel<index, index, index, T, list, list, in, list, buffer<T>, buffer<T>> invert_;
+    typed_kernel<index, index, list, in, in, buffer<T>> apply_;
+};
 
 } // namespace taut::detail

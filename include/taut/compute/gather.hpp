@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include <taut/compute/detail/kernels/gather.hpp>
 #include <taut/compute/kernel.hpp>
+#include <taut/core/parallel.hpp>
 
 namespace taut
 {
@@ -39,34 +41,37 @@ public:
         if (rows > layout.vertex_stride || layout.vertex_stride % 64 != 0)
             throw parameter_error("gather_layout.vertex_stride",
                                   "a multiple of 64, at least the number of rows, is needed");
-        for (std::size_t k = 0; k < cells.size(); ++k)
-            if (cells[k] < 0 || static_cast<std::size_t>(cells[k]) >= layout.cell_stride)
-                throw parameter_error("gather_layout.cell_stride",
-                                      "cell " + std::to_string(cells[k]) + " is beyond it");
+        const auto place = [&](std::size_t k)
+        { return static_cast<std::size_t>(corners[k]) * D * layout.cell_stride + static_cast<std::size_t>(cells[k]); };
+        if (!cells.empty())
+        {
+            const std::size_t last = largest_place(cells, layout.cell_stride, place);
+            to_int(last); // the kernel computes in int
+            reach_ = last + (D - 1) * layout.cell_stride + 1;
+        }
 
         const auto valence = [&](std::size_t v) { return static_cast<std::size_t>(offsets[v + 1] - offsets[v]); };
-        const auto slot = [&](index k)
-        {
-            const auto at = static_cast<std::size_t>(k);
-            const std::size_t place =
-                static_cast<std::size_t>(corners[at]) * D * layout.cell_stride + static_cast<std::size_t>(cells[at]);
-            reach_ = std::max(reach_, place + (D - 1) * layout.cell_stride + 1);
-            return to_int(place);
-        };
         width_ = common_width(rows, valence);
-        to_int(width_ * layout.vertex_stride); // the kernel computes in int
+        to_int(width_ * layout.vertex_stride);
         sums_ = D * layout.vertex_stride;
 
         std::vector<index> columns(width_ * layout.vertex_stride, -1), which, rest_offsets{0}, rest;
+        parallel_for(rows,
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t v = begin; v < end; ++v)
+                         {
+                             const auto first = static_cast<std::size_t>(offsets[v]);
+                             for (std::size_t j = 0; j < std::min(width_, valence(v)); ++j)
+                                 columns[j * layout.vertex_stride + v] = static_cast<index>(place(first + j));
+                         }
+                     });
         for (std::size_t v = 0; v < rows; ++v)
         {
-            std::size_t j = 0;
-            for (index k = offsets[v]; k < offsets[v + 1]; ++k, ++j)
-                if (j < width_)
-                    columns[j * layout.vertex_stride + v] = slot(k);
-                else
-                    rest.push_back(slot(k));
-            if (j <= width_) continue;
+            if (valence(v) <= width_) continue;
+            for (auto k = static_cast<std::size_t>(offsets[v]) + width_; k < static_cast<std::size_t>(offsets[v + 1]);
+                 ++k)
+                rest.push_back(static_cast<index>(place(k)));
             which.push_back(static_cast<index>(v));
             rest_offsets.push_back(static_cast<index>(rest.size()));
         }
@@ -101,6 +106,32 @@ public:
     std::size_t overfull() const noexcept { return static_cast<std::size_t>(rest_rows_); }
 
 private:
+    /// The largest of the places of all contributions. Throws parameter_error for a cell beyond the stride.
+    template <class Place>
+    static std::size_t largest_place(std::span<const index> cells, std::size_t cell_stride, const Place& place)
+    {
+        std::atomic<std::size_t> largest{0};
+        std::atomic<bool> beyond{false};
+        const auto is_beyond = [&](index cell) { return cell < 0 || static_cast<std::size_t>(cell) >= cell_stride; };
+        parallel_for(cells.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         std::size_t here = 0;
+                         bool bad = false;
+                         for (std::size_t k = begin; k < end; ++k)
+                         {
+                             bad |= is_beyond(cells[k]);
+                             here = std::max(here, place(k));
+                         }
+                         if (bad) beyond = true;
+                         for (auto known = largest.load(); known < here && !largest.compare_exchange_weak(known, here);)
+                             continue;
+                     });
+        if (!beyond) return largest;
+        const index cell = *std::find_if(cells.begin(), cells.end(), is_beyond);
+        throw parameter_error("gather_layout.cell_stride", "cell " + std::to_string(cell) + " is beyond it");
+    }
+
     /// The even width of least cost. By measurement on PoCL, in units of a slot of the first launch, a vertex in the
     /// second launch costs about 30 and the launch itself 10,000.
     template <class Valence>

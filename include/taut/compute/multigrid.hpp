@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
+#include <numeric>
 
 #include <taut/compute/block_transfer.hpp>
 #include <taut/compute/dense_inverse.hpp>
@@ -11,42 +11,59 @@ namespace taut
 
 struct multigrid_params
 {
-    double lambda_max = 3;         ///< bound on the spectrum of B^-1 A, B the block diagonal: corners of an element
-    double lambda_ratio = 10;      ///< the smoother damps the spectrum from lambda_max / lambda_ratio on
-    std::size_t dense_limit = 600; ///< unknowns of a coarsest level that is solved directly
+    double lambda_max = 3;          ///< bound on the spectrum of B^-1 A, B the block diagonal: corners of an element
+    double lambda_ratio = 10;       ///< the smoother damps the spectrum from lambda_max / lambda_ratio on
+    std::size_t dense_limit = 600;  ///< unknowns of a coarsest level that is solved directly
+    std::size_t dense_enough = 180; ///< unknowns of a level that makes coarser ones superfluous; at most dense_limit
 
     /// Throws parameter_error with the name of a field outside its domain.
     void validate() const
     {
         if (!(lambda_max > 0)) throw parameter_error("lambda_max", "must be positive");
         if (!(lambda_ratio > 1)) throw parameter_error("lambda_ratio", "must be more than 1");
+        if (dense_enough > dense_limit) throw parameter_error("dense_enough", "must be at most dense_limit");
     }
 };
 
 /// A symmetric geometric multigrid V-cycle as a preconditioner of a symmetric positive semi-definite block matrix: two
 /// steps of Chebyshev iteration on block-Jacobi before and after each coarse correction, Galerkin matrices, a dense
-/// inverse on the coarsest level. Assemble into matrix(), refresh(), then apply() at will; apply() only enqueues.
+/// inverse on the coarsest level. Assemble into matrix(), refresh(), then apply() at will; both only enqueue.
 template <class T>
 class multigrid
 {
 public:
-    /// transfers[l]: from level l + 1 to level l; none leaves the smoother and, if it is small, the dense inverse.
-    multigrid(block_matrix<T> finest, const std::vector<transfer_weights>& transfers,
-              const multigrid_params& params = {})
-        : params_(params)
+    /// transfers[l]: from level l + 1 to level l, as far as levels are needed; none leaves the smoother and, if it is
+    /// small, the dense inverse. The arrays that they refer to may go afterwards. Throws parameter_error.
+    multigrid(block_matrix<T> finest, std::span<const transfer_weights> transfers, const multigrid_params& params = {})
     {
         params.validate();
-        levels_.push_back(std::make_unique<level>(std::move(finest)));
+        levels_.emplace_back(std::move(finest));
+        std::vector<index> active(levels_[0].A.rows()); // rows of the coarsest level that are not fixed
+        std::iota(active.begin(), active.end(), 0);
         for (const auto& P : transfers)
         {
-            const auto& fine = levels_.back()->A;
-            auto coarse = std::make_unique<level>(
-                block_matrix<T>(fine.queue(), pattern_of_product(fine.pattern(), P), fine.block_size(), fine.form()));
-            transfers_.emplace_back(fine, P, coarse->A);
+            const auto& fine = levels_.back().A;
+            if (active.size() * static_cast<std::size_t>(fine.block_size()) <= params.dense_enough) break;
+            const transposed_weights t(P);
+            level coarse(block_matrix<T>(fine.queue(), pattern_of_product(fine.pattern(), P, t), fine.block_size(),
+                                         fine.form()));
+            coarse.b = coarse.A.vector();
+            coarse.x = coarse.A.vector();
+            transfers_.emplace_back(fine, P, t, coarse.A);
+            levels_.back().A.forget_pattern();
             levels_.push_back(std::move(coarse));
+            active.clear();
+            for (std::size_t J = 0; J < P.coarse; ++J)
+                if (!t[J].empty()) active.push_back(static_cast<index>(J));
         }
-        const auto& last = levels_.back()->A;
-        detail::load_block_kernel<T>(dense_, last.queue(), "dense", last.block_size(), last.form());
+        const auto& last = levels_.back().A;
+        if (active.size() * static_cast<std::size_t>(last.block_size()) <= params.dense_limit)
+            coarsest_ = detail::dense_inverse<T>(last, active);
+        levels_.back().A.forget_pattern();
+        constexpr std::size_t few = 2048; // rows; a product takes one core as long as a launch takes
+        fused_ = last.form().lanes > 1 && levels() > 1 && solves_coarsest() && levels_[levels() - 2].A.rows() <= few;
+        if (fused_)
+            detail::load_block_kernel<T>(small_cycle_, last.queue(), "small_cycle", last.block_size(), last.form());
         // Chebyshev iteration on [lambda_max / ratio, lambda_max] (Saad, Iterative Methods, algorithm 12.1).
         const double low = params.lambda_max / params.lambda_ratio, middle = (params.lambda_max + low) / 2,
                      half = (params.lambda_max - low) / 2, sigma = middle / half;
@@ -56,76 +73,70 @@ public:
         second_ = 2 * rho / half;
     }
 
-    block_matrix<T>& matrix() noexcept { return levels_.front()->A; }
-    const block_matrix<T>& matrix(std::size_t l = 0) const { return levels_[l]->A; }
+    block_matrix<T>& matrix() noexcept { return levels_.front().A; }
+    const block_matrix<T>& matrix(std::size_t l = 0) const { return levels_[l].A; }
     std::size_t levels() const noexcept { return levels_.size(); }
-    bool solves_coarsest() const noexcept { return unknowns_ > 0; }
+    bool solves_coarsest() const noexcept { return !coarsest_.empty(); }
     /// Launches of one apply().
     std::size_t launches() const noexcept
     {
-        const std::size_t last = solves_coarsest() ? (levels() == 1 ? 1 : 2) : (levels() == 1 ? 4 : 4);
-        return levels() == 1 ? last : 6 * (levels() - 1) + last;
+        const std::size_t single = levels() - (fused_ ? 2 : solves_coarsest() ? 1 : 0); // levels of separate launches
+        if (!solves_coarsest()) return 6 * single - 2;
+        return 6 * single + 1 + (single > 0 ? 1 : 0);
     }
 
-    /// Makes the matrices of all levels follow the values of matrix(). Waits once to read the coarsest one and once or
-    /// twice to write its inverse.
+    /// Makes the matrices of all levels follow the values of matrix().
     void refresh()
     {
-        levels_[0]->A.invert_diagonal();
-        for (std::size_t l = 0; l < transfers_.size(); ++l)
+        for (std::size_t l = 0; l < levels(); ++l)
         {
-            transfers_[l].refresh(levels_[l]->A, levels_[l + 1]->A);
-            levels_[l + 1]->A.invert_diagonal();
+            if (l > 0) transfers_[l - 1].refresh(levels_[l - 1].A, levels_[l].A);
+            if (l + 1 < levels() || !solves_coarsest()) levels_[l].A.invert_diagonal();
         }
-        invert_coarsest();
+        if (solves_coarsest()) coarsest_.refresh(levels_.back().A);
     }
 
     /// x = M b, M symmetric and positive definite where the matrix sees anything; b and x differ.
     void apply(const device_vector<T>& b, device_vector<T>& x)
     {
         // The smoother's first step on the finest level; restriction makes it on the others.
-        if (levels() > 1 || !solves_coarsest()) levels_[0]->A.jacobi(b, first_, levels_[0]->y);
+        if (!is_small(0) && !is_solved(0)) levels_[0].A.jacobi(b, first_, levels_[0].y);
         cycle(0, b, x);
     }
 
-    /// Bytes of the lists of all transfers.
-    std::size_t list_bytes() const
+    /// Bytes on the device of matrices, transfers and vectors.
+    std::size_t bytes() const
     {
-        std::size_t sum = 0;
+        std::size_t sum = coarsest_.bytes();
         for (const auto& t : transfers_) sum += t.bytes();
+        for (const auto& l : levels_) sum += l.A.bytes() + l.b.data().bytes() + l.x.data().bytes() + l.y.data().bytes();
         return sum;
     }
 
 private:
     struct level
     {
-        explicit level(block_matrix<T> matrix)
-            : A(std::move(matrix)), b(A.vector()), x(A.vector()), y(A.vector()), r(A.vector())
-        {
-        }
+        explicit level(block_matrix<T> matrix) : A(std::move(matrix)), y(A.vector()) {}
         block_matrix<T> A;
-        device_vector<T> b, x, y, r; ///< right side, solution, the smoother's other iterate, residual
+        device_vector<T> b, x; ///< right side and solution of coarse levels
+        device_vector<T> y;    ///< the smoother's other iterate; between smoothings the residual
     };
+
+    bool is_solved(std::size_t l) const { return l + 1 == levels() && solves_coarsest(); }
+    bool is_small(std::size_t l) const { return fused_ && l + 2 == levels(); }
 
     /// On entry y holds the smoother's first step from zero.
     void cycle(std::size_t l, const device_vector<T>& b, device_vector<T>& x)
     {
-        level& here = *levels_[l];
-        const bool last = l + 1 == levels();
-        if (last && solves_coarsest())
-        {
-            if (l == 0) x.data().fill(0); // rows that the inverse leaves out; elsewhere x is our own and zero
-            const auto form = here.A.form();
-            dense_(form.items(pitch_), static_cast<index>(unknowns_), static_cast<index>(pitch_), at_, inverse_,
-                   b.data(), x.data());
-            return;
-        }
+        level& here = levels_[l];
+        if (is_solved(l)) return coarsest_.apply(b, x);
+        if (is_small(l)) return cycle_small(b, x);
         here.A.smooth(b, here.y, here.y, 1 + momentum_, 0, second_, x);
-        if (!last)
+        if (l + 1 < levels())
         {
-            level& coarse = *levels_[l + 1];
-            here.A.residual(x, b, here.r);
-            transfers_[l].restrict_residual(here.r, coarse.A, first_, coarse.b, coarse.y);
+            level& coarse = levels_[l + 1];
+            here.A.residual(x, b, here.y);
+            transfers_[l].restrict_residual(here.y, coarse.A, first_, coarse.b, coarse.y);
             cycle(l + 1, coarse.b, coarse.x);
             transfers_[l].prolong(coarse.x, x);
         }
@@ -133,80 +144,27 @@ private:
         here.A.smooth(b, here.y, x, 1 + momentum_, -momentum_, second_, x);
     }
 
-    void invert_coarsest()
+    void cycle_small(const device_vector<T>& b, device_vector<T>& x)
     {
-        const auto& A = levels_.back()->A;
-        const std::size_t D = static_cast<std::size_t>(A.block_size()), n = A.rows();
-        constexpr std::size_t most_rows = 20000; // kept rows may be many and nearly all fixed
-        unknowns_ = 0;
-        if (n > most_rows) return;
-        const auto values = A.download();
-        const auto& p = A.pattern();
-        // Numbers of the rows with a diagonal; fixed rows have none.
-        std::vector<index> number(n, -1), at;
-        std::vector<std::size_t> active;
-        for (std::size_t r = 0; r < n; ++r)
-        {
-            bool positive = true;
-            for (std::size_t c = 0; c < D; ++c)
-                positive = positive && values[static_cast<std::size_t>(p.offsets[r]) * D * D + c * D + c] > 0;
-            if (!positive) continue;
-            number[r] = static_cast<index>(active.size());
-            active.push_back(r);
-        }
-        const std::size_t m = D * active.size();
-        if (m == 0 || m > params_.dense_limit) return;
-        std::vector<double> full(m * m, 0.0);
-        for (const std::size_t r : active)
-            for (std::size_t c = 0; c < D; ++c)
-            {
-                at.push_back(static_cast<index>(c * A.stride() + r));
-                const auto i = static_cast<std::size_t>(number[r]) * D + c;
-                for (std::size_t j = 0; j < p.length(r); ++j)
-                {
-                    const index column = number[static_cast<std::size_t>(p.row(r)[j])];
-                    if (column < 0) continue;
-                    const std::size_t k = (static_cast<std::size_t>(p.offsets[r]) + j) * D * D + c * D;
-                    for (std::size_t e = 0; e < D; ++e)
-                        full[i * m + static_cast<std::size_t>(column) * D + e] = values[k + e];
-                }
-            }
-        const auto inverse = detail::dense_inverse(std::move(full), m, std::is_same_v<T, double> ? 1e-8 : 1e-4);
-        pitch_ = padded(m, static_cast<std::size_t>(A.form().slice));
-        std::vector<T> rows(m * pitch_, T(0));
-        for (std::size_t i = 0; i < m; ++i)
-            for (std::size_t j = 0; j < m; ++j) rows[i * pitch_ + j] = T(inverse[i * m + j]);
-        auto& q = A.queue();
-        if (inverse_.size() != rows.size()) inverse_ = buffer<T>(q, rows.size());
-        inverse_.upload(rows);
-        if (at != host_at_)
-        {
-            at_ = buffer<index>(q, at);
-            host_at_ = std::move(at);
-            levels_.back()->x.data().fill(0); // rows that were solved for before
-        }
-        unknowns_ = m;
+        level &here = levels_[levels() - 2], &coarse = levels_.back();
+        const auto& P = transfers_.back();
+        const auto number = [](std::size_t n) { return static_cast<index>(n); };
+        small_cycle_({1, 1}, number(here.A.rows()), number(here.A.stride()), number(coarse.A.stride()),
+                     coarsest_.size(), coarsest_.pitch(), T(first_), T(momentum_), T(second_), here.A.offsets(),
+                     here.A.columns(), here.A.values(), here.A.inverse(), P.columns(), P.weights(), coarsest_.at(),
+                     coarsest_.inverse(), b.data(), coarse.b.data(), coarse.x.data(), here.y.data(), x.data());
     }
 
-    multigrid_params params_;
-    std::vector<std::unique_ptr<level>> levels_;
+    std::vector<level> levels_;
     std::vector<block_transfer<T>> transfers_;
+    detail::dense_inverse<T> coarsest_;
     double first_, momentum_, second_;
-    std::size_t unknowns_ = 0, pitch_ = 0;
-    std::vector<index> host_at_;
-    buffer<index> at_;
-    buffer<T> inverse_;
+    bool fused_ = false;
     using in = const buffer<T>;
-    typed_kernel<index, index, const buffer<index>, in, in, buffer<T>> dense_;
+    using list = const buffer<index>;
+    typed_kernel<index, index, index, index, index, T, T, T, list, list, in, in, list, in, list, in, in, buffer<T>,
+                 buffer<T>, buffer<T>, buffer<T>>
+        small_cycle_;
 };
-
-/// Removes the influence of fixed rows: coarse vertices that are fixed get no weight, so no correction reaches or
-/// leaves them. fixed: a flag a coarse row.
-inline void drop_fixed(transfer_weights& P, std::span<const char> fixed)
-{
-    for (std::size_t i = 0; i < P.columns.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (fixed[static_cast<std::size_t>(P.columns[i][k])]) P.weights[i][k] = 0;
-}
 
 } // namespace taut

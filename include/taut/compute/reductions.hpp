@@ -78,6 +78,20 @@ public:
         return add(first, blocks.count, 1, fold::minimum);
     }
 
+    /// Enqueues out[0] = min(most, fraction * the minimum r): what a later launch can read without a wait. NaN stays
+    /// NaN.
+    template <class T>
+    void limit(result r, double fraction, double most, buffer<T>& out)
+    {
+        const job& j = jobs_[r.first];
+        const auto run = [&](auto number)
+        {
+            launch<T>(slot::limit, 1, 1, 1, 1, as_uint(j.first), as_uint(j.groups), partials_,
+                      decltype(number)(fraction), decltype(number)(most), out);
+        };
+        partials_.wide() ? run(double()) : run(float());
+    }
+
     /// Every left times every right vector over their first n elements: result i * right.size() + j. Tiles of up to
     /// four by four share their loads, one launch a tile.
     template <class T>
@@ -145,7 +159,8 @@ private:
         dots = 0,
         sums = 8,
         minima = 9,
-        end = 10
+        limit = 10,
+        end = 11
     };
     struct job
     {
@@ -179,9 +194,9 @@ private:
     void launch(slot what, std::size_t nl, std::size_t nr, std::size_t local, std::size_t groups, const Args&... args)
     {
         if (groups == 0) return;
-        static constexpr const char* names[] = {"dots", "sums", "minima"};
+        static constexpr const char* names[] = {"dots", "sums", "minima", "limit"};
         const std::size_t which = what == slot::dots ? 2 * (nl - 1) + (nr == 4) : static_cast<std::size_t>(what);
-        const std::string name = names[what == slot::dots ? 0 : what == slot::sums ? 1 : 2];
+        const std::string name = names[what == slot::dots ? 0 : static_cast<std::size_t>(what) - 7];
         auto& kernel = kernels_[std::is_same_v<T, double>][which];
         if (!kernel.get())
         {

@@ -6,66 +6,59 @@
 #include <string>
 #include <vector>
 
-#include <taut/compute/quirks.hpp>
-#include <taut/compute/range.hpp>
 #include <taut/core/error.hpp>
+#include <taut/core/parallel.hpp>
 #include <taut/core/types.hpp>
 
-namespace taut
+/// Lists of varying length in slices of equal width (sliced ELLPACK), made in pieces on several threads: item j of list
+/// r is at offsets[r / slice] + j * slice + r % slice.
+namespace taut::detail
 {
 
-/// How rows are dealt to the lanes of a device: `slice` rows lie together, an item does `lanes` of them (1 or 16).
-struct lane_form
+/// How many rows a thread takes at a time: whole slices, few enough pieces for a scratch array each.
+inline std::size_t rows_a_chunk(std::size_t rows)
 {
-    index slice = 16;
-    index lanes = 16;
+    return std::max<std::size_t>(2048, (rows / 64 + 255) / 256 * 256);
+}
 
-    /// Explicit vectors of 16 on CPUs, a row an item and a slice a warp on GPUs.
-    static lane_form for_device(const device& d)
-    {
-        return quirks::wants_serial_items(d) ? lane_form{16, 16} : lane_form{32, 1};
-    }
-
-    /// The items of so many rows (a multiple of the slice), padded to whole groups.
-    range items(std::size_t rows) const
-    {
-        const std::size_t group = lanes == 1 ? 128 : 16;
-        return {padded(rows / static_cast<std::size_t>(lanes), group), group};
-    }
+/// A piece of lists in slices: their items, and the items of each slice.
+struct list_chunk
+{
+    std::vector<index> items, sizes;
 };
 
-/// Lists of varying length in slices of equal width (sliced ELLPACK): item j of list r is at
-/// offsets[r / slice] + j * slice + r % slice.
-struct sliced_lists
+/// The offsets of slices from the sizes in chunks, for `slices` slices; those behind the chunks are empty.
+inline std::vector<index> slice_offsets(const std::vector<list_chunk>& chunks, std::size_t slices)
 {
-    index slice = 16;
-    std::vector<index> offsets{0}; ///< slices + 1
-
-    /// Room for `rows` lists; length(r) is needed for the first `lists`, the others are empty.
-    template <class Length>
-    sliced_lists(std::size_t lists, std::size_t rows, index slice_rows, const Length& length) : slice(slice_rows)
-    {
-        const auto C = static_cast<std::size_t>(slice);
-        offsets.reserve(rows / C + 1);
-        std::size_t end = 0;
-        for (std::size_t first = 0; first < rows; first += C)
+    std::vector<index> offsets{0};
+    offsets.reserve(slices + 1);
+    std::size_t end = 0;
+    for (const auto& chunk : chunks)
+        for (const index size : chunk.sizes)
         {
-            std::size_t width = 0;
-            for (std::size_t r = first; r < std::min(first + C, lists); ++r)
-                width = std::max(width, static_cast<std::size_t>(length(r)));
-            end += width * C;
+            end += static_cast<std::size_t>(size);
             if (end > static_cast<std::size_t>(std::numeric_limits<index>::max()))
-                throw parameter_error("sliced_lists", "more than 2^31 items");
+                throw parameter_error("sliced lists", "more than 2^31 items in a list");
             offsets.push_back(static_cast<index>(end));
         }
-    }
+    offsets.resize(slices + 1, static_cast<index>(end));
+    return offsets;
+}
 
-    std::size_t size() const { return static_cast<std::size_t>(offsets.back()); }
-    std::size_t place(std::size_t row, std::size_t j) const
+/// Calls body(chunk number, first row, last row + 1) for all chunks of the rows, on all threads.
+template <class Body>
+void for_each_chunk(std::size_t rows, const Body& body)
+{
+    const std::size_t size = rows_a_chunk(rows), chunks = (rows + size - 1) / size;
+    const auto some = [&](std::size_t begin, std::size_t end)
     {
-        const auto C = static_cast<std::size_t>(slice);
-        return static_cast<std::size_t>(offsets[row / C]) + j * C + row % C;
-    }
-};
+        for (std::size_t k = begin; k < end; ++k) body(k, k * size, std::min(rows, (k + 1) * size));
+    };
+    parallel_for(chunks, some, 0, 1);
+}
+inline std::size_t chunk_count(std::size_t rows)
+{
+    return (rows + rows_a_chunk(rows) - 1) / rows_a_chunk(rows);
+}
 
-} // namespace taut
+} // namespace taut::detail

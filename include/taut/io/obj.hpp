@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/io/polygon_soup.hpp>
 #include <taut/io/scanner.hpp>
 
@@ -12,33 +17,70 @@ namespace taut::io
 namespace detail
 {
 
-/// Reads OBJ statements into a soup.
+/// Reads OBJ statements into a soup. A reader of a piece of a file takes in those of the following pieces.
 class obj_reader
 {
 public:
-    obj_reader(std::string_view text, const std::string& path) : in_(text, path) { in_.require_text(); }
+    obj_reader(std::string_view text, const std::string& path) : in_(text, path) {}
 
-    surface_file read()
+    void require_text() const { in_.require_text(); }
+
+    void read()
     {
+        // What a file of triangles has, about; memory that is not used costs nothing.
+        soup_.reserve(in_.remaining() / 64, in_.remaining() / 10);
         while (!in_.done())
         {
             const std::string_view key = in_.word();
-            if (key == "v")
+            if (key.size() == 1 && key[0] == 'v')
             {
                 soup_.add_point(in_.numbers<3>(), in_.path(), in_.here());
                 if (!in_.line_ends()) read_extra();
             }
+            else if (key.size() == 1 && key[0] == 'f')
+                read_face();
             else if (key == "vt")
             {
                 const double u = in_.number();
                 // A texture of one dimension has no v.
                 soup_.add_texcoord({u, in_.line_ends() ? 0.0 : in_.number()}, in_.path(), in_.here());
             }
-            else if (key == "f")
-                read_face();
             // Comments end with their line; every other statement may be joined to the next line.
             in_.next_line(!key.starts_with('#'));
         }
+    }
+
+    /// False if some statement counts back from its place, which a piece does not know.
+    bool absolute() const { return absolute_; }
+
+    /// Makes room for what some readers have read.
+    void reserve(const std::vector<obj_reader>& pieces)
+    {
+        std::size_t points = 0, corners = 0;
+        for (const auto& p : pieces) points += p.soup_.points.size(), corners += p.soup_.corners.size();
+        soup_.reserve(points, corners);
+    }
+
+    /// Takes in what stands in the following piece. False if that makes too much of anything.
+    bool append(obj_reader&& next)
+    {
+        if (!soup_.append(std::move(next.soup_))) return false;
+        // Where in the file the largest numbers stand is asked only when a whole file is read.
+        vertices_.number = std::max(vertices_.number, next.vertices_.number);
+        coords_.number = std::max(coords_.number, next.coords_.number);
+        return true;
+    }
+
+    /// Whether the faces name only what there is.
+    bool in_range() const
+    {
+        const auto within = [](const largest& most, std::size_t count)
+        { return most.number <= static_cast<long long>(count); };
+        return within(vertices_, soup_.points.size()) && within(coords_, soup_.texcoords.size());
+    }
+
+    surface_file finish()
+    {
         require_range(vertices_, soup_.points.size(), "vertex");
         require_range(coords_, soup_.texcoords.size(), "texture coordinate");
         return std::move(soup_).finish(in_.path());
@@ -89,6 +131,7 @@ private:
     {
         const char* position = in_.position();
         const long long i = in_.integer("a corner such as 7, 7/7 or 7//7");
+        absolute_ = absolute_ && i > 0;
         const long long zero_based = i > 0 ? i - 1 : static_cast<long long>(count) + i;
         if (i == 0 || zero_based < 0 || zero_based > static_cast<long long>(polygon_soup::limit))
             in_.fail("a face names number " + std::to_string(i) + " of " + std::to_string(count) +
@@ -109,7 +152,68 @@ private:
     scanner in_;
     polygon_soup soup_;
     largest vertices_, coords_;
+    bool absolute_ = true;
 };
+
+/// The text in pieces of about `size` bytes that end with a statement.
+inline std::vector<std::string_view> cut_statements(std::string_view text, std::size_t size)
+{
+    std::vector<std::string_view> pieces;
+    std::size_t begin = 0;
+    while (text.size() - begin > size)
+    {
+        std::size_t end = begin + size;
+        const auto joined = [&]
+        {
+            const std::size_t last = text[end - 1] == '\r' ? end - 2 : end - 1;
+            return text[last] == '\\';
+        };
+        do end = text.find('\n', end + 1);
+        while (end != text.npos && joined());
+        if (end == text.npos) break;
+        pieces.push_back(text.substr(begin, end + 1 - begin));
+        begin = end + 1;
+    }
+    pieces.push_back(text.substr(begin));
+    return pieces;
+}
+
+/// Reads the pieces of a large file at the same time. Nothing where that is not possible, or the file is faulty: the
+/// place of a fault is known to who reads from the start.
+inline std::optional<surface_file> read_pieces(std::string_view text, const std::string& path)
+{
+    const auto pieces = cut_statements(text, std::max<std::size_t>(text.size() / 32, 1 << 16));
+    if (pieces.size() == 1) return std::nullopt;
+    std::vector<obj_reader> readers;
+    for (const auto piece : pieces)
+    {
+        // Where a line starts with a byte order mark, it is none.
+        if (piece.starts_with('\xef') && piece.data() != text.data()) return std::nullopt;
+        readers.emplace_back(piece, path);
+    }
+    try
+    {
+        parallel_for(
+            readers.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i) readers[i].read();
+            },
+            0, 1);
+    }
+    catch (const error&)
+    {
+        return std::nullopt;
+    }
+    for (const auto& reader : readers)
+        if (!reader.absolute()) return std::nullopt;
+    obj_reader whole({}, path);
+    whole.reserve(readers);
+    for (auto& reader : readers)
+        if (!whole.append(std::move(reader))) return std::nullopt;
+    if (!whole.in_range()) return std::nullopt;
+    return whole.finish();
+}
 
 } // namespace detail
 
@@ -118,7 +222,11 @@ private:
 /// in errors. Throws io_error, mesh_error.
 inline surface_file parse_obj(std::string_view text, const std::string& path = "OBJ text")
 {
-    return detail::obj_reader(text, path).read();
+    detail::obj_reader reader(text, path);
+    reader.require_text();
+    if (auto file = detail::read_pieces(text, path)) return std::move(*file);
+    reader.read();
+    return reader.finish();
 }
 
 } // namespace taut::io

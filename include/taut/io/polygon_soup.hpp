@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
-
 #include <span>
 #include <string>
 #include <utility>
@@ -28,6 +29,15 @@ struct polygon_soup
     std::vector<index> sizes;         // corners of each polygon
 
     static constexpr std::size_t limit = std::numeric_limits<index>::max();
+
+    /// Makes room for triangles.
+    void reserve(std::size_t point_count, std::size_t corner_count)
+    {
+        points.reserve(point_count);
+        corners.reserve(corner_count);
+        corner_coords.reserve(corner_count);
+        sizes.reserve(corner_count / 3);
+    }
 
     /// where() is the place in the file, asked for errors only. Throws mesh_error (non_finite), io_error.
     template <class Where>
@@ -69,6 +79,28 @@ struct polygon_soup
                              place_prefix(path, where()) + "a face names vertex " + std::to_string(v) +
                                  ", but there are " + std::to_string(points.size()) + ", counted from 0");
         corners.push_back(static_cast<index>(v));
+    }
+
+    /// Adds what another soup holds; its corners count as those here do, from the start of the file.
+    /// False if there is then more than 32-bit numbers can name.
+    bool append(polygon_soup&& next)
+    {
+        if (points.size() + next.points.size() > limit || texcoords.size() + next.texcoords.size() > limit ||
+            corners.size() + next.corners.size() > limit)
+            return false;
+        if (!next.extras.empty())
+        {
+            extras.resize(points.size());
+            std::move(next.extras.begin(), next.extras.end(), std::back_inserter(extras));
+        }
+        const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+        add(points, next.points);
+        add(texcoords, next.texcoords);
+        add(corners, next.corners);
+        add(corner_coords, next.corner_coords);
+        add(sizes, next.sizes);
+        next = {};
+        return true;
     }
 
     /// Triangles stay as they are; larger polygons are split. `path` is named in errors.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -43,7 +45,9 @@ public:
     {
         for (;;)
         {
-            while (at_ != end_ && !is_line_end(*at_)) ++at_;
+            const char* p = at_;
+            while (p != end_ && !is_line_end(*p)) ++p;
+            at_ = p;
             const bool goes_on = joined && at_ != begin_ && at_ != end_ && at_[-1] == '\\';
             skip_line_end();
             if (!goes_on || done()) return;
@@ -66,9 +70,10 @@ public:
     std::string_view word()
     {
         skip_blanks();
-        const char* first = at_;
-        while (at_ != end_ && !is_blank(*at_) && !is_line_end(*at_)) ++at_;
-        return {first, static_cast<std::size_t>(at_ - first)};
+        const char *const first = at_, *p = first;
+        while (p != end_ && !is_blank(*p) && !is_line_end(*p)) ++p;
+        at_ = p;
+        return {first, static_cast<std::size_t>(p - first)};
     }
 
     /// Whether the next character is c.
@@ -91,8 +96,9 @@ public:
     double number()
     {
         skip_blanks();
-        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
         double value = 0;
+        if (short_number(value)) return value;
+        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
         const auto [last, failure] = std::from_chars(first, end_, value);
         if (failure == std::errc::invalid_argument || (last != end_ && !is_blank(*last) && !is_line_end(*last)))
             fail_at_word("a number");
@@ -114,8 +120,15 @@ public:
     long long integer(const char* what = "a whole number")
     {
         skip_blanks();
-        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
         long long value = 0;
+        const char* p = at_;
+        for (; p != end_ && p - at_ < 18 && *p >= '0' && *p <= '9'; ++p) value = 10 * value + (*p - '0');
+        if (p != at_ && p - at_ < 18)
+        {
+            at_ = p;
+            return value;
+        }
+        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
         const auto [last, failure] = std::from_chars(first, end_, value);
         if (failure != std::errc{}) fail_at_word(what);
         at_ = last;
@@ -171,11 +184,48 @@ private:
     {
         for (;;)
         {
-            while (at_ != end_ && is_blank(*at_)) ++at_;
+            const char* p = at_;
+            while (p != end_ && is_blank(*p)) ++p;
+            at_ = p;
             if (end_ - at_ < 2 || *at_ != '\\' || !is_line_end(at_[1])) return;
             ++at_;
             skip_line_end();
         }
+    }
+
+    /// Takes a number of the form -1.25, as most are, if its digits fit a double: it is then the quotient of two
+    /// doubles that are exact, so that one rounding gives the value nearest to it. False, and nothing taken, for any
+    /// other.
+    bool short_number(double& value)
+    {
+        constexpr std::uint64_t exact = std::uint64_t{1} << 53;
+        static constexpr std::array<double, 23> powers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                       1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                       1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+        const char* p = at_;
+        const bool negative = p != end_ && *p == '-';
+        if (negative) ++p;
+        std::uint64_t digits = 0;
+        const auto take_digits = [&]
+        {
+            const char* const first = p;
+            for (; p != end_ && *p >= '0' && *p <= '9' && digits < exact; ++p)
+                digits = 10 * digits + static_cast<std::uint64_t>(*p - '0');
+            return static_cast<std::size_t>(p - first);
+        };
+        if (take_digits() == 0) return false;
+        std::size_t fraction = 0;
+        if (p != end_ && *p == '.')
+        {
+            ++p;
+            fraction = take_digits();
+        }
+        if (digits > exact || fraction >= powers.size() || (p != end_ && !is_blank(*p) && !is_line_end(*p)))
+            return false;
+        value = static_cast<double>(digits) / powers[fraction];
+        if (negative) value = -value;
+        at_ = p;
+        return true;
     }
 
     /// What a number that fits no double stands for: 0 if it is tiny, else infinity.

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/core/types.hpp>
 #include <taut/map/predicates.hpp>
 
@@ -29,6 +30,43 @@ struct certificate
     explicit operator bool() const { return flipped == 0; }
 };
 
+namespace detail
+{
+
+/// What is known of some elements.
+struct flip_count
+{
+    std::size_t flipped = 0;
+    std::vector<index> ids;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    bool finite = true;
+
+    void add(index element, int sign, double det, std::size_t max_ids)
+    {
+        if (sign <= 0)
+        {
+            ++flipped;
+            if (ids.size() < max_ids) ids.push_back(element);
+        }
+        if (std::isnan(det)) finite = false;
+        least = std::min(least, det);
+        most = std::max(most, det);
+    }
+
+    /// Takes in the count of the elements that follow.
+    void add(const flip_count& next, std::size_t max_ids)
+    {
+        flipped += next.flipped;
+        const std::size_t room = std::min(max_ids - ids.size(), next.ids.size());
+        ids.insert(ids.end(), next.ids.begin(), next.ids.begin() + static_cast<std::ptrdiff_t>(room));
+        finite = finite && next.finite;
+        least = std::min(least, next.least);
+        most = std::max(most, next.most);
+    }
+};
+
+} // namespace detail
+
 /// Counts flipped elements in exact arithmetic.
 ///
 /// cells:   #F by D + 1 vertex indices, in range; positive orientation means det[x1 - x0, ..., xD - x0] > 0
@@ -40,31 +78,30 @@ certificate certify(std::span<const std::array<index, D + 1>> cells, std::span<c
                     std::span<const double> measure = {}, std::size_t max_ids = 16)
 {
     constexpr double factorial = D == 2 ? 2 : 6; // edge determinant of a simplex of measure 1
-    certificate result;
-    result.elements = cells.size();
-    if (cells.empty()) return result;
-    result.min_det = std::numeric_limits<double>::infinity();
-    result.max_det = -std::numeric_limits<double>::infinity();
-    bool finite = true;
-    for (std::size_t f = 0; f < cells.size(); ++f)
+    if (cells.empty()) return {};
+    const auto det_at = [&]<std::size_t... K>(std::size_t f, std::index_sequence<K...>)
     {
-        const orientation o = [&]<std::size_t... K>(std::index_sequence<K...>)
+        return orient(x[static_cast<std::size_t>(cells[f][K])]...);
+    };
+    constexpr std::size_t block = 4096;
+    std::vector<detail::flip_count> parts((cells.size() + block - 1) / block);
+    parallel_for(
+        parts.size(),
+        [&](std::size_t begin, std::size_t end)
         {
-            return orient(x[static_cast<std::size_t>(cells[f][K])]...);
-        }
-        (std::make_index_sequence<D + 1>{});
-        if (o.sign <= 0)
-        {
-            ++result.flipped;
-            if (result.ids.size() < max_ids) result.ids.push_back(static_cast<index>(f));
-        }
-        const double det = measure.empty() ? o.det : o.det / (measure[f] * factorial);
-        if (std::isnan(det)) finite = false;
-        result.min_det = std::min(result.min_det, det);
-        result.max_det = std::max(result.max_det, det);
-    }
-    if (!finite) result.min_det = result.max_det = std::numeric_limits<double>::quiet_NaN();
-    return result;
+            for (std::size_t b = begin; b < end; ++b)
+                for (std::size_t f = b * block; f < std::min(cells.size(), (b + 1) * block); ++f)
+                {
+                    const orientation o = det_at(f, std::make_index_sequence<D + 1>{});
+                    const double det = measure.empty() ? o.det : o.det / (measure[f] * factorial);
+                    parts[b].add(static_cast<index>(f), o.sign, det, max_ids);
+                }
+        },
+        0, 2);
+    detail::flip_count all;
+    for (const auto& part : parts) all.add(part, max_ids);
+    if (!all.finite) all.least = all.most = std::numeric_limits<double>::quiet_NaN();
+    return {cells.size(), all.flipped, std::move(all.ids), all.least, all.most};
 }
 
 } // namespace taut

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/energy/isometric.hpp>
 #include <taut/mesh/ideal.hpp>
 
@@ -33,11 +34,16 @@ std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Elem
                                std::span<const vec<Element::dimension>> x, const Energy& energy)
 {
     std::vector<double> result(m.cells().size());
-    for (std::size_t c = 0; c < result.size(); ++c)
-    {
-        const auto e = mapped_element(m, ideal, x, c);
-        result[c] = Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
-    }
+    parallel_for(result.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t c = begin; c < end; ++c)
+                     {
+                         const auto e = mapped_element(m, ideal, x, c);
+                         result[c] =
+                             Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
+                     }
+                 });
     return result;
 }
 

@@ -27,15 +27,15 @@ struct element_kernels
     /// the same, and the gradient of each corner: entry ((corner * D) + k) * cell_stride + cell
     traced_kernel<in<index>, in<R>, in<R>, in<R>, in<P>, out<R>, out<R>, uniform<index>, uniform<index>> gradient;
 
-    /// the same as value at x + a d for `trials` step lengths a, one segment of cell_stride each
-    traced_kernel<in<index>, in<R>, in<R>, in<R>, in<P>, in<R>, out<R>, uniform<index>, uniform<index>, uniform<R>,
-                  uniform<R>, uniform<R>, uniform<R>>
+    /// the same as value at x + unit[0] a d for `trials` step lengths a, one segment of cell_stride each
+    traced_kernel<in<index>, in<R>, in<R>, in<R>, in<P>, in<R>, in<R>, out<R>, uniform<index>, uniform<index>,
+                  uniform<R>, uniform<R>, uniform<R>, uniform<R>>
         along;
 
     /// corners, x, d -> the first a > 0 at which det(x + a d) of each element vanishes
     traced_kernel<in<index>, in<P>, in<R>, out<R>, uniform<index>, uniform<index>> first_flips;
 
-    element_kernels(queue& q, const any_energy& energy)
+    element_kernels(queue q, const any_energy& energy)
         : value(q, record_value(energy, form_of(q))),
           gradient(q, record_gradient(energy, form_of(q))),
           along(q, record_along(energy, form_of(q))),
@@ -51,8 +51,8 @@ struct element_kernels
         auto energies = r.out<R>("energy");
         const strides n(r);
         const typename traced::rest W(in.cell, in.inverse, n.cell);
-        const auto A = traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex);
-        energies[in.cell] = traced::weighted(energy, W.shape_matrix(A), in.measure[in.cell], in.weight[in.cell]);
+        const auto S = W.shape_matrix(traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex));
+        energies[in.cell] = traced::weighted(energy, S, in.measure[in.cell], in.weight[in.cell]);
         return r.finish("element_value", form);
     }
 
@@ -64,10 +64,10 @@ struct element_kernels
         auto gradients = r.out<R>("corner_gradient");
         const strides n(r);
         const typename traced::rest W(in.cell, in.inverse, n.cell);
-        const auto A = traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex);
+        const auto S = W.shape_matrix(traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex));
         const real measure = in.measure[in.cell], weight = in.weight[in.cell];
-        energies[in.cell] = traced::weighted(energy, W.shape_matrix(A), measure, weight);
-        const auto g = traced::corner_gradients(energy, A, W, measure, weight);
+        energies[in.cell] = traced::weighted(energy, S, measure, weight);
+        const auto g = traced::corner_gradients(energy, S, W, measure, weight);
         for (int k = 0; k <= D; ++k)
             for (int i = 0; i < D; ++i)
                 gradients[in.cell + (k * D + i) * n.cell] = g[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
@@ -79,6 +79,7 @@ struct element_kernels
         recording r;
         const inputs in(r);
         auto d = r.in<R>("d");
+        auto unit = r.in<R>("unit");
         auto energies = r.out<R>("energy");
         const strides n(r);
         // S is linear in x: S(x + a d) = S(x) + a S(d), so the vertices are read once for all step lengths.
@@ -88,7 +89,7 @@ struct element_kernels
         const real measure = in.measure[in.cell], weight = in.weight[in.cell];
         for (int t = 0; t < trials; ++t)
         {
-            const real a = r.scalar<R>("step" + std::to_string(t));
+            const real a = unit[sym<index>(0)] * r.scalar<R>("step" + std::to_string(t));
             typename traced::matrix trial;
             for (int c = 0; c < D; ++c)
                 for (int k = 0; k < D; ++k) trial[c][k] = S[c][k] + a * dS[c][k];
@@ -106,9 +107,11 @@ struct element_kernels
         auto first = r.out<R>("first");
         const strides n(r);
         const auto cell = r.global_id();
-        const auto A = traced::edges(cell, corners, x, n.cell, n.vertex);
-        const auto B = traced::edges(cell, corners, d, n.cell, n.vertex);
-        first[cell] = first_flip(A, B);
+        const auto edges = traced::edges(cell, corners, x, n.cell, n.vertex);
+        typename traced::matrix A;
+        for (int k = 0; k < D; ++k)
+            for (int i = 0; i < D; ++i) A[k][i] = cast<R>(edges[k][i]);
+        first[cell] = first_flip(A, traced::edges(cell, corners, d, n.cell, n.vertex));
         return r.finish("element_first_flip", form);
     }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/mesh/incidence.hpp>
 #include <taut/mesh/order.hpp>
 #include <taut/mesh/padding.hpp>
@@ -35,37 +36,43 @@ struct layout
     std::vector<double> measure; ///< cell_stride: rest measure in these units; 0 for padding
     csr vertex_corners;          ///< corners of each vertex, as corners * cell + k
 
+    /// Renumbers the mesh: free vertices first, otherwise for locality.
     /// `pinned`: one flag a vertex of the mesh, or empty. Throws mesh_error for degenerate cells.
-    explicit layout(const mesh<Element>& m, const std::vector<bool>& pinned = {})
-        : order(locality_order(m)), vertex_count(m.vertex_count()), cell_count(m.cell_count())
+    explicit layout(const mesh<Element>& m, const std::vector<bool>& pinned = {}) : layout(m, solution_order(m, pinned))
     {
-        put_free_vertices_first(pinned);
-        const mesh<Element> local = permute(m, order);
-        vertex_corners = taut::vertex_corners(local);
+    }
 
-        ideal_elements<Element> ideal(local);
+    /// Of a mesh that has its final order: its first `free` vertices move, the rest are pinned. `numbers` leads from
+    /// the user's mesh to this one; identity_order() where they are the same. Throws mesh_error for degenerate cells.
+    layout(const mesh<Element>& local, mesh_order numbers, index free)
+        : order(std::move(numbers)),
+          free_count(free),
+          vertex_count(local.vertex_count()),
+          cell_count(local.cell_count()),
+          vertex_corners(taut::vertex_corners(local))
+    {
+        const ideal_elements<Element> ideal(local);
         const double total = std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0);
         scale = std::exp2(std::round(std::log2(static_cast<double>(cell_count) / total) / D));
-        for (auto& w : ideal.inverse) w /= scale;
-        for (auto& a : ideal.measure) a *= std::pow(scale, D);
-
-        auto cells = local.cells();
-        pad<Element>(cells, ideal, step);
-        cell_stride = cells.size();
-        vertex_stride = round_up(static_cast<std::size_t>(vertex_count), step);
-        measure = std::move(ideal.measure);
-        spread(cells, ideal.inverse);
+        cell_stride = round_up(local.cells().size(), step);
+        vertex_stride = round_up(local.points().size(), step);
+        spread(local.cells(), ideal);
     }
 
     /// Coordinates here, D x vertex_stride, from the user's.
     std::vector<double> to_local(const std::vector<vec<D>>& x) const
     {
         std::vector<double> local(D * vertex_stride, 0.0);
-        for (std::size_t v = 0; v < x.size(); ++v)
-        {
-            const auto old = static_cast<std::size_t>(order.vertices.new_to_old[v]);
-            for (int k = 0; k < D; ++k) local[static_cast<std::size_t>(k) * vertex_stride + v] = x[old][k] * scale;
-        }
+        parallel_for(x.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t v = begin; v < end; ++v)
+                         {
+                             const vec<D>& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
+                             for (int k = 0; k < D; ++k)
+                                 local[static_cast<std::size_t>(k) * vertex_stride + v] = p[k] * scale;
+                         }
+                     });
         return local;
     }
 
@@ -73,37 +80,44 @@ struct layout
     std::vector<vec<D>> to_user(const std::vector<double>& local) const
     {
         std::vector<vec<D>> x(static_cast<std::size_t>(vertex_count));
-        for (std::size_t v = 0; v < x.size(); ++v)
-        {
-            auto& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
-            for (int k = 0; k < D; ++k) p[k] = local[static_cast<std::size_t>(k) * vertex_stride + v] / scale;
-        }
+        parallel_for(x.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t v = begin; v < end; ++v)
+                         {
+                             vec<D>& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
+                             for (int k = 0; k < D; ++k)
+                                 p[k] = local[static_cast<std::size_t>(k) * vertex_stride + v] / scale;
+                         }
+                     });
         return x;
     }
 
 private:
-    void put_free_vertices_first(const std::vector<bool>& pinned)
-    {
-        free_count = vertex_count;
-        if (pinned.empty()) return;
-        auto numbers = order.vertices.new_to_old;
-        const auto first_pinned = std::stable_partition(
-            numbers.begin(), numbers.end(), [&](index old) { return !pinned[static_cast<std::size_t>(old)]; });
-        free_count = static_cast<index>(first_pinned - numbers.begin());
-        order.vertices = permutation(std::move(numbers));
-    }
+    /// Braces, which evaluate from left to right: the order is used before it is moved.
+    layout(const mesh<Element>& m, solution_order s) : layout{permute(m, s.order), std::move(s.order), s.free_count} {}
 
-    void spread(const std::vector<typename mesh<Element>::cell>& cells, const std::vector<mat<D>>& inverses)
+    /// The arrays from the cells, lengthened as pad() does.
+    void spread(const std::vector<typename mesh<Element>::cell>& cells, const ideal_elements<Element>& ideal)
     {
         corners.resize((D + 1) * cell_stride);
         inverse.resize(triangle_size * cell_stride);
-        for (std::size_t c = 0; c < cell_stride; ++c)
-        {
-            for (std::size_t k = 0; k <= D; ++k) corners[k * cell_stride + c] = cells[c][k];
-            std::size_t entry = 0;
-            for (int column = 0; column < D; ++column)
-                for (int row = 0; row <= column; ++row) inverse[entry++ * cell_stride + c] = inverses[c][column][row];
-        }
+        measure.resize(cell_stride);
+        const double measure_scale = std::pow(scale, D), unscale = 1 / scale; // exact: a power of two
+        parallel_for(cell_stride,
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t c = begin; c < end; ++c)
+                         {
+                             const std::size_t from = std::min(c, cells.size() - 1);
+                             for (std::size_t k = 0; k <= D; ++k) corners[k * cell_stride + c] = cells[from][k];
+                             std::size_t entry = 0;
+                             for (int column = 0; column < D; ++column)
+                                 for (int row = 0; row <= column; ++row)
+                                     inverse[entry++ * cell_stride + c] = ideal.inverse[from][column][row] * unscale;
+                             measure[c] = c < cells.size() ? ideal.measure[c] * measure_scale : 0.0;
+                         }
+                     });
     }
 };
 

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include <taut/compute/queue.hpp>
+#include <taut/map/level_report.hpp>
+#include <taut/map/precision.hpp>
 #include <taut/map/start_map.hpp>
-#include <taut/solve/report.hpp>
 
 namespace taut
 {
@@ -22,22 +23,25 @@ enum class outcome
 /// Wall-clock seconds of the phases of one run.
 struct map_seconds
 {
-    double device = 0; ///< kernel builds and their first launches
-    double setup = 0;  ///< validation, ordering, ideal elements, transfers
-    double start = 0;  ///< start map
-    double solve = 0;  ///< minimisation
+    double device = 0;    ///< kernel builds and their first launches
+    double setup = 0;     ///< validation, ordering, ideal elements, matrices and lists of the mesh itself, transfers
+    double hierarchy = 0; ///< coarser levels of the mesh
+    double start = 0;     ///< start map; of a coarse start all that happens on coarser levels
+    double solve = 0;     ///< minimisation on the mesh itself
 };
 
 /// What one run did and what its map is like.
 struct map_report
 {
     taut::outcome outcome = outcome::no_valid_start;
-    std::string reason;             ///< why there is no valid map; empty if there is one
-    std::vector<index> ids;         ///< flipped elements of a start that could not be used, the first few
-    std::vector<std::string> notes; ///< what the library decided on its own
-    start_map start;                ///< the map that was optimised
-    certificate flips;              ///< of the map that is returned, exact
-    solve::report solve;            ///< energies are means over the elements, with the chosen weights
+    std::string reason;                          ///< why there is no valid map; empty if there is one
+    std::vector<index> ids;                      ///< flipped elements of a start that could not be used, the first few
+    std::vector<std::string> notes;              ///< what the library decided on its own
+    taut::precision precision = precision::full; ///< that the map was calculated in
+    start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
+    std::vector<level_report> levels; ///< coarser levels, in their order in time
+    certificate flips;                ///< of the map that is returned, exact
+    solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run
 };

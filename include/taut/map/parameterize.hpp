@@ -2,8 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -11,55 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include <taut/map/map_result.hpp>
-#include <taut/map/parameterize_params.hpp>
-#include <taut/map/problem.hpp>
+#include <taut/map/coarse_to_fine.hpp>
+#include <taut/map/parameterization_start.hpp>
+#include <taut/map/stopwatch.hpp>
 
 namespace taut
 {
 
 namespace detail
 {
-
-/// Seconds since the last call of lap(), for the phases of a report.
-class stopwatch
-{
-public:
-    double lap()
-    {
-        const auto now = clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
-    double total() const { return std::chrono::duration<double>(clock::now() - first_).count(); }
-
-private:
-    using clock = std::chrono::steady_clock;
-    clock::time_point first_ = clock::now(), last_ = first_;
-};
-
-/// True if the energy does not see a dilation, as the shape energy: the scale of a map is then up to us.
-inline bool is_scale_invariant(const any_energy& energy)
-{
-    const mat2 S(1.1, 0.2, -0.3, 0.9);
-    const auto at = [&](double s) { return energy(element<double, 2>{s * S, s * s * glm::determinant(S), 1.0}); };
-    return std::abs(at(3.0) - at(1.0)) < 1e-9 * std::abs(at(1.0));
-}
-
-/// The smallest box around some points: its centre and its larger side.
-struct bounding_square
-{
-    vec2 centre{0};
-    double size = 0;
-
-    explicit bounding_square(const std::vector<vec2>& points)
-    {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        vec2 least(infinity), most(-infinity);
-        for (const vec2& p : points) least = glm::min(least, p), most = glm::max(most, p);
-        centre = least / 2.0 + most / 2.0; // the sum may overflow
-        size = std::max(most.x - least.x, most.y - least.y);
-    }
-};
 
 /// One run of parameterize(): the phases in their order. Inside, lengths are those of the surface times a power of two
 /// (unit_scale), so that nothing overflows; undoing that is exact.
@@ -77,10 +35,15 @@ public:
         const auto sides = facets(mesh_);
         validate(mesh_, sides, {.one_boundary = !params_.holes});
         ideal_.emplace(mesh_);
+        fix_boundary(sides);
         report().seconds.setup += watch_.lap();
-
-        make_start(sides);
-        report().seconds.start = watch_.lap();
+        if (params_.uses_levels())
+        {
+            levels_.emplace(mesh_, pinned_);
+            report().seconds.hierarchy = watch_.lap();
+        }
+        coarse_ = starts_coarse();
+        if (!coarse_) make_start(sides);
         if (report().reason.empty()) optimize(sides);
         subtract_counters();
         for (auto* uv : {&result_.uv, &report().start.uv})
@@ -98,23 +61,35 @@ private:
 
     map_report& report() { return result_.report; }
 
+    bool starts_coarse() const
+    {
+        if (!levels_ || !params_.initial.empty()) return false;
+        return params_.first == start_method::coarse || params_.first == start_method::automatic;
+    }
+
     bool proceed() const
     {
         return watch_.total() < params_.time_limit.count() &&
                (!params_.observer || params_.observer({.seconds = watch_.total(), .iterate = false}));
     }
 
+    void fix_boundary(const facet_table& sides)
+    {
+        if (params_.boundary == boundary_mode::free) return;
+        const auto loops = boundary_loops(mesh_, sides);
+        pinned_.assign(mesh_.points().size(), false);
+        for (const index v : loops[longest_loop(mesh_.points(), loops)]) pinned_[static_cast<std::size_t>(v)] = true;
+    }
+
     void make_start(const facet_table& sides)
     {
+        auto p = params_;
+        p.start.proceed = [this] { return proceed(); };
         auto& start = report().start;
-        if (params_.initial.empty())
-        {
-            auto p = params_.start;
-            p.proceed = [this] { return proceed(); };
-            start = barycentric_map(mesh_, sides, p);
-        }
-        else
-            take_initial();
+        start = parameterization_start(mesh_, *ideal_, sides, p, unit_, report().notes);
+        report().seconds.start += watch_.lap();
+        // Sums far from the origin cost digits, most of all in float.
+        if (!params_.initial.empty()) centre_ = bounding_square(start.uv).centre;
         if (start.flips.flipped == 0) return;
         report().ids = start.flips.ids;
         report().reason = "the start map has " + std::to_string(start.flips.flipped) + " flipped of " +
@@ -124,131 +99,181 @@ private:
         result_.uv = start.uv;
     }
 
-    void take_initial()
-    {
-        auto& start = report().start;
-        if (params_.initial.size() != mesh_.points().size())
-            throw parameter_error("initial", std::to_string(params_.initial.size()) + " coordinates for " +
-                                                 std::to_string(mesh_.points().size()) + " vertices");
-        start.uv = params_.initial;
-        if (params_.boundary == boundary_mode::free)
-            bring_to_size(start.uv);
-        else
-            for (vec2& p : start.uv) p *= unit_;
-        start.assess(mesh_, *ideal_);
-        if (start.flips.flipped == start.flips.elements && start.flips.max_det < 0)
-        {
-            for (vec2& p : start.uv) p.x = -p.x;
-            start.assess(mesh_, *ideal_);
-            report().notes.push_back("the start was mirrored as a whole; u was negated");
-        }
-        // Sums far from the origin cost digits, most of all in float.
-        centre_ = bounding_square(start.uv).centre;
-    }
-
-    /// Scales by a power of two, so that the map's extent is that of a square with the area of the surface.
-    void bring_to_size(std::vector<vec2>& uv) const
-    {
-        const double size = bounding_square(uv).size;
-        if (!(size > 0) || !std::isfinite(size)) return;
-        const double wanted = std::sqrt(std::accumulate(ideal_->measure.begin(), ideal_->measure.end(), 0.0));
-        const int power = std::ilogb(wanted) - std::ilogb(size);
-        for (vec2& p : uv) p = {std::ldexp(p.x, power), std::ldexp(p.y, power)};
-    }
-
     void optimize(const facet_table& sides)
     {
-        const auto local = std::make_shared<const layout<triangle>>(mesh_, pinned(sides));
-        report().seconds.setup += watch_.lap();
-        solve_in(params_.precision, local);
-        if (!certified() && params_.precision != precision::full && queue_.device().has_fp64())
+        const bool chosen = params_.precision == precision::automatic;
+        auto how = params_.precision;
+        if (chosen)
+            how = !queue_.device().has_fp64() ? precision::single : levels_ ? precision::mixed : precision::full;
+        bool done = attempt(how);
+        if (!done && coarse_)
         {
-            report().notes.push_back("float could not hold this map; repeated in double");
-            solve_in(precision::full, local);
+            report().notes.push_back("the coarse start failed (" + coarse_reason_ + "); a barycentric start was made");
+            coarse_ = false;
+            make_start(sides);
+            if (!report().reason.empty()) return;
+            done = attempt(how);
         }
-        if (!certified())
+        const bool wider = how != precision::full && queue_.device().has_fp64();
+        if (wider && (!certified_ || (chosen && !accurate())))
+        {
+            report().notes.push_back(certified_ ? "float could not reach the tolerance; continued in double"
+                                                : "float could not hold this map; repeated in double");
+            if (!certified_) arrival_.reset();
+            attempt(precision::full);
+        }
+        if (!certified_ && !report().start.uv.empty())
         {
             report().notes.push_back("the minimum that was found is too small or too thin for its precision; the start "
                                      "map is returned");
             result_.uv = report().start.uv;
             report().solve.value = report().solve.value_start;
-            certified();
+            certify_map();
         }
-        report().outcome = outcome::valid;
         report().seconds.setup += watch_.lap();
+        if (report().flips.flipped == 0)
+            report().outcome = outcome::valid;
+        else
+            refuse();
     }
 
-    /// Counts flips of the current map; false too if its energy was never finite.
-    bool certified()
+    void refuse()
+    {
+        report().ids = report().flips.ids;
+        report().reason = "the map that was found has " + std::to_string(report().flips.flipped) + " flipped triangles";
+    }
+
+    /// Solves in a precision and certifies the map; whether there is one.
+    bool attempt(precision how)
+    {
+        report().precision = how;
+        if (!solve_in(how)) return false;
+        certify_map();
+        return true;
+    }
+
+    /// Counts flips of the current map. Not certified either: a map whose energy was never finite.
+    void certify_map()
     {
         report().flips = certify<2>(mesh_.cells(), result_.uv, ideal_->measure);
-        return report().flips.flipped == 0 && report().solve.stop != solve::stop::not_finite_start;
+        certified_ = report().flips.flipped == 0 && report().solve.stop != solve::stop::not_finite_start;
     }
 
-    std::vector<bool> pinned(const facet_table& sides)
+    /// False where float, and not the caller, ended the run above the tolerance.
+    bool accurate()
     {
-        if (params_.boundary == boundary_mode::free) return {};
-        const auto loops = boundary_loops(mesh_, sides);
-        std::vector<bool> flags(mesh_.points().size(), false);
-        for (const index v : loops[report().start.outline]) flags[static_cast<std::size_t>(v)] = true;
-        return flags;
+        const auto& r = report().solve;
+        if (r.stop != solve::stop::decrease && r.stop != solve::stop::line_search && r.stop != solve::stop::barrier)
+            return true;
+        return r.gradient_norm <= params_.solve.stopping.gradient_tolerance;
     }
 
-    void solve_in(precision how, const std::shared_ptr<const layout<triangle>>& local)
+    bool solve_in(precision how)
     {
-        if (how == precision::full) return solve_with<double, double>(local);
-        if (how == precision::mixed) return solve_with<double, float>(local);
-        solve_with<float, float>(local);
+        if (how == precision::full) return levels_ ? solve_levels<double, double>() : solve_alone<double, double>();
+        if (how == precision::mixed) return levels_ ? solve_levels<double, float>() : solve_alone<double, float>();
+        return levels_ ? solve_levels<float, float>() : solve_alone<float, float>();
     }
 
+    /// Without a hierarchy.
     template <class P, class R>
-    void solve_with(const std::shared_ptr<const layout<triangle>>& local)
+    bool solve_alone()
     {
+        const auto local = std::make_shared<const layout<triangle>>(mesh_, pinned_);
         problem<triangle, P, R> f(queue_, local, params_.energy, params_.weights);
         auto x = f.make_point();
-        auto start = report().start.uv;
-        for (vec2& p : start) p -= centre_;
-        f.upload(start, x);
+        f.upload(centred(report().start.uv), x);
+        report().seconds.setup += watch_.lap();
         // Drivers compile at the first launch; that is start-up, not solving.
         f.warm_up(x);
         report().seconds.device += watch_.lap();
+        report().solve = solve::minimize(f, x, limited(), params_.observer);
+        result_.uv = f.download(x);
+        restore(report().start.uv);
+        report().seconds.solve += watch_.lap();
+        return true;
+    }
 
+    template <class P, class R>
+    bool solve_levels()
+    {
+        const auto& numbers = levels_->order().vertices;
+        level_solver<P, R> solver(queue_, *levels_, params_.energy, params_.weights);
+        solver.warm_up();
+        report().seconds.device += watch_.lap();
+        if (!coarse_)
+            arrival_ = numbers.apply(centred(report().start.uv));
+        else if (!arrival_ && !descend(solver))
+            return false;
+        typename level_solver<P, R>::level finest(solver, 0, *arrival_);
+        report().seconds.setup += watch_.lap();
+        if (coarse_) finest.relax();
+        report().solve = finest.minimize(limited(), observer_on(0));
+        for (int& c : report().solve.capping) c = levels_->order().cells.new_to_old[static_cast<std::size_t>(c)];
+        const double before = report().seconds.start;
+        for (auto& entry : report().solve.history) entry.seconds += coarse_ ? before : 0;
+        auto uv = finest.download();
+        const auto pins = numbers.undo(*arrival_);
+        if (coarse_) arrival_ = uv;
+        result_.uv = numbers.undo(uv);
+        restore(pins);
+        report().seconds.solve += watch_.lap();
+        return true;
+    }
+
+    /// From the coarse start to a map of the mesh in arrival_; false if that failed.
+    template <class P, class R>
+    bool descend(level_solver<P, R>& solver)
+    {
+        coarse_to_fine_params p;
+        p.start.boundary = params_.start.boundary;
+        p.start.fixed_boundary = params_.boundary == boundary_mode::fixed;
+        p.start.proceed = [this] { return proceed(); };
+        coarse_to_fine<P, R> nested(*levels_, solver, p);
+        auto uv = nested.run([this](std::size_t l) { return observer_on(l); });
+        report().start = nested.start();
+        report().levels = nested.reports();
+        coarse_reason_ = nested.reason();
+        report().seconds.start += watch_.lap();
+        if (uv.empty()) return false;
+        arrival_ = std::move(uv);
+        return true;
+    }
+
+    /// The user's observer, told where it is; it also keeps the time.
+    solve::observer observer_on(std::size_t level)
+    {
+        return [this, level](solve::progress p)
+        {
+            p.level = static_cast<int>(level);
+            p.seconds = watch_.total();
+            return p.seconds < params_.time_limit.count() && (!params_.observer || params_.observer(p));
+        };
+    }
+
+    solve::params limited() const
+    {
         auto p = params_.solve;
         p.stopping.time_limit = params_.time_limit - std::chrono::duration<double>(watch_.total());
         p.stopping.time_limit = std::max(p.stopping.time_limit, std::chrono::duration<double>(1e-9));
-        report().solve = solve::minimize(f, x, p, params_.observer);
-        result_.uv = f.download(x);
-        restore(*local);
-        report().seconds.solve += watch_.lap();
+        return p;
     }
 
-    /// Undoes what the solver was free to change without anyone asking for it.
-    void restore(const layout<triangle>& local)
+    std::vector<vec2> centred(std::vector<vec2> uv) const
     {
-        if (params_.boundary == boundary_mode::free && is_scale_invariant(params_.energy)) keep_total_area();
+        for (vec2& p : uv) p -= centre_;
+        return uv;
+    }
+
+    /// Undoes what the solver was free to change without anyone asking for it. start: in the user's order.
+    void restore(const std::vector<vec2>& start)
+    {
+        if (params_.boundary == boundary_mode::free && is_scale_invariant(params_.energy))
+            keep_total_area(mesh_, *ideal_, result_.uv);
         for (vec2& p : result_.uv) p += centre_;
         // The device may hold positions in float; pinned vertices are the start's, bit for bit.
-        for (index v = local.free_count; v < local.vertex_count; ++v)
-        {
-            const auto old = static_cast<std::size_t>(local.order.vertices.new_to_old[static_cast<std::size_t>(v)]);
-            result_.uv[old] = report().start.uv[old];
-        }
-    }
-
-    /// Scales the map to the area of the surface.
-    void keep_total_area()
-    {
-        double rest = 0, mapped = 0;
-        for (std::size_t c = 0; c < ideal_->measure.size(); ++c)
-        {
-            rest += ideal_->measure[c];
-            const auto& t = mesh_.cells()[c];
-            const auto at = [&](std::size_t k) { return result_.uv[static_cast<std::size_t>(t[k])]; };
-            mapped += triangle::measure_factor * triangle::determinant({at(0), at(1), at(2)});
-        }
-        const double s = std::sqrt(rest / mapped);
-        if (std::isfinite(s) && s > 0)
-            for (auto& p : result_.uv) p *= s;
+        for (std::size_t v = 0; v < pinned_.size(); ++v)
+            if (pinned_[v]) result_.uv[v] = start[v];
     }
 
     void subtract_counters()
@@ -270,6 +295,12 @@ private:
     queue_counters counters_;
     stopwatch watch_;
     std::optional<ideal_elements<triangle>> ideal_;
+    std::vector<bool> pinned_; ///< of the mesh; empty if nothing is
+    std::optional<mesh_levels> levels_;
+    bool certified_ = false;
+    bool coarse_ = false;                      ///< the start comes from coarser levels
+    std::string coarse_reason_;                ///< why it does not
+    std::optional<std::vector<vec2>> arrival_; ///< on the finest level, in its numbers, centred
     vec2 centre_{0};
     map_result result_;
 };

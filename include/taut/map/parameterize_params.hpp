@@ -8,6 +8,7 @@
 #include <taut/energy/isometric.hpp>
 #include <taut/map/any_energy.hpp>
 #include <taut/map/barycentric_map.hpp>
+#include <taut/map/precision.hpp>
 #include <taut/solve/minimize.hpp>
 
 namespace taut
@@ -20,12 +21,13 @@ enum class boundary_mode
     fixed ///< it stays where the start map has it
 };
 
-/// Arithmetic of the optimisation. Certificates are exact in any case.
-enum class precision
+/// Where the first map comes from.
+enum class start_method
 {
-    full,  ///< positions, elements and vectors in double
-    mixed, ///< positions in double, differences cast to float, elements and vectors in float, sums in double
-    single ///< everything in float, sums in double where the device has it: reaches relative gradients near 1e-5
+    automatic,   ///< `initial` if there is one; else coarse for Newton's method and barycentric for the others
+    coarse,      ///< made and minimised on coarser levels of the mesh (coarse_to_fine.hpp)
+    barycentric, ///< on a convex polygon (barycentric_map.hpp)
+    conformal    ///< least squares conformal, or barycentric where that has flips (conformal_start.hpp)
 };
 
 /// How to parameterize. Every field has a sensible default.
@@ -39,17 +41,23 @@ struct parameterize_params
 
     boundary_mode boundary = boundary_mode::free;
 
-    /// Start: these coordinates, one a vertex, if there are any (with a free boundary their place and scale do not
-    /// matter); else a barycentric map on a convex polygon with its
-    /// stretch evened out, which costs little and saves most of the iterations. A start that is mirrored as a whole is
-    /// turned over.
+    /// Start: these coordinates, one a vertex, if there are any; with a free boundary their place and scale do not
+    /// matter. A start that is mirrored as a whole is turned over.
     std::vector<vec2> initial = {};
+
+    /// Otherwise the start is made so. A coarse start takes `boundary` from the barycentric parameters and goes over to
+    /// a barycentric one where it fails.
+    start_method first = start_method::automatic;
     barycentric_params start = {.stretch_rounds = 10};
 
     /// Whether a surface with holes (more than one boundary loop) is taken. Its map is locally injective.
     bool holes = false;
 
-    taut::precision precision = precision::full;
+    taut::precision precision = precision::automatic;
+
+    /// Whether lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.
+    /// Newton's method always is.
+    bool multigrid = false;
 
     /// Method, line search, stopping. `solve.stopping.time_limit` is overruled by time_limit below.
     solve::params solve = {};
@@ -68,9 +76,19 @@ struct parameterize_params
             throw parameter_error("weights", "must be uniform or measure");
         if (boundary != boundary_mode::free && boundary != boundary_mode::fixed)
             throw parameter_error("boundary", "must be free or fixed");
-        if (precision != precision::full && precision != precision::mixed && precision != precision::single)
-            throw parameter_error("precision", "must be full, mixed or single");
+        if (first != start_method::automatic && first != start_method::coarse && first != start_method::barycentric &&
+            first != start_method::conformal)
+            throw parameter_error("first", "must be automatic, coarse, barycentric or conformal");
+        if (precision != precision::automatic && precision != precision::full && precision != precision::mixed &&
+            precision != precision::single)
+            throw parameter_error("precision", "must be automatic, full, mixed or single");
         solve.validate();
+    }
+
+    /// Whether the method works on a hierarchy of levels.
+    bool uses_levels() const
+    {
+        return multigrid || solve.method == solve::method::automatic || solve.method == solve::method::newton;
     }
 };
 

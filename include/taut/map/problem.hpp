@@ -8,8 +8,9 @@
 
 #include <taut/compute/gather.hpp>
 #include <taut/compute/vector_space.hpp>
+#include <taut/map/characteristic_gradient.hpp>
+#include <taut/map/element_arrays.hpp>
 #include <taut/map/element_kernels.hpp>
-#include <taut/map/layout.hpp>
 
 namespace taut
 {
@@ -30,21 +31,29 @@ public:
     using vector = typename space_type::vector;
     using point = device_vector<P>;
 
+    using kernels = element_kernels<Element, P, R>;
+
     problem(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
             energy::weighting weights)
+        : problem(q, std::move(mesh_layout), energy, weights, std::make_shared<const kernels>(q, energy))
+    {
+    }
+
+    /// With kernels of the same energy that another problem has traced already.
+    problem(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
+            energy::weighting weights, std::shared_ptr<const kernels> traced)
         : queue_(std::move(q)),
           layout_(std::move(mesh_layout)),
           space_(queue_, D * layout_->vertex_stride),
           reductions_(queue_),
-          kernels_(queue_, energy),
-          corners_(queue_, layout_->corners),
-          inverse_(queue_, to<R>(layout_->inverse)),
-          measure_(queue_, to<R>(layout_->measure)),
-          weight_(queue_, to<R>(cell_weights(weights))),
-          energies_(queue_, element_kernels<Element, P, R>::trials * layout_->cell_stride),
+          kernels_(std::move(traced)),
+          arrays_(std::make_shared<const element_arrays<Element, R>>(queue_, *layout_, weights)),
+          energies_(queue_, kernels::trials * layout_->cell_stride),
+          one_(queue_, std::vector<R>(1, R(1))),
+          limit_(queue_, std::vector<R>(1, R(1))),
           corner_gradients_(queue_, (D + 1) * D * layout_->cell_stride),
           gather_(make_gather()),
-          gradient_scale_(characteristic_gradient(energy, weights))
+          gradient_scale_(characteristic_gradient(*layout_, energy, weights))
     {
     }
 
@@ -60,45 +69,65 @@ public:
 
     double value(const point& x)
     {
-        kernels_.value(cells(), corners_, inverse_, measure_, weight_, x.data(), energies_, cell_stride(),
-                       vertex_stride());
+        kernels_->value(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
+                        energies_, cell_stride(), vertex_stride());
         return summed();
     }
 
     double value_gradient(const point& x, vector& g)
     {
-        kernels_.gradient(cells(), corners_, inverse_, measure_, weight_, x.data(), energies_, corner_gradients_,
-                          cell_stride(), vertex_stride());
-        gather_(corner_gradients_, g.data());
+        gradient(x, g);
         return summed();
+    }
+
+    /// g = the gradient; nothing waits.
+    void gradient(const point& x, vector& g)
+    {
+        kernels_->gradient(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
+                           energies_, corner_gradients_, cell_stride(), vertex_stride());
+        gather_(corner_gradients_, g.data());
     }
 
     /// f at x + a[i] d, four step lengths a launch, one wait in all.
     void values(const point& x, const vector& d, std::span<const double> a, std::span<double> out)
     {
-        constexpr std::size_t batch = element_kernels<Element, P, R>::trials;
-        std::vector<reductions::result> sums;
-        for (std::size_t first = 0; first < a.size(); first += batch)
-        {
-            const auto step = [&](std::size_t k) { return static_cast<R>(a[std::min(first + k, a.size() - 1)]); };
-            kernels_.along(cells(), corners_, inverse_, measure_, weight_, x.data(), d.data(), energies_, cell_stride(),
-                           vertex_stride(), step(0), step(1), step(2), step(3));
-            // Commands run in order: the next launch overwrites the energies after they are summed.
-            sums.push_back(reductions_.sum(energies_, {.count = std::min(batch, a.size() - first),
-                                                       .length = static_cast<std::size_t>(layout_->cell_count),
-                                                       .stride = layout_->cell_stride}));
-        }
-        if (!sums.empty()) reductions_.fetch();
-        for (std::size_t i = 0; i < a.size(); ++i) out[i] = reductions_.value(sums[i / batch], i % batch);
+        const auto results = enqueue_values(x, d, one_, a);
+        if (!results.empty()) reductions_.fetch();
+        fold_values(results, out);
     }
 
     /// The largest a for which no element has flipped anywhere on [x, x + a d); infinity if none ever does.
     double max_step(const point& x, const vector& d)
     {
-        kernels_.first_flips(cells(), corners_, x.data(), d.data(), energies_, cell_stride(), vertex_stride());
-        const auto least = reductions_.minimum(energies_, static_cast<std::size_t>(layout_->cell_count));
+        const auto least = enqueue_max_step(x, d);
         reductions_.fetch();
         return reductions_.value(least);
+    }
+
+    /// The elements that flip first along d, up to sixteen within twice the least step, in the user's numbers.
+    std::vector<int> capping(const point& x, const vector& d)
+    {
+        constexpr std::size_t most = 16;
+        const double least = max_step(x, d);
+        std::vector<R> flips(static_cast<std::size_t>(layout_->cell_count));
+        energies_.download(std::span(flips));
+        std::vector<int> found;
+        for (std::size_t c = 0; c < flips.size() && found.size() < most; ++c)
+            if (static_cast<double>(flips[c]) <= 2 * least) found.push_back(layout_->order.cells.new_to_old[c]);
+        return found;
+    }
+
+    /// f at x + u a[i] d with u = min(1, fraction * max_step), which is returned. One wait in all.
+    double capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
+                         std::span<double> out)
+    {
+        const auto least = enqueue_max_step(x, d);
+        reductions_.limit(least, fraction, 1, limit_);
+        const auto results = enqueue_values(x, d, limit_, a);
+        reductions_.fetch();
+        fold_values(results, out);
+        const double bound = fraction * reductions_.value(least);
+        return bound >= 1 ? 1 : bound;
     }
 
     /// Launches every kernel once, so that what the driver compiles at the first launch is compiled: those of the
@@ -113,6 +142,7 @@ public:
         const double a[8] = {};
         double e[15];
         values(x, g, std::span(a).first(1), e);
+        capped_values(x, g, 0.5, std::span(a).first(1), e);
 
         const vector* const v[8] = {&g, &g, &g, &g, &g, &g, &g, &g};
         for (const std::size_t n : {2, 4, 8}) space_.linear_combination(std::span(a, n), std::span(v, n), d);
@@ -130,16 +160,27 @@ public:
     /// Relative rounding error of a value: sums are in double, and the errors of many elements average out.
     double rounding() const { return std::is_same_v<R, double> ? 1e-14 : 1e-8; }
 
+protected:
+    range cells() const { return {layout_->cell_stride, taut::layout<Element>::step}; }
+    index cell_stride() const { return static_cast<index>(layout_->cell_stride); }
+    index vertex_stride() const { return static_cast<index>(layout_->vertex_stride); }
+
+    const std::shared_ptr<const element_arrays<Element, R>>& arrays() const { return arrays_; }
+
+    /// Launches a kernel of element_hessian_kernels.
+    template <class Kernel>
+    void launch_hessian(const Kernel& kernel, const point& x, buffer<R>& hessian)
+    {
+        kernel(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(), hessian,
+               cell_stride(), vertex_stride());
+    }
+
 private:
     template <class To, class From>
     static std::vector<To> to(const std::vector<From>& values)
     {
         return {values.begin(), values.end()};
     }
-
-    range cells() const { return {layout_->cell_stride, taut::layout<Element>::step}; }
-    index cell_stride() const { return static_cast<index>(layout_->cell_stride); }
-    index vertex_stride() const { return static_cast<index>(layout_->vertex_stride); }
 
     /// Rows of free vertices only: the others get zero.
     gather<R> make_gather()
@@ -158,6 +199,39 @@ private:
             {.components = D, .cell_stride = layout_->cell_stride, .vertex_stride = layout_->vertex_stride});
     }
 
+    using sums = std::vector<reductions::result>;
+
+    sums enqueue_values(const point& x, const vector& d, const buffer<R>& unit, std::span<const double> a)
+    {
+        sums results;
+        for (std::size_t first = 0; first < a.size(); first += kernels::trials)
+        {
+            const auto step = [&](std::size_t k) { return static_cast<R>(a[std::min(first + k, a.size() - 1)]); };
+            kernels_->along(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
+                            d.data(), unit, energies_, cell_stride(), vertex_stride(), step(0), step(1), step(2),
+                            step(3));
+            // Commands run in order: the next launch overwrites the energies after they are summed.
+            results.push_back(
+                reductions_.sum(energies_, {.count = std::min<std::size_t>(kernels::trials, a.size() - first),
+                                            .length = static_cast<std::size_t>(layout_->cell_count),
+                                            .stride = layout_->cell_stride}));
+        }
+        return results;
+    }
+
+    void fold_values(const sums& results, std::span<double> out) const
+    {
+        std::size_t i = 0;
+        for (const auto& r : results)
+            for (std::size_t k = 0; k < r.count; ++k) out[i++] = reductions_.value(r, k);
+    }
+
+    reductions::result enqueue_max_step(const point& x, const vector& d)
+    {
+        kernels_->first_flips(cells(), arrays_->corners, x.data(), d.data(), energies_, cell_stride(), vertex_stride());
+        return reductions_.minimum(energies_, static_cast<std::size_t>(layout_->cell_count));
+    }
+
     double summed()
     {
         const auto sum = reductions_.sum(energies_, {.length = static_cast<std::size_t>(layout_->cell_count)});
@@ -165,88 +239,15 @@ private:
         return reductions_.value(sum);
     }
 
-    /// w_c / sum of w_c.
-    std::vector<double> cell_weights(energy::weighting weights) const
-    {
-        std::vector<double> w = layout_->measure;
-        if (weights == energy::weighting::uniform) std::fill(w.begin(), w.end(), 1.0);
-        const auto n = static_cast<std::ptrdiff_t>(layout_->cell_count);
-        const double total = std::accumulate(w.begin(), w.begin() + n, 0.0);
-        for (auto& v : w) v /= total;
-        return w;
-    }
-
-    /// 2 lambda |l|, where l_v = sum over cells at v of w_c |grad phi_v| and lambda is the largest eigenvalue of the
-    /// energy's Hessian at rest (8 for the isometric energy in the plane, which makes the factor 16).
-    double characteristic_gradient(const any_energy& energy, energy::weighting weights) const
-    {
-        const auto w = cell_weights(weights);
-        std::vector<double> l(static_cast<std::size_t>(layout_->vertex_count), 0.0);
-        const auto stride = layout_->cell_stride;
-        for (std::size_t c = 0; c < static_cast<std::size_t>(layout_->cell_count); ++c)
-        {
-            // Rows of W^-1 are the gradients of the basis functions of corners 1..D; corner 0 has minus their sum.
-            vec<D> sum(0.0);
-            for (int k = 0; k < D; ++k)
-            {
-                vec<D> row(0.0);
-                for (int column = k; column < D; ++column)
-                    row[column] =
-                        layout_->inverse[static_cast<std::size_t>(column * (column + 1) / 2 + k) * stride + c];
-                sum += row;
-                l[corner(static_cast<std::size_t>(k) + 1, c)] += w[c] * glm::length(row);
-            }
-            l[corner(0, c)] += w[c] * glm::length(sum);
-        }
-        double squares = 0;
-        for (const double v : l) squares += v * v;
-        return 2 * stiffness(energy) * std::sqrt(squares);
-    }
-
-    std::size_t corner(std::size_t k, std::size_t cell) const
-    {
-        return static_cast<std::size_t>(layout_->corners[k * layout_->cell_stride + cell]);
-    }
-
-    /// Largest curvature of the energy at the identity along single entries of S and the dilation, by differences.
-    static double stiffness(const any_energy& energy)
-    {
-        const auto at = [&](const mat<D>& S) { return energy(element<double, D>{S, glm::determinant(S), 1.0}); };
-        // At a kink the quotient grows as 1/h: such an energy has no stiffness, and 1 is as good as any.
-        const double coarse = stiffness(at, 1e-3), fine = stiffness(at, 1e-4);
-        return coarse > 0 && std::isfinite(fine) && fine < 2 * coarse ? fine : 1;
-    }
-
-    template <class Function>
-    static double stiffness(const Function& at, double h)
-    {
-        double most = 0;
-        const auto probe = [&](const mat<D>& direction)
-        {
-            const mat<D> I(1.0);
-            const double second = (at(I + h * direction) - 2 * at(I) + at(I - h * direction)) / (h * h);
-            most = std::max(most, second / norm2(direction));
-        };
-        probe(mat<D>(1.0));
-        for (int c = 0; c < D; ++c)
-            for (int r = 0; r < D; ++r)
-            {
-                mat<D> direction(0.0);
-                direction[c][r] = 1;
-                direction[r][c] = 1;
-                probe(direction);
-            }
-        return most;
-    }
-
     queue queue_;
     std::shared_ptr<const taut::layout<Element>> layout_;
     space_type space_;
     reductions reductions_;
-    element_kernels<Element, P, R> kernels_;
-    buffer<index> corners_;
-    buffer<R> inverse_, measure_, weight_;
-    buffer<R> energies_, corner_gradients_;
+    std::shared_ptr<const kernels> kernels_;
+    std::shared_ptr<const element_arrays<Element, R>> arrays_;
+    buffer<R> energies_;
+    buffer<R> one_, limit_; ///< units of step lengths
+    buffer<R> corner_gradients_;
     gather<R> gather_;
     double gradient_scale_;
 };

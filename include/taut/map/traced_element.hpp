@@ -12,25 +12,25 @@ namespace taut
 {
 
 /// One element while a kernel is being traced: what its work-item loads and how S comes from it. P is the type of
-/// positions, R that of the formula. Differences are formed in P and only then cast to R, which keeps gradients to
-/// 4e-7 of their characteristic size with R = float, against 4e-5 and worse with float positions (docs/numerics.md).
+/// positions, R that of the formula. S is formed in P and only then cast to R: in a thin element it is a small
+/// difference of long edges, and its rounding would be the noise of the gradient (docs/numerics.md).
 template <int D, class P, class R>
 struct traced_element
 {
     using real = sym<R>;
     using matrix = glm::mat<D, D, real>;
 
-    /// Edges from corner 0 to corners 1..D, as columns, of an array of coordinates (positions or directions).
-    template <class Corners, class Coordinates>
-    static matrix edges(sym<index> cell, const Corners& corners, const Coordinates& x, sym<index> cell_stride,
-                        sym<index> vertex_stride)
+    /// Edges from corner 0 to corners 1..D, as columns, of an array of coordinates (positions in P, directions in R).
+    template <class Corners, class T>
+    static glm::mat<D, D, sym<T>> edges(sym<index> cell, const Corners& corners, const in_array<T>& x,
+                                        sym<index> cell_stride, sym<index> vertex_stride)
     {
         const sym<index> first = corners[cell];
-        matrix A;
+        glm::mat<D, D, sym<T>> A;
         for (int k = 0; k < D; ++k)
         {
             const sym<index> vertex = corners[cell + (k + 1) * cell_stride];
-            for (int r = 0; r < D; ++r) A[k][r] = cast<R>(x[vertex + r * vertex_stride] - x[first + r * vertex_stride]);
+            for (int r = 0; r < D; ++r) A[k][r] = x[vertex + r * vertex_stride] - x[first + r * vertex_stride];
         }
         return A;
     }
@@ -52,15 +52,17 @@ struct traced_element
             return entries[static_cast<std::size_t>(column * (column + 1) / 2 + row)];
         }
 
-        /// S = A W^-1 (eq. 3), without the products by the zeros of W^-1.
-        matrix shape_matrix(const matrix& A) const
+        /// S = A W^-1 (eq. 3) in the type of A, without the products by the zeros of W^-1.
+        template <class T>
+        matrix shape_matrix(const glm::mat<D, D, sym<T>>& A) const
         {
             matrix S;
             for (int c = 0; c < D; ++c)
                 for (int r = 0; r < D; ++r)
                 {
-                    S[c][r] = A[0][r] * (*this)(0, c);
-                    for (int k = 1; k <= c; ++k) S[c][r] = S[c][r] + A[k][r] * (*this)(k, c);
+                    sym<T> sum = A[0][r] * cast<T>((*this)(0, c));
+                    for (int k = 1; k <= c; ++k) sum = sum + A[k][r] * cast<T>((*this)(k, c));
+                    S[c][r] = cast<R>(sum);
                 }
             return S;
         }
@@ -75,28 +77,30 @@ struct traced_element
         return select(det > real(0.0), value, real(std::numeric_limits<double>::infinity()));
     }
 
-    /// Gradient of weight * energy with respect to the corners, corner 0 first; D entries a corner. An energy of S does
-    /// not change under translation, so corner 0 takes minus the sum of the others.
-    static std::array<std::array<real, D>, D + 1> corner_gradients(const any_energy& energy, const matrix& A,
+    /// Gradient of weight * energy at S = A W^-1 with respect to the corners, corner 0 first; D entries a corner. An
+    /// energy of S does not change under translation, so corner 0 takes minus the sum of the others.
+    static std::array<std::array<real, D>, D + 1> corner_gradients(const any_energy& energy, const matrix& S,
                                                                    const rest& W, real measure, real weight)
     {
-        const matrix S = W.shape_matrix(A);
         const real value = weight * energy(element<real, D>{S, glm::determinant(S), measure});
-        std::vector<real> unknowns;
-        for (int k = 0; k < D; ++k)
-            for (int r = 0; r < D; ++r) unknowns.push_back(A[k][r]);
-        const auto partials = differentiate(value, unknowns);
+        std::vector<real> entries;
+        for (int c = 0; c < D; ++c)
+            for (int r = 0; r < D; ++r) entries.push_back(S[c][r]);
+        const auto by_entry = differentiate(value, entries);
 
         std::array<std::array<real, D>, D + 1> g;
         for (std::size_t r = 0; r < D; ++r)
         {
-            real sum = partials[r];
+            real all = 0.0;
             for (std::size_t k = 0; k < D; ++k)
             {
-                g[k + 1][r] = partials[k * D + r];
-                if (k > 0) sum = sum + partials[k * D + r];
+                // Edge k takes part in columns k and on of S.
+                real sum = by_entry[k * D + r] * W(int(k), int(k));
+                for (std::size_t c = k + 1; c < D; ++c) sum = sum + by_entry[c * D + r] * W(int(k), int(c));
+                g[k + 1][r] = sum;
+                all = k == 0 ? sum : all + sum;
             }
-            g[0][r] = -sum;
+            g[0][r] = -all;
         }
         return g;
     }

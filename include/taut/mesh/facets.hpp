@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include <taut/mesh/counting_sort.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut
@@ -49,12 +51,24 @@ struct side_key
     std::uint32_t tag; // 2 * side + (the vertices are an odd permutation of the sorted ones)
 
     index side() const { return static_cast<index>(tag >> 1); }
-    bool operator<(const side_key& o) const { return rest != o.rest ? rest < o.rest : tag < o.tag; }
+    bool operator<(const side_key& o) const
+    {
+        // Not by the operators of std::array, which call a function to compare one or two numbers.
+        for (std::size_t k = 0; k < rest.size(); ++k)
+            if (rest[k] != o.rest[k]) return rest[k] < o.rest[k];
+        return tag < o.tag;
+    }
+    bool same_facet(const side_key& o) const
+    {
+        bool same = true;
+        for (std::size_t k = 0; k < rest.size(); ++k) same &= rest[k] == o.rest[k];
+        return same;
+    }
 };
 
-/// Sorts the vertices of a side and splits off the smallest.
+/// The key of a side: sorts its vertices and leaves out the smallest.
 template <int D>
-std::pair<index, side_key<D>> make_side_key(std::array<index, D> v, index side)
+side_key<D> make_side_key(std::array<index, D> v, index side)
 {
     bool odd = false;
     const auto order = [&](std::size_t i, std::size_t j)
@@ -74,28 +88,55 @@ std::pair<index, side_key<D>> make_side_key(std::array<index, D> v, index side)
     side_key<D> key;
     for (std::size_t k = 1; k < D; ++k) key.rest[k - 1] = v[k];
     key.tag = 2 * static_cast<std::uint32_t>(side) + (odd ? 1u : 0u);
-    return {v[0], key};
+    return key;
 }
 
-/// Links the sides [first, last) of one facet.
+/// Links the sides [first, last) of one facet. Returns false if the facet is faulty.
 template <int D>
-void link(facet_table& f, const side_key<D>* first, const side_key<D>* last)
+bool link(std::vector<index>& twin, const side_key<D>* first, const side_key<D>* last)
 {
-    if (last - first == 2)
+    if (last - first == 1) return true;
+    const bool crowded = last - first > 2;
+    for (auto k = first; k != last; ++k)
+        twin[static_cast<std::size_t>(k->side())] = crowded ? facet_table::crowded : first[k == first ? 1 : 0].side();
+    return !crowded && ((first[0].tag ^ first[1].tag) & 1u) != 0;
+}
+
+/// Notes what is wrong with the facet of the sides [first, last).
+template <int D>
+void note_fault(facet_table& f, const side_key<D>* first, const side_key<D>* last)
+{
+    if (last - first == 2 && ((first[0].tag ^ first[1].tag) & 1u) == 0)
+        f.clash.push_back({first[0].side(), first[1].side()});
+    if (last - first <= 2) return;
+    f.crowds.emplace_back();
+    for (auto k = first; k != last; ++k) f.crowds.back().push_back(k->side());
+}
+
+/// Calls facet(first, last) for the sides of each facet among sorted ones.
+template <int D, class Facet>
+void for_each_facet(const side_key<D>* first, const side_key<D>* last, const Facet& facet)
+{
+    while (first != last)
     {
-        const index a = first[0].side(), b = first[1].side();
-        f.twin[static_cast<std::size_t>(a)] = b;
-        f.twin[static_cast<std::size_t>(b)] = a;
-        if (((first[0].tag ^ first[1].tag) & 1u) == 0) f.clash.push_back({a, b});
+        const side_key<D>* next = first + 1;
+        while (next != last && next->same_facet(*first)) ++next;
+        facet(first, next);
+        first = next;
     }
-    else if (last - first > 2)
+}
+
+/// Sorts a few keys in place: buckets are as long as a vertex has sides of which it is the smallest.
+template <int D>
+void sort_bucket(side_key<D>* first, side_key<D>* last)
+{
+    if (last - first > 16) return std::sort(first, last);
+    for (auto k = first; k != last; ++k)
     {
-        f.crowds.emplace_back();
-        for (auto k = first; k != last; ++k)
-        {
-            f.twin[static_cast<std::size_t>(k->side())] = facet_table::crowded;
-            f.crowds.back().push_back(k->side());
-        }
+        const side_key<D> key = *k;
+        auto at = k;
+        for (; at != first && key < at[-1]; --at) *at = at[-1];
+        *at = key;
     }
 }
 
@@ -108,40 +149,39 @@ facet_table facets(const mesh<Element>& m)
 {
     constexpr int D = Element::dimension;
     using key = detail::side_key<D>;
-    const index sides = m.cell_count() * Element::corners;
-
-    std::vector<index> end(static_cast<std::size_t>(m.vertex_count()) + 1, 0);
-    for (index s = 0; s < sides; ++s)
+    const std::size_t sides = m.cells().size() * static_cast<std::size_t>(Element::corners);
+    const auto smallest = [&](std::size_t s)
     {
-        const auto v = side_vertices(m, s);
-        ++end[static_cast<std::size_t>(*std::min_element(v.begin(), v.end())) + 1];
-    }
-    for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
-
-    // end[v] is the start of bucket v here and becomes its end while the bucket fills.
-    std::vector<key> keys(static_cast<std::size_t>(sides));
-    for (index s = 0; s < sides; ++s)
-    {
-        const auto [v, k] = detail::make_side_key<D>(side_vertices(m, s), s);
-        keys[static_cast<std::size_t>(end[static_cast<std::size_t>(v)]++)] = k;
-    }
+        const auto v = side_vertices(m, static_cast<index>(s));
+        return *std::min_element(v.begin(), v.end());
+    };
+    std::vector<key> keys(sides);
+    const auto start = detail::counting_sort(
+        sides, m.points().size(), smallest,
+        [&](std::size_t s, std::size_t position)
+        { keys[position] = detail::make_side_key<D>(side_vertices(m, static_cast<index>(s)), static_cast<index>(s)); });
 
     facet_table f;
-    f.twin.assign(static_cast<std::size_t>(sides), facet_table::boundary);
-    key* bucket = keys.data();
-    for (std::size_t v = 0; v + 1 < end.size(); ++v)
-    {
-        key* const last = keys.data() + end[v];
-        std::sort(bucket, last);
-        for (const key* first = bucket; first != last;)
-        {
-            const key* next = first + 1;
-            while (next != last && next->rest == first->rest) ++next;
-            detail::link<D>(f, first, next);
-            first = next;
-        }
-        bucket = last;
-    }
+    f.twin.assign(sides, facet_table::boundary);
+    std::atomic<bool> faulty{false};
+    parallel_for(m.points().size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t v = begin; v < end; ++v)
+                     {
+                         key *const first = keys.data() + start[v], *const last = keys.data() + start[v + 1];
+                         detail::sort_bucket<D>(first, last);
+                         detail::for_each_facet<D>(first, last,
+                                                   [&](const key* a, const key* b)
+                                                   {
+                                                       if (!detail::link<D>(f.twin, a, b)) faulty = true;
+                                                   });
+                     }
+                 });
+    if (!faulty) return f;
+    for (std::size_t v = 0; v < m.points().size(); ++v)
+        detail::for_each_facet<D>(keys.data() + start[v], keys.data() + start[v + 1],
+                                  [&](const key* a, const key* b) { detail::note_fault<D>(f, a, b); });
     return f;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/mesh/describe.hpp>
 #include <taut/mesh/mesh.hpp>
 
@@ -43,13 +45,47 @@ inline mat3 invert_upper(const mat3& W)
     return mat3(x, 0.0, 0.0, xy, y, 0.0, -x * (W[1][0] * yz + W[2][0] * z), yz, z);
 }
 
+/// The corners of cell c of the mesh times `scale`.
+template <class Element>
+typename Element::rest_corners scaled_rest(const mesh<Element>& m, index c, double scale)
+{
+    auto x = m.rest(c);
+    for (vec3& p : x) p *= scale;
+    return x;
+}
+
 /// W of cell c of the mesh times `scale`.
 template <class Element>
 mat<Element::dimension> ideal_of(const mesh<Element>& m, index c, double scale)
 {
-    auto x = m.rest(c);
-    for (vec3& p : x) p *= scale;
-    return Element::ideal(x);
+    return Element::ideal(scaled_rest(m, c, scale));
+}
+
+/// Cells that are flat, and cells that are inverted, at rest.
+template <class Element>
+std::pair<std::vector<index>, std::vector<index>> bad_rest_cells(const mesh<Element>& m)
+{
+    const double unit = unit_scale(m);
+    const auto flatness = [&](index c) { return Element::flatness(ideal_of(m, c, unit)); };
+    std::atomic<bool> any{false};
+    parallel_for(m.cells().size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t c = begin; c < end; ++c)
+                         if (!Element::is_thick(scaled_rest(m, static_cast<index>(c), unit)) &&
+                             !(flatness(static_cast<index>(c)) > flattest))
+                             any = true;
+                 });
+    std::pair<std::vector<index>, std::vector<index>> bad;
+    for (index c = 0; any && c < m.cell_count(); ++c)
+    {
+        const double f = flatness(c);
+        if (f < -flattest)
+            bad.second.push_back(c);
+        else if (!(f > flattest))
+            bad.first.push_back(c);
+    }
+    return bad;
 }
 
 } // namespace detail
@@ -71,20 +107,22 @@ struct ideal_elements
     {
         const double unit = unit_scale(m), f = scale / unit;
         const double measure_scale = Element::measure_factor * (D == 2 ? f * f : f * f * f);
-        std::vector<index> flat, inverted;
-        for (index c = 0; c < m.cell_count(); ++c)
-        {
-            const mat<D> W = detail::ideal_of(m, c, unit);
-            const double flatness = Element::flatness(W);
-            if (flatness < -flattest)
-                inverted.push_back(c);
-            else if (!(flatness > flattest))
-                flat.push_back(c);
-            double det = measure_scale;
-            for (int k = 0; k < D; ++k) det *= W[k][k];
-            inverse[static_cast<std::size_t>(c)] = detail::invert_upper(W) / f;
-            measure[static_cast<std::size_t>(c)] = det;
-        }
+        std::atomic<bool> bad{false};
+        parallel_for(inverse.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t c = begin; c < end; ++c)
+                         {
+                             const mat<D> W = detail::ideal_of(m, static_cast<index>(c), unit);
+                             if (!(Element::flatness(W) > flattest)) bad = true;
+                             double det = measure_scale;
+                             for (int k = 0; k < D; ++k) det *= W[k][k];
+                             inverse[c] = detail::invert_upper(W) / f;
+                             measure[c] = det;
+                         }
+                     });
+        if (!bad) return;
+        auto [flat, inverted] = detail::bad_rest_cells(m);
         if (!flat.empty()) throw mesh_error(describe<Element>(mesh_fault::degenerate_cell, std::move(flat)));
         if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_fault::inverted_cell, std::move(inverted)));
     }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <taut/mesh/counting_sort.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut
@@ -30,19 +31,12 @@ struct csr
 template <class Element>
 csr vertex_corners(const mesh<Element>& m)
 {
+    constexpr std::size_t n = Element::corners;
     csr r;
-    r.offsets.assign(static_cast<std::size_t>(m.vertex_count()) + 1, 0);
-    r.items.resize(static_cast<std::size_t>(m.cell_count()) * Element::corners);
-    for (const auto& t : m.cells())
-        for (const index v : t) ++r.offsets[static_cast<std::size_t>(v)];
-    // Running ends; filling from the back turns them into starts and leaves each row sorted.
-    for (std::size_t v = 1; v < r.offsets.size(); ++v) r.offsets[v] += r.offsets[v - 1];
-    for (index c = m.cell_count(); c-- > 0;)
-        for (index k = Element::corners; k-- > 0;)
-        {
-            const index v = m.cells()[static_cast<std::size_t>(c)][static_cast<std::size_t>(k)];
-            r.items[static_cast<std::size_t>(--r.offsets[static_cast<std::size_t>(v)])] = Element::corners * c + k;
-        }
+    r.items.resize(m.cells().size() * n);
+    r.offsets = detail::counting_sort(
+        r.items.size(), m.points().size(), [&](std::size_t corner) { return m.cells()[corner / n][corner % n]; },
+        [&](std::size_t corner, std::size_t position) { r.items[position] = static_cast<index>(corner); });
     return r;
 }
 

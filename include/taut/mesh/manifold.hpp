@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/mesh/disjoint_sets.hpp>
 #include <taut/mesh/facets.hpp>
 #include <taut/mesh/ideal.hpp>
@@ -12,23 +13,6 @@
 /// The single questions that check() puts together.
 namespace taut::detail
 {
-
-/// Cells that are flat, and cells that are inverted, at rest.
-template <class Element>
-std::pair<std::vector<index>, std::vector<index>> bad_rest_cells(const mesh<Element>& m)
-{
-    std::pair<std::vector<index>, std::vector<index>> bad;
-    const double unit = unit_scale(m);
-    for (index c = 0; c < m.cell_count(); ++c)
-    {
-        const double flatness = Element::flatness(ideal_of(m, c, unit));
-        if (flatness < -flattest)
-            bad.second.push_back(c);
-        else if (!(flatness > flattest))
-            bad.first.push_back(c);
-    }
-    return bad;
-}
 
 /// Pairs of cells with the same corners. They share all their facets, so only facet neighbours need a look.
 template <class Element>
@@ -116,11 +100,53 @@ std::vector<index> crowded_facets(const mesh<Element>& m, const facet_table& f)
     return ids;
 }
 
+/// Corners of an oriented surface in the fan of one of them: those reached across edges at its vertex.
+inline index fan_size(const facet_table& f, index corner)
+{
+    const auto turn = [](index corner_or_side, index by)
+    { return corner_or_side % 3 < 3 - by ? corner_or_side + by : corner_or_side + by - 3; };
+    const auto twin = [&](index side) { return f.twin[static_cast<std::size_t>(side)]; };
+    index size = 1, at = corner, across = 0;
+    while ((across = twin(turn(at, 1))) != facet_table::boundary)
+    {
+        at = turn(across, 1);
+        if (at == corner) return size;
+        ++size;
+    }
+    for (at = corner; (across = twin(turn(at, 2))) != facet_table::boundary; ++size) at = turn(across, 2);
+    return size;
+}
+
+/// Vertices of an oriented surface whose triangles form more than one fan.
+inline std::vector<index> vertices_of_several_fans(const mesh<triangle>& m, const facet_table& f)
+{
+    std::vector<index> valence(m.points().size(), 0), last(m.points().size(), 0);
+    for (std::size_t c = 0; c < m.cells().size(); ++c)
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const auto v = static_cast<std::size_t>(m.cells()[c][k]);
+            ++valence[v];
+            last[v] = static_cast<index>(3 * c + k);
+        }
+    parallel_for(valence.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t v = begin; v < end; ++v)
+                         if (valence[v] > 0) valence[v] -= fan_size(f, last[v]);
+                 });
+    std::vector<index> ids;
+    for (std::size_t v = 0; v < valence.size(); ++v)
+        if (valence[v] > 0) ids.push_back(static_cast<index>(v));
+    return ids;
+}
+
 /// Vertices whose cells fall into several groups that share no facet at the vertex. Vertices of crowded facets are
 /// left out: they are named there.
 template <class Element>
 std::vector<index> pinched_vertices(const mesh<Element>& m, const facet_table& f)
 {
+    if constexpr (Element::dimension == 2)
+        if (f.oriented()) return vertices_of_several_fans(m, f);
     constexpr index n = Element::corners;
     // Corners of one vertex in cells that share a facet belong together.
     disjoint_sets groups(m.cell_count() * n);

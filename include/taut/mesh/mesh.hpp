@@ -2,12 +2,15 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/mesh/describe.hpp>
 #include <taut/mesh/tetrahedron.hpp>
 #include <taut/mesh/triangle.hpp>
@@ -32,6 +35,7 @@ public:
     mesh(std::vector<vec3> points, std::vector<cell> cells) : points_(std::move(points)), cells_(std::move(cells))
     {
         require_sizes();
+        if (!any_fault()) return;
         require_cells();
         require_finite();
     }
@@ -62,24 +66,57 @@ private:
                                  Element::names + " exceed 32-bit numbering; split the mesh");
     }
 
-    void require_cells() const
+    /// False for a cell that names a vertex twice. Throws mesh_error for one that names no vertex.
+    bool is_proper(std::size_t c) const
     {
         const index n = vertex_count();
+        const cell& t = cells_[c];
+        bool twice = false;
+        for (std::size_t k = 0; k < t.size(); ++k)
+        {
+            if (t[k] < 0 || t[k] >= n)
+                throw mesh_error(mesh_fault::index_out_of_range, {static_cast<index>(c), t[k]},
+                                 std::string(Element::name) + ' ' + std::to_string(c) + ": vertex " +
+                                     std::to_string(t[k]) + (t[k] < 0 ? " < 0" : " >= " + std::to_string(n)));
+            for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
+        }
+        return !twice;
+    }
+
+    /// Whether a vertex or a cell cannot be computed with; which ones is found out where there are any.
+    bool any_fault() const
+    {
+        const auto n = static_cast<std::uint32_t>(vertex_count());
+        std::atomic<bool> fault{false};
+        parallel_for(cells_.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         bool bad = false;
+                         for (std::size_t c = begin; c < end; ++c)
+                             for (std::size_t k = 0; k < cells_[c].size(); ++k)
+                             {
+                                 bad |= static_cast<std::uint32_t>(cells_[c][k]) >= n; // negative ones are large
+                                 for (std::size_t j = 0; j < k; ++j) bad |= cells_[c][j] == cells_[c][k];
+                             }
+                         if (bad) fault = true;
+                     });
+        parallel_for(points_.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         bool good = true;
+                         for (std::size_t v = begin; v < end; ++v) good &= is_finite(points_[v]);
+                         if (!good) fault = true;
+                     });
+        return fault;
+    }
+
+    static bool is_finite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+    void require_cells() const
+    {
         std::vector<index> repeated;
         for (std::size_t c = 0; c < cells_.size(); ++c)
-        {
-            const cell& t = cells_[c];
-            bool twice = false;
-            for (std::size_t k = 0; k < t.size(); ++k)
-            {
-                if (t[k] < 0 || t[k] >= n)
-                    throw mesh_error(mesh_fault::index_out_of_range, {static_cast<index>(c), t[k]},
-                                     std::string(Element::name) + ' ' + std::to_string(c) + ": vertex " +
-                                         std::to_string(t[k]) + (t[k] < 0 ? " < 0" : " >= " + std::to_string(n)));
-                for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
-            }
-            if (twice) repeated.push_back(static_cast<index>(c));
-        }
+            if (!is_proper(c)) repeated.push_back(static_cast<index>(c));
         if (!repeated.empty()) throw mesh_error(describe<Element>(mesh_fault::repeated_vertex, std::move(repeated)));
     }
 
@@ -87,8 +124,7 @@ private:
     {
         std::vector<index> bad;
         for (std::size_t v = 0; v < points_.size(); ++v)
-            if (!std::isfinite(points_[v].x) || !std::isfinite(points_[v].y) || !std::isfinite(points_[v].z))
-                bad.push_back(static_cast<index>(v));
+            if (!is_finite(points_[v])) bad.push_back(static_cast<index>(v));
         if (!bad.empty()) throw mesh_error(describe<Element>(mesh_fault::non_finite, std::move(bad)));
     }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include <taut/mesh/counting_sort.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut
@@ -19,8 +21,22 @@ struct permutation
 
     explicit permutation(std::vector<index> from = {}) : new_to_old(std::move(from)), old_to_new(new_to_old.size())
     {
-        for (std::size_t i = 0; i < new_to_old.size(); ++i)
-            old_to_new[static_cast<std::size_t>(new_to_old[i])] = static_cast<index>(i);
+        parallel_for(new_to_old.size(),
+                     [this](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t i = begin; i < end; ++i)
+                             old_to_new[static_cast<std::size_t>(new_to_old[i])] = static_cast<index>(i);
+                     });
+    }
+
+    /// The renumbering of n things that changes nothing.
+    static permutation identity(std::size_t n)
+    {
+        permutation p;
+        p.new_to_old.resize(n);
+        std::iota(p.new_to_old.begin(), p.new_to_old.end(), index(0));
+        p.old_to_new = p.new_to_old;
+        return p;
     }
 
     /// Values in the new order, from values in the old one.
@@ -40,9 +56,12 @@ private:
     template <class T>
     static std::vector<T> pick(const std::vector<T>& values, const std::vector<index>& from)
     {
-        std::vector<T> r;
-        r.reserve(from.size());
-        for (const index i : from) r.push_back(values[static_cast<std::size_t>(i)]);
+        std::vector<T> r(from.size());
+        parallel_for(r.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t i = begin; i < end; ++i) r[i] = values[static_cast<std::size_t>(from[i])];
+                     });
         return r;
     }
 };
@@ -52,6 +71,13 @@ struct mesh_order
 {
     permutation vertices, cells;
 };
+
+/// The renumbering that changes nothing.
+template <class Element>
+mesh_order identity_order(const mesh<Element>& m)
+{
+    return {permutation::identity(m.points().size()), permutation::identity(m.cells().size())};
+}
 
 namespace detail
 {
@@ -84,15 +110,34 @@ inline std::vector<index> along_curve(const std::vector<vec3>& points)
     // Halves, because the extent of finite points may overflow.
     const vec3 half = 0.5 * high - 0.5 * low;
     const double extent = std::max({half.x, half.y, half.z});
-    std::vector<std::pair<std::uint64_t, index>> keys(points.size());
-    for (std::size_t v = 0; v < points.size(); ++v)
-    {
-        const vec3 unit = extent > 0 ? (0.5 * points[v] - 0.5 * low) / extent : vec3(0.0);
-        keys[v] = {morton(2097151.0 * unit), static_cast<index>(v)};
-    }
-    std::sort(keys.begin(), keys.end());
+    using key = std::pair<std::uint64_t, index>;
+    std::vector<key> keys(points.size()), sorted(points.size());
+    parallel_for(points.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t v = begin; v < end; ++v)
+                     {
+                         const vec3 unit = extent > 0 ? (0.5 * points[v] - 0.5 * low) / extent : vec3(0.0);
+                         keys[v] = {morton(2097151.0 * unit), static_cast<index>(v)};
+                     }
+                 });
+
+    // Buckets by the first digits, octants of space, and each sorted for itself.
+    constexpr int digits = 15;
+    const auto start = counting_sort(
+        keys.size(), std::size_t{1} << digits, [&](std::size_t i) { return keys[i].first >> (63 - digits); },
+        [&](std::size_t i, std::size_t position) { sorted[position] = keys[i]; });
     std::vector<index> order(points.size());
-    for (std::size_t v = 0; v < points.size(); ++v) order[v] = keys[v].second;
+    parallel_for(
+        start.size() - 1,
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t b = begin; b < end; ++b)
+                std::sort(sorted.begin() + start[b], sorted.begin() + start[b + 1]);
+            for (auto i = static_cast<std::size_t>(start[begin]); i < static_cast<std::size_t>(start[end]); ++i)
+                order[i] = sorted[i].second;
+        },
+        0, points.size() < 8192 ? start.size() : 4096);
     return order;
 }
 
@@ -105,29 +150,59 @@ template <class Element>
 mesh_order locality_order(const mesh<Element>& m)
 {
     mesh_order order{permutation(detail::along_curve(m.points())), permutation()};
-    const auto smallest = [&](const typename mesh<Element>::cell& t)
-    {
-        index least = m.vertex_count();
-        for (const index v : t) least = std::min(least, order.vertices.old_to_new[static_cast<std::size_t>(v)]);
-        return static_cast<std::size_t>(least);
-    };
-    // Counting sort, stable.
-    std::vector<index> start(m.points().size() + 1, 0), cells(m.cells().size());
-    for (const auto& t : m.cells()) ++start[smallest(t) + 1];
-    for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        cells[static_cast<std::size_t>(start[smallest(m.cells()[c])]++)] = static_cast<index>(c);
+    std::vector<index> smallest(m.cells().size()), cells(m.cells().size());
+    parallel_for(smallest.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t c = begin; c < end; ++c)
+                     {
+                         index least = m.vertex_count();
+                         for (const index v : m.cells()[c])
+                             least = std::min(least, order.vertices.old_to_new[static_cast<std::size_t>(v)]);
+                         smallest[c] = least;
+                     }
+                 });
+    detail::counting_sort(
+        cells.size(), m.points().size(), [&](std::size_t c) { return smallest[c]; },
+        [&](std::size_t c, std::size_t position) { cells[position] = static_cast<index>(c); });
     order.cells = permutation(std::move(cells));
     return order;
 }
+
+/// A locality order with the vertices that move first and the pinned ones, in their own locality order, last.
+struct solution_order
+{
+    mesh_order order;
+    index free_count = 0; ///< vertices [0, free_count) of the new order move, the rest are pinned
+
+    /// pinned: one flag a vertex of the mesh, or empty.
+    template <class Element>
+    explicit solution_order(const mesh<Element>& m, const std::vector<bool>& pinned = {})
+        : order(locality_order(m)), free_count(m.vertex_count())
+    {
+        if (pinned.empty()) return;
+        auto numbers = std::move(order.vertices.new_to_old);
+        const auto first_pinned = std::stable_partition(
+            numbers.begin(), numbers.end(), [&](index old) { return !pinned[static_cast<std::size_t>(old)]; });
+        free_count = static_cast<index>(first_pinned - numbers.begin());
+        order.vertices = permutation(std::move(numbers));
+    }
+};
 
 /// The mesh renumbered. The corners of each cell keep their order.
 template <class Element>
 mesh<Element> permute(const mesh<Element>& m, const mesh_order& order)
 {
-    auto cells = order.cells.apply(m.cells());
-    for (auto& t : cells)
-        for (index& v : t) v = order.vertices.old_to_new[static_cast<std::size_t>(v)];
+    std::vector<typename mesh<Element>::cell> cells(m.cells().size());
+    parallel_for(cells.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t c = begin; c < end; ++c)
+                     {
+                         cells[c] = m.cells()[static_cast<std::size_t>(order.cells.new_to_old[c])];
+                         for (index& v : cells[c]) v = order.vertices.old_to_new[static_cast<std::size_t>(v)];
+                     }
+                 });
     return {order.vertices.apply(m.points()), std::move(cells)};
 }
 

@@ -51,6 +51,16 @@ struct tetrahedron
                     glm::dot(c, u), glm::dot(c, v), glm::dot(c, w));
     }
 
+    /// True only for tetrahedra that are far from flat and not inverted, found without a root or a quotient.
+    static bool is_thick(const rest_corners& x)
+    {
+        double longest = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, glm::dot(x[i] - x[j], x[i] - x[j]));
+        const double volume = determinant(x);
+        return volume > 0 && volume * volume > 1e-12 * longest * longest * longest; // flatness > 1e-6
+    }
+
     /// Smallest height / longest edge of an ideal tetrahedron, with the sign of the volume; 0 or NaN for a flat one.
     static double flatness(const mat3& W)
     {

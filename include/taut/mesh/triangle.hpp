@@ -74,6 +74,14 @@ struct triangle
         return 0.25 * std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));
     }
 
+    /// True only for triangles that are far from flat, found without a root or a quotient.
+    static bool is_thick(const rest_corners& x)
+    {
+        const vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[2] - x[1], n = glm::cross(a, b);
+        const double longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+        return glm::dot(n, n) > 1e-16 * longest * longest; // flatness > 1e-8
+    }
+
     /// Smallest height / longest edge of an ideal triangle, in [0, 0.87]; 0 or NaN for a flat one.
     static double flatness(const mat2& W)
     {

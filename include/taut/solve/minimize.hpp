@@ -5,13 +5,16 @@
 #include <taut/solve/gradient_descent.hpp>
 #include <taut/solve/host_objective.hpp>
 #include <taut/solve/lbfgs.hpp>
+#include <taut/solve/newton.hpp>
 
 namespace taut::solve
 {
 
 enum class method
 {
-    lbfgs,              ///< limited-memory BFGS: the default
+    automatic,          ///< newton where the objective has a Hessian, else lbfgs
+    newton,             ///< truncated Newton: objectives with a Hessian only
+    lbfgs,              ///< limited-memory BFGS, preconditioned where the objective can
     conjugate_gradient, ///< the paper's preconditioned nonlinear conjugate gradient
     gradient_descent    ///< steepest descent, for comparison
 };
@@ -21,7 +24,8 @@ enum class method
 ///     minimize(f, x, {.method = method::conjugate_gradient, .stopping = {.gradient_tolerance = 1e-8}});
 struct params
 {
-    solve::method method = solve::method::lbfgs;
+    solve::method method = solve::method::automatic;
+    newton_params newton = {};
     lbfgs_params lbfgs = {};
     conjugate_gradient_params conjugate_gradient = {};
     line_search_params line_search = {};
@@ -33,6 +37,7 @@ struct params
     /// Throws parameter_error that names the field.
     void validate() const
     {
+        newton.validate();
         lbfgs.validate();
         conjugate_gradient.validate();
         common().validate();
@@ -53,6 +58,11 @@ report minimize(Objective& f, typename Objective::point& x, const params& p = {}
     p.validate();
     switch (p.method)
     {
+    case method::automatic:
+    case method::newton:
+        if constexpr (has_hessian<Objective>) return newton(f, x, p.newton, p.common(), ask);
+        if (p.method == method::newton) throw parameter_error("method", "newton needs an objective with a Hessian");
+        break;
     case method::conjugate_gradient:
         return conjugate_gradient(f, x, p.conjugate_gradient, p.common(), ask);
     case method::gradient_descent:

@@ -65,7 +65,7 @@ public:
           common_(common),
           rounding_(rounding(f, common)),
           monitor_(ask, common.stopping.time_limit),
-          test_(common.stopping, rounding_),
+          test_(common.stopping, rounding_, patience),
           pcg_(f.space(), params.pcg),
           previous_(f.make_point()),
           g_(f.space().make()),
@@ -78,6 +78,8 @@ public:
         std::optional<solve::stop> reason = start();
         while (!reason) reason = iterate();
         report_.stop = *reason;
+        if constexpr (has_capping<Objective>)
+            if (step_.capped) report_.capping = f_.capping(previous_, d_);
         report_.evaluations = monitor_.evaluations();
         report_.gradients = monitor_.gradients();
         report_.seconds = monitor_.seconds();
@@ -85,6 +87,8 @@ public:
     }
 
 private:
+    static constexpr int patience = 3; // gradients fall fast or not at all
+
     static double rounding(Objective& f, const descent_params& common)
     {
         if constexpr (has_rounding<Objective>) return std::max<double>(f.rounding(), common.line_search.rounding);
@@ -108,7 +112,9 @@ private:
 
     std::optional<solve::stop> iterate()
     {
-        const bool exact = step_.value_before - value_ < params_.exact_below * std::abs(value_);
+        // A short step says that the Hessian is indefinite along the way: the next one is left to the stand-in.
+        const bool exact =
+            step_.value_before - value_ < params_.exact_below * std::abs(value_) && !(taken_ > 0 && taken_ < 0.5);
         if (auto reason = direction(exact)) return reason;
         // An indefinite Hessian may have misled; its stand-in does not.
         std::optional<trial> found = search();

@@ -6,6 +6,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace taut::solve
 {
@@ -116,6 +117,15 @@ concept has_relax = objective<O> && requires(O& f, typename O::point& x)
     {
         f.relax(x)
         } -> std::convertible_to<bool>;
+};
+
+/// Optional: `capping(x, d)`, numbers of the parts of the problem that meet the barrier first along d.
+template <class O>
+concept has_capping = has_max_step<O> && requires(O& f, const typename O::point& x, const vector_of<O>& d)
+{
+    {
+        f.capping(x, d)
+        } -> std::convertible_to<std::vector<int>>;
 };
 
 /// Optional: `rounding()`, the relative rounding error of a value where it is above that of double.

@@ -37,6 +37,7 @@ struct report
     double value = 0;         ///< f at the end
     double gradient_norm = 0; ///< relative norm of the gradient at the end
     double seconds = 0;       ///< of the whole run
+    std::vector<int> capping; ///< what the last step of Newton's method met first, if a barrier cut it (has_capping)
     std::vector<history_entry> history;
 };
 

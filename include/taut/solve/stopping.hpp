@@ -22,8 +22,8 @@ struct stopping_params
 
     /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f|. A decrease along a step
     /// that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only where the
-    /// gradient has reached no new low for ten steps. Range [0, 1). Raise it (1e-6) to stop where the value, not the
-    /// point, matters.
+    /// gradient has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop
+    /// where the value, not the point, matters.
     double decrease_tolerance = 1e-14;
 
     /// Range >= 1. One small decrease is often an accident of the line search.
@@ -74,8 +74,12 @@ struct step_record
 class stopping_test
 {
 public:
-    /// rounding: relative error of a value.
-    stopping_test(const stopping_params& params, double rounding) : params_(params), rounding_(rounding) {}
+    /// rounding: relative error of a value. patience: steps without a new low of the gradient after which decreases
+    /// that are lost in rounding count; gradients of quasi-Newton methods fall in waves.
+    stopping_test(const stopping_params& params, double rounding, int patience = 10)
+        : params_(params), rounding_(rounding), patience_(patience)
+    {
+    }
 
     /// At the start: is there anything to do?
     std::optional<stop> start(double gradient)
@@ -92,10 +96,11 @@ public:
 
         const double scale = std::max(std::abs(k.value), std::abs(k.value_before));
         const double decrease = k.value_before - k.value;
-        const bool small = params_.decrease_tolerance > 0 && decrease <= params_.decrease_tolerance * scale;
+        const bool lost = decrease <= rounding_ * scale;
+        const bool small = params_.decrease_tolerance > 0 && (lost || decrease <= params_.decrease_tolerance * scale);
         since_low_ = k.gradient < 0.99 * lowest_gradient_ ? 0 : since_low_ + 1;
         lowest_gradient_ = std::min(lowest_gradient_, k.gradient);
-        const bool falling = decrease <= rounding_ * scale && since_low_ < patience;
+        const bool falling = lost && since_low_ < patience_;
         longest_ = std::max(longest_, k.length);
 
         capped_ = small && k.capped ? capped_ + 1 : 0;
@@ -116,10 +121,9 @@ public:
 private:
     bool small_gradient(double gradient) const { return gradient == 0 || gradient <= params_.gradient_tolerance; }
 
-    static constexpr int patience = 10; // gradients of quasi-Newton methods fall in waves
-
     stopping_params params_;
     double rounding_;
+    int patience_;
     double lowest_gradient_ = std::numeric_limits<double>::infinity();
     double longest_ = 0;
     int since_low_ = 0; // steps since the lowest gradient

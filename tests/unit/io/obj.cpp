@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <random>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -272,4 +274,66 @@ TEST_CASE("obj: nothing to read is an empty mesh; other faults of meshes name th
     CHECK(e.fault() == mesh_fault::repeated_vertex);
     CHECK(e.ids() == std::vector<index>{0});
     CHECK(contains(e.what(), "x.obj"));
+}
+
+TEST_CASE("obj: a large file, which is read in pieces, holds the same as its lines")
+{
+    // Grids of unit squares; vertices and faces in every manner of writing them.
+    const auto m = test::grid(90, 90);
+    const auto text_of = [&](const std::string& end, bool relative)
+    {
+        std::string text = "\xef\xbb\xbf# a grid" + end;
+        for (std::size_t v = 0; v < m.points().size(); ++v)
+        {
+            const vec3& p = m.points()[v];
+            text += "v " + std::to_string(p.x) + ' ' + std::to_string(p.y) + (v % 7 ? " 0" : " \\" + end + "-0.0e0");
+            text += (v % 5 ? "" : " 0.5 " + std::to_string(v) + " 1") + end;
+        }
+        for (const auto& t : m.cells())
+        {
+            text += 'f';
+            for (const index v : t)
+                text += (v % 11 ? " " : " \\" + end) + std::to_string(relative ? v - m.vertex_count() : v + 1);
+            text += end + "g group \\" + end + "f 1 1 1" + end;
+        }
+        return text;
+    };
+    for (const std::string end : {"\n", "\r\n", "\r"})
+        for (const bool relative : {false, true})
+        {
+            const auto text = text_of(end, relative);
+            REQUIRE(text.size() > 4 << 16);
+            const auto file = parse_obj(text);
+            CHECK(file.surface.cells() == m.cells());
+            REQUIRE(file.surface.points().size() == m.points().size());
+            for (std::size_t v = 0; v < m.points().size(); ++v)
+            {
+                CHECK(std::abs(file.surface.points()[v].x - m.points()[v].x) < 1e-6);
+                const std::string extra = v < file.extras.size() ? file.extras[v] : "";
+                CHECK(extra == (v % 5 ? "" : "0.5 " + std::to_string(v) + " 1"));
+            }
+        }
+
+    // Faults are found in their place, however far behind.
+    std::string text = text_of("\n", false);
+    const auto line = std::to_string(std::count(text.begin(), text.end(), '\n') + 1);
+    CHECK(contains(io_error_of(text + "f 1 2 x\n").what(), "x.obj, line " + line));
+    const auto e = mesh_error_of(text + "f 1 2 99999\nf 1 3 2\n");
+    CHECK(e.ids() == std::vector<index>{m.cell_count(), 99998});
+    CHECK(contains(e.what(), "x.obj, line " + line));
+}
+
+TEST_CASE("obj: numbers are the doubles nearest to what is written")
+{
+    std::mt19937_64 rng(4);
+    for (int i = 0; i < 4000; ++i)
+    {
+        // Up to 18 digits, a point anywhere or nowhere.
+        std::string digits = std::to_string(rng() >> (rng() % 60 + 4));
+        if (i % 3) digits.insert(rng() % digits.size() + 1, 1, '.');
+        if (i % 5 == 0) digits = '-' + digits;
+        if (i % 7 == 0) digits += "e-5";
+        const auto file = parse_obj("v " + digits + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        CHECK_MESSAGE(file.surface.points()[0].x == std::strtod(digits.c_str(), nullptr), digits);
+    }
 }

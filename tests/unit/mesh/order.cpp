@@ -144,3 +144,27 @@ TEST_CASE("incidence: neighbours share a cell; a vertex without a cell has an em
     const auto tets = vertex_neighbours(test::single_tetrahedron());
     for (index v = 0; v < 4; ++v) CHECK(tets.row(v).size() == 3);
 }
+
+TEST_CASE("order: pinned vertices come last, all else stays in locality order")
+{
+    const auto m = shuffled(test::bumpy(12));
+    std::vector<bool> pinned(m.points().size());
+    for (std::size_t v = 0; v < pinned.size(); ++v) pinned[v] = v % 3 == 0;
+    const auto all = locality_order(m);
+    const solution_order s(m, pinned);
+    CHECK(s.free_count == static_cast<index>(std::count(pinned.begin(), pinned.end(), false)));
+    CHECK(s.order.cells.new_to_old == all.cells.new_to_old);
+    for (std::size_t i = 0; i < pinned.size(); ++i)
+    {
+        const auto number = [&](std::size_t at) { return static_cast<std::size_t>(s.order.vertices.new_to_old[at]); };
+        CHECK(pinned[number(i)] == (static_cast<index>(i) >= s.free_count));
+        if (i > 0 && pinned[number(i)] == pinned[number(i - 1)])
+            CHECK(all.vertices.old_to_new[number(i - 1)] < all.vertices.old_to_new[number(i)]);
+    }
+    CHECK(solution_order(m).order.vertices.new_to_old == all.vertices.new_to_old);
+    CHECK(solution_order(m).free_count == m.vertex_count());
+
+    const auto same = permute(m, identity_order(m));
+    CHECK(same.points() == m.points());
+    CHECK(same.cells() == m.cells());
+}

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <taut/mesh/incidence.hpp>
@@ -55,26 +56,19 @@ namespace detail
 {
 
 /// Fills P.transpose for `count` columns.
-inline void transpose(prolongation& P, std::size_t count)
+inline void transpose(prolongation& P, std::size_t count, unsigned threads = 0)
 {
-    csr& t = P.transpose;
-    t.offsets.assign(count + 1, 0);
-    std::size_t places = 0;
-    for (std::size_t i = 0; i < P.columns.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (P.weights[i][k] > 0)
-            {
-                ++t.offsets[static_cast<std::size_t>(P.columns[i][k])];
-                ++places;
-            }
-    // Running ends, which filling from the back turns into starts.
-    for (std::size_t j = 1; j <= count; ++j) t.offsets[j] += t.offsets[j - 1];
-    t.items.resize(places);
-    for (std::size_t i = P.columns.size(); i-- > 0;)
-        for (std::size_t k = 3; k-- > 0;)
-            if (P.weights[i][k] > 0)
-                t.items[static_cast<std::size_t>(--t.offsets[static_cast<std::size_t>(P.columns[i][k])])] =
-                    static_cast<index>(3 * i + k);
+    // Places without a weight go to a bucket behind the columns, which is cut off.
+    std::vector<index> places(3 * P.columns.size());
+    auto start = counting_sort(
+        places.size(), count + 1,
+        [&](std::size_t place)
+        { return P.weights[place / 3][place % 3] > 0 ? P.columns[place / 3][place % 3] : static_cast<index>(count); },
+        [&](std::size_t place, std::size_t position) { places[position] = static_cast<index>(place); }, threads);
+    start.pop_back();
+    places.resize(static_cast<std::size_t>(start.back()));
+    places.shrink_to_fit();
+    P.transpose = {std::move(start), std::move(places)};
 }
 
 } // namespace detail

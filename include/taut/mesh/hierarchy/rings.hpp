@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <taut/core/parallel.hpp>
+#include <taut/mesh/counting_sort.hpp>
 #include <taut/mesh/mesh_error.hpp>
 
 namespace taut::detail
@@ -118,18 +119,15 @@ inline bool order_fan(std::span<spoke_pair> fan, bool& open)
 inline ring_table make_rings(std::span<const std::array<index, 3>> cells, std::size_t count, std::vector<char>& open,
                              unsigned threads)
 {
-    std::vector<index> start(count + 1, 0);
-    for (const auto& t : cells)
-        for (const index v : t) ++start[static_cast<std::size_t>(v) + 1];
-    for (std::size_t v = 0; v < count; ++v) start[v + 1] += start[v];
     std::vector<spoke_pair> fans(3 * cells.size());
-    {
-        std::vector<index> next(start.begin(), start.end() - 1);
-        for (const auto& t : cells)
-            for (std::size_t k = 0; k < 3; ++k)
-                fans[static_cast<std::size_t>(next[static_cast<std::size_t>(t[k])]++)] = {t[(k + 1) % 3],
-                                                                                          t[(k + 2) % 3]};
-    }
+    const auto start = counting_sort(
+        fans.size(), count, [&](std::size_t corner) { return cells[corner / 3][corner % 3]; },
+        [&](std::size_t corner, std::size_t position)
+        {
+            const auto& t = cells[corner / 3];
+            fans[position] = {t[(corner + 1) % 3], t[(corner + 2) % 3]};
+        },
+        threads);
 
     ring_table rings;
     rings.ranges.resize(count);

@@ -90,7 +90,7 @@ public:
                 }
             },
             threads_);
-        transpose(P, alive_.size());
+        transpose(P, alive_.size(), threads_);
         return {std::move(P), std::move(log_)};
     }
 
@@ -109,15 +109,28 @@ public:
         {
             const auto v = static_cast<std::size_t>(alive_[i]);
             number[v] = static_cast<index>(i);
-            c.points.push_back(surface_.points[v]);
-            c.open.push_back(surface_.open[v]);
-            c.keep.push_back(surface_.keep[v]);
             c.rings.ranges[i] = {items, surface_.rings.ranges[v].size};
             items += surface_.rings.ranges[v].size;
         }
-        c.rings.items.reserve(static_cast<std::size_t>(items));
-        for (const index v : alive_)
-            for (const index w : surface_.rings[v]) c.rings.items.push_back(number[static_cast<std::size_t>(w)]);
+        c.rings.items.resize(static_cast<std::size_t>(items));
+        c.points.resize(n);
+        c.open.resize(n);
+        c.keep.resize(n);
+        parallel_for(
+            n,
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i)
+                {
+                    const auto v = static_cast<std::size_t>(alive_[i]);
+                    c.points[i] = surface_.points[v];
+                    c.open[i] = surface_.open[v];
+                    c.keep[i] = surface_.keep[v];
+                    index* out = c.rings.items.data() + c.rings.ranges[i].first;
+                    for (const index w : surface_.rings[alive_[i]]) *out++ = number[static_cast<std::size_t>(w)];
+                }
+            },
+            threads_);
         return c;
     }
 

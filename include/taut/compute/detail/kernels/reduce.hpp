@@ -186,6 +186,17 @@ __kernel void minima(const uint n, const uint block, const uint first, __global 
     }
 #endif
 }
+
+/// out[0] = min(most, fraction * the smallest of count partials), so that a limit that one reduction found steers the
+/// next launch without the host. NaN stays NaN. A single item.
+__kernel void limit(const uint first, const uint count, __global const SUM* partials, const SUM fraction,
+                    const SUM most, __global REAL* out)
+{
+    SUM least = INFINITY;
+    for (uint i = first; i < first + count; ++i) least = LESS(least, partials[i]);
+    const SUM bound = fraction * least;
+    if (get_global_id(0) == 0) out[0] = (REAL)(bound >= most ? most : bound);
+}
 )cl";
 // clang-format on
 

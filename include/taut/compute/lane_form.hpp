@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/compute/quirks.hpp>
+#include <taut/compute/range.hpp>
+#include <taut/core/types.hpp>
+
+namespace taut
+{
+
+/// How rows are dealt to the lanes of a device: `slice` rows lie together, an item does `lanes` of them (1 or 16).
+struct lane_form
+{
+    index slice = 16;
+    index lanes = 16;
+
+    /// Explicit vectors of 16 on CPUs, a row an item and a slice a warp on GPUs.
+    static lane_form for_device(const device& d)
+    {
+        return quirks::wants_serial_items(d) ? lane_form{16, 16} : lane_form{32, 1};
+    }
+
+    /// The items of so many rows (a multiple of the slice), padded to whole groups.
+    range items(std::size_t rows) const
+    {
+        const std::size_t group = lanes == 1 ? 128 : 16;
+        return {padded(rows / static_cast<std::size_t>(lanes), group), group};
+    }
+};
+
+} // namespace taut

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/map/level_report.hpp>
+#include <taut/map/level_solver.hpp>
+#include <taut/map/start/robust_start.hpp>
+
+namespace taut
+{
+
+/// How the levels above the finest one are solved: roughly, since the next one changes everything a little.
+struct coarse_to_fine_params
+{
+    std::size_t start_vertices = 1000; ///< the start map is made on the finest level with at most so many
+    robust_start_params start = {};
+    solve::stopping_params stopping = {
+        .gradient_tolerance = 1e-4, .decrease_tolerance = 1e-3, .decrease_count = 1, .max_iterations = 100};
+};
+
+/// Nested iteration: a start map on a coarse level, minimised, and then for each finer level its vertices reinserted
+/// without flips, the worst elements relaxed, and the map minimised again. It needs no map of the fine mesh to begin
+/// with and hands the fine level one that lacks detail only (the paper's coarse-to-fine scheme, its section 5).
+template <class P, class R>
+class coarse_to_fine
+{
+public:
+    /// Refers to the levels and the solver.
+    coarse_to_fine(const mesh_levels& levels, level_solver<P, R>& solver, coarse_to_fine_params params)
+        : levels_(levels), solver_(solver), params_(std::move(params))
+    {
+    }
+
+    /// The level that the start map is made on.
+    std::size_t first_level() const
+    {
+        std::size_t l = 0;
+        while (l + 1 < levels_.size() && levels_.vertices(l) > params_.start_vertices) ++l;
+        return l;
+    }
+
+    /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
+    /// reason() then says how.
+    std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer)
+    {
+        const std::size_t first = first_level();
+        start_ = robust_start(levels_.surface(first), params_.start);
+        if (start_.flips.flipped > 0)
+            return fail("the coarse start has " + std::to_string(start_.flips.flipped) + " flipped triangles");
+        auto uv = std::move(start_.uv);
+        for (std::size_t l = first; l > 0; --l)
+        {
+            uv = minimised(l, uv, l < first, observer(l));
+            auto finer = detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv),
+                                           {.fixed = levels_.pinned() ? levels_.fixed(0) : std::span<const char>()});
+            if (!std::isfinite(finer.energy))
+                return fail("not all vertices could be reinserted on level " + std::to_string(l - 1));
+            uv = std::move(finer.uv);
+        }
+        return uv;
+    }
+
+    /// Of the start map; its uv are gone.
+    const start_map& start() const { return start_; }
+    const std::string& reason() const { return reason_; }
+    const std::vector<level_report>& reports() const { return reports_; }
+
+private:
+    std::vector<vec2> minimised(std::size_t l, const std::vector<vec2>& uv, bool relax, const solve::observer& ask)
+    {
+        typename level_solver<P, R>::level level(solver_, l, uv);
+        if (relax) level.relax();
+        auto r = level.minimize({.method = solve::method::newton, .stopping = params_.stopping}, ask);
+        r.history.clear();
+        reports_.push_back({.level = l, .vertices = levels_.vertices(l), .solve = std::move(r)});
+        return level.download();
+    }
+
+    std::vector<vec2> fail(std::string why)
+    {
+        reason_ = std::move(why);
+        return {};
+    }
+
+    const mesh_levels& levels_;
+    level_solver<P, R>& solver_;
+    coarse_to_fine_params params_;
+    start_map start_;
+    std::string reason_;
+    std::vector<level_report> reports_;
+};
+
+} // namespace taut

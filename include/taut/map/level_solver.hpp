@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <taut/map/barycentric_map.hpp>
+#include <taut/map/mesh_levels.hpp>
+#include <taut/map/newton_problem.hpp>
+#include <taut/solve/minimize.hpp>
+
+namespace taut
+{
+
+/// Minimises an energy on one level of a hierarchy after another. The kernels are traced and compiled once; buffers and
+/// matrices live as long as the level that they serve is at work.
+template <class P, class R>
+class level_solver
+{
+public:
+    using kernels = newton_kernels<triangle, P, R>;
+
+    /// Refers to the levels.
+    level_solver(queue q, const mesh_levels& levels, const any_energy& energy, energy::weighting weights)
+        : queue_(q),
+          levels_(levels),
+          energy_(energy),
+          weights_(weights),
+          kernels_(std::make_shared<const kernels>(q, energy))
+    {
+    }
+
+    /// Launches every kernel once, on the coarsest level, so that what drivers compile at the first launch is compiled.
+    void warm_up()
+    {
+        const std::size_t coarsest = levels_.size() - 1;
+        const auto m = levels_.surface(coarsest);
+        level(*this, coarsest, barycentric_map(m, facets(m), {}).uv).warm_up();
+    }
+
+    /// One level at work.
+    class level
+    {
+    public:
+        /// uv: the map to start from, coordinates of the level's vertices.
+        level(level_solver& owner, std::size_t l, const std::vector<vec2>& uv)
+            : layout_(owner.levels_.make_layout(l)),
+              problem_(owner.queue_, layout_, owner.energy_, owner.weights_, owner.kernels_, owner.levels_.cells(l),
+                       owner.levels_.transfers(l), owner.levels_.fixed(l)),
+              x_(problem_.make_point())
+        {
+            problem_.upload(uv, x_);
+        }
+
+        std::vector<vec2> download() const { return problem_.download(x_); }
+
+        /// Spreads out what caps the first step: meant for maps that come from a coarser level.
+        void relax() { problem_.relax(x_); }
+
+        solve::report minimize(const solve::params& how, const solve::observer& ask = {})
+        {
+            return solve::minimize(problem_, x_, how, ask);
+        }
+
+        void warm_up() { problem_.warm_up(x_); }
+
+    private:
+        std::shared_ptr<const layout<triangle>> layout_;
+        newton_problem<triangle, P, R> problem_;
+        typename newton_problem<triangle, P, R>::point x_;
+    };
+
+private:
+    queue queue_;
+    const mesh_levels& levels_;
+    any_energy energy_;
+    energy::weighting weights_;
+    std::shared_ptr<const kernels> kernels_;
+};
+
+} // namespace taut

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include <taut/compute/block_assembly.hpp>
+#include <taut/compute/multigrid.hpp>
+#include <taut/map/element_hessian.hpp>
+#include <taut/map/problem.hpp>
+#include <taut/map/vertex_relaxation.hpp>
+
+namespace taut
+{
+
+/// The kernels of one energy for Newton's method, traced once and shared by all levels of a hierarchy.
+template <class Element, class P, class R>
+struct newton_kernels
+{
+    element_kernels<Element, P, R> first;
+    element_hessian_kernels<Element, P, R> second;
+    relaxation_kernels<Element, P, R> relaxation;
+
+    newton_kernels(queue q, const any_energy& energy) : first(q, energy), second(q, energy), relaxation(q, energy) {}
+};
+
+/// A problem that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into block-sparse
+/// matrices on the device, and a multigrid V-cycle over the hierarchy of the mesh is the preconditioner. The positive
+/// semi-definite stand-in has the element Hessians projected.
+template <class Element, class P, class R>
+class newton_problem : public problem<Element, P, R>
+{
+    using base = problem<Element, P, R>;
+
+public:
+    static constexpr int D = Element::dimension;
+    using typename base::point;
+    using typename base::vector;
+    using kernels = newton_kernels<Element, P, R>;
+
+    using cells_type = std::vector<typename mesh<Element>::cell>;
+
+    /// cells: of the mesh in layout order. transfers: from each coarser level to the next finer one, in layout order;
+    /// none for a mesh too small to be thinned. fixed: one flag a vertex, or none.
+    newton_problem(queue q, std::shared_ptr<const taut::layout<Element>> mesh_layout, const any_energy& energy,
+                   energy::weighting weights, std::shared_ptr<const kernels> traced, const cells_type& cells,
+                   const std::vector<transfer_weights>& transfers, std::span<const char> fixed)
+        : newton_problem(q, mesh_layout, energy, weights, std::move(traced), cells,
+                         incidence_of_cells(cells, static_cast<std::size_t>(mesh_layout->vertex_count)), transfers,
+                         fixed)
+    {
+    }
+
+    void linearize(const point& x, bool exact)
+    {
+        this->launch_hessian(kernels_->second.projected, x, hessian_);
+        assemble_(hessian_, cycle_.matrix());
+        cycle_.refresh();
+        exact_ = exact;
+        if (!exact) return;
+        if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
+        this->launch_hessian(kernels_->second.indefinite, x, hessian_);
+        assemble_(hessian_, *indefinite_);
+    }
+    void hessian_product(const vector& v, vector& out) const
+    {
+        (exact_ ? *indefinite_ : cycle_.matrix()).multiply(v, out);
+    }
+    void precondition(const vector& v, vector& out) { cycle_.apply(v, out); }
+
+    /// Moves the vertices of the worst elements alone; whether there were any.
+    bool relax(point& x) { return relaxation_(x).vertices > 0; }
+
+    /// As problem::warm_up, and what is Newton's.
+    void warm_up(point& x)
+    {
+        base::warm_up(x);
+        relaxation_.warm_up(x);
+        auto v = this->space().make(), w = this->space().make();
+        linearize(x, true);
+        hessian_product(v, w);
+        precondition(v, w);
+        const vector* const all[17] = {&v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v};
+        double products[51];
+        for (const std::size_t n : {2, 4, 6, 8})
+            this->space().multi_dot(std::span(all, 3), std::span(all, n + 1), products);
+    }
+
+private:
+    newton_problem(queue& q, const std::shared_ptr<const taut::layout<Element>>& mesh_layout, const any_energy& energy,
+                   energy::weighting weights, std::shared_ptr<const kernels> traced, const cells_type& cells,
+                   const cell_incidence& around, const std::vector<transfer_weights>& transfers,
+                   std::span<const char> fixed)
+        : base(q, mesh_layout, energy, weights,
+               std::shared_ptr<const element_kernels<Element, P, R>>(traced, &traced->first)),
+          kernels_(std::move(traced)),
+          hessian_(q, hessian_slots<D>::count * mesh_layout->cell_stride),
+          cycle_(block_matrix<R>(q, pattern_of_cells(cells, around, lane_form::for_device(q.device()).slice), D),
+                 transfers, {.lambda_max = D + 1.0}),
+          assemble_(cycle_.matrix(), cells, around, mesh_layout->cell_stride, fixed),
+          relaxation_(q, mesh_layout,
+                      std::shared_ptr<const relaxation_kernels<Element, P, R>>(kernels_, &kernels_->relaxation),
+                      this->arrays())
+    {
+    }
+
+    std::shared_ptr<const kernels> kernels_;
+    buffer<R> hessian_;
+    multigrid<R> cycle_;
+    block_assembly<R> assemble_;
+    vertex_relaxation<Element, P, R> relaxation_;
+    std::optional<block_matrix<R>> indefinite_;
+    bool exact_ = false;
+};
+
+} // namespace taut
