@@ -18,8 +18,9 @@ struct coarse_to_fine_params
 {
     std::size_t start_vertices = 1000; ///< the start map is made on the finest level with at most so many
     robust_start_params start = {};
+    /// `base` is set to the energy at rest: surfaces that are nearly developable are worth the digits above it.
     solve::stopping_params stopping = {
-        .gradient_tolerance = 1e-4, .decrease_tolerance = 1e-3, .decrease_count = 1, .max_iterations = 100};
+        .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .decrease_count = 1, .max_iterations = 100};
 };
 
 /// Nested iteration: a start map on a coarse level, minimised, and then for each finer level its vertices reinserted
@@ -33,6 +34,7 @@ public:
     coarse_to_fine(const mesh_levels& levels, level_solver<P, R>& solver, coarse_to_fine_params params)
         : levels_(levels), solver_(solver), params_(std::move(params))
     {
+        params_.stopping.base = solver.energy_at_rest();
     }
 
     /// The level that the start map is made on.
@@ -52,6 +54,7 @@ public:
         if (start_.flips.flipped > 0)
             return fail("the coarse start has " + std::to_string(start_.flips.flipped) + " flipped triangles");
         auto uv = std::move(start_.uv);
+        if (params_.start.fixed_boundary) detail::scale_outline(levels_.hierarchy(), first, levels_.points(), uv);
         for (std::size_t l = first; l > 0; --l)
         {
             uv = minimised(l, uv, l < first, observer(l));

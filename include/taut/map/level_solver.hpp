@@ -39,6 +39,8 @@ public:
         level(*this, coarsest, barycentric_map(m, facets(m), {}).uv).warm_up();
     }
 
+    double energy_at_rest() const { return energy_(element<double, 2>{mat2(1.0), 1.0, 1.0}); }
+
     /// One level at work.
     class level
     {

@@ -77,6 +77,8 @@ public:
     {
         std::optional<solve::stop> reason = start();
         while (!reason) reason = iterate();
+        // A run that was stopped by others between a step and its gradient's norm.
+        if (pending_) settle(f_.space().dot(g_, g_));
         report_.stop = *reason;
         if constexpr (has_capping<Objective>)
             if (step_.capped) report_.capping = f_.capping(previous_, d_);
@@ -137,11 +139,7 @@ private:
             g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
             [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_);
         report_.products += model_.steps;
-        if (!pending_) return std::nullopt;
-        if (std::isfinite(model_.gradient_squared)) return settle(std::sqrt(model_.gradient_squared));
-        // The step went beyond what the arithmetic can tell from a fold.
-        f_.copy(previous_, x_);
-        return solve::stop::line_search;
+        return pending_ ? settle(model_.gradient_squared) : std::nullopt;
     }
 
     struct trial
@@ -231,7 +229,7 @@ private:
         pending_ = true;
         constexpr double near_end = 1e-2;
         if (step_.value_before - value_ > near_end * std::abs(value_)) return monitor_.reason();
-        return settle(std::sqrt(f_.space().dot(g_, g_)));
+        return settle(f_.space().dot(g_, g_));
     }
 
     void gradient()
@@ -244,9 +242,17 @@ private:
     }
 
     /// Books the last step, now that its gradient is known.
-    std::optional<solve::stop> settle(double norm)
+    std::optional<solve::stop> settle(double gradient_squared)
     {
         pending_ = false;
+        if (!std::isfinite(gradient_squared))
+        {
+            // The step went beyond what the arithmetic can tell from a fold.
+            f_.copy(previous_, x_);
+            --report_.iterations;
+            return solve::stop::line_search;
+        }
+        const double norm = std::sqrt(gradient_squared);
         record(norm);
         step_.gradient = norm / scale_;
         const auto reason = test_.after(step_);

@@ -14,21 +14,21 @@ namespace taut::solve
 /// How exactly a Newton system is solved.
 struct pcg_params
 {
-    /// Products with the matrix, and with the preconditioner, at most. Range 1..16; rounded up to whole blocks.
-    int max_steps = 8;
+    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000; rounded up to whole blocks.
+    int max_steps = 40;
 
     /// Steps between two looks at the result; each look is a host wait. Range 1..4: beyond that the vectors of a block
     /// are too nearly parallel for float.
     int block = 2;
 
-    /// Go on while the last block of steps, or the last step of the first block, brought more than this part of the
-    /// model's decrease (Nash & Sofer 1990, "Assessing a search direction within a truncated-Newton method"). Range
-    /// (0, 1). Lower it for more exact directions.
+    /// Go on while the last step brought more than this part of what the steps brought on average (Nash & Sofer 1990,
+    /// "Assessing a search direction within a truncated-Newton method"); of later blocks, their mean step. Range (0,
+    /// 1). Lower it for more exact directions.
     double gain = 0.25;
 
     void validate() const
     {
-        if (max_steps < 1 || max_steps > 16) throw parameter_error("pcg.max_steps", "must be in 1..16");
+        if (max_steps < 1 || max_steps > 1000) throw parameter_error("pcg.max_steps", "must be in 1..1000");
         if (block < 1 || block > 4) throw parameter_error("pcg.block", "must be in 1..4");
         if (!(gain > 0 && gain < 1)) throw parameter_error("pcg.gain", "must be in (0, 1)");
     }
@@ -45,14 +45,15 @@ struct pcg_result
 
 /// The minimiser d of the model g'd + d'A d / 2 over the Krylov space of M A and M g, which is what k steps of
 /// preconditioned conjugate gradients from 0 reach (Nocedal & Wright, Algorithm 5.3). The s-step form (Chronopoulos &
-/// Gear 1989): s vectors are made without any inner product, then all products come in one wait, and the small system
-/// of the model is solved on the host.
+/// Gear 1989): a block of s vectors is made without any inner product, then all products come in one wait, and the
+/// small system of the model is solved on the host. A block is conjugate to all before it once it is to the last.
 ///
 /// | here       | meaning                                             |
 /// |------------|-----------------------------------------------------|
-/// | `p_, q_`   | basis of the Krylov space, A times it               |
-/// | `K_, b_`   | p'A p and p'g                                       |
-/// | `c`        | coefficients of d in the basis                      |
+/// | `z_, w_`   | the new block M r, M A M r, ..., and A times it     |
+/// | `p_, q_`   | the last block, conjugate, and A times it           |
+/// | `K_`       | p'A p                                               |
+/// | `B`        | p = z - p_last B                                    |
 /// | `r_`       | the residual g + A d                                |
 template <vector_space Space>
 class pcg
@@ -60,109 +61,184 @@ class pcg
 public:
     using vector = typename Space::vector;
 
-    pcg(Space& space, const pcg_params& params) : space_(space), params_(params), r_(space.make()) {}
+    pcg(Space& space, const pcg_params& params)
+        : space_(space), params_(params), s_(static_cast<std::size_t>(params.block)), r_(space.make())
+    {
+        for (auto* block : {&z_, &w_, &p_, &q_})
+            for (std::size_t k = 0; k < s_; ++k) block->push_back(space.make());
+    }
 
     /// A(v, out) and M(v, out) are the products, M symmetric positive definite on the space of g.
     template <class Product, class Preconditioner>
     pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d)
     {
         pcg_result result;
-        std::vector<double> c;
-        K_.clear();
-        b_.clear();
-        for (bool more = true; more && int(b_.size()) < params_.max_steps;)
+        space_.copy(g, r_);
+        for (bool more = true; more && result.steps < params_.max_steps;)
         {
-            const std::size_t before = b_.size();
-            extend(g, A, M, c);
-            if (before == 0) result.gradient_squared = gg_;
+            const bool first = result.steps == 0;
+            make_block(A, M);
+            const products in = multiply(first);
+            if (first) result.gradient_squared = in.rr;
+            const small B = first ? small() : conjugation(in.qz);
+            const small K = curvature(in.zw, B);
+
             // Step by step, so that the last one before a negative curvature counts.
-            const double decrease_before = result.decrease;
-            double last = 0;
-            more = !broken_;
-            for (std::size_t k = before + 1; k <= b_.size(); ++k)
+            std::vector<double> c;
+            double gained = 0, last = 0;
+            for (std::size_t k = 1; k <= s_; ++k)
             {
-                auto longer = minimiser(k);
-                more = more && !longer.empty();
-                if (longer.empty()) break;
+                auto longer = minimiser(K, in.zr, k);
+                more = !longer.empty();
+                if (!more) break;
                 double decrease = 0;
-                for (std::size_t i = 0; i < k; ++i) decrease -= 0.5 * longer[i] * b_[i];
-                last = decrease - result.decrease;
-                result.decrease = decrease;
+                for (std::size_t i = 0; i < k; ++i) decrease -= 0.5 * longer[i] * in.zr[i];
+                last = decrease - std::exchange(gained, decrease);
                 c = std::move(longer);
             }
-            if (before > 0) last = result.decrease - decrease_before;
-            more = more && last > params_.gain * result.decrease;
+            // Without curvature to go by: steepest descent in the metric of M.
+            if (c.empty() && first)
+            {
+                space_.axpby(-1, z_[0], 0, d);
+                result.steps = 1;
+                result.slope = -in.zr[0];
+                return result;
+            }
+            add(c, B, d, first);
+            result.steps += int(c.size());
+            result.decrease += gained;
+            if (!first) last = gained / double(s_);
+            more = more && last > params_.gain * result.decrease / result.steps && result.steps < params_.max_steps;
+            if (more) advance(c, B, K);
         }
-        // Without curvature to go by: steepest descent in the metric of M.
-        if (c.empty()) c = {-1.0};
-        result.steps = int(c.size());
-        for (std::size_t i = 0; i < c.size(); ++i) result.slope += c[i] * b_[i];
-        space_.linear_combination(c, pointers(p_, c.size()), d);
+        result.slope = -2 * result.decrease; // d is the minimiser in its space
         return result;
     }
 
 private:
-    /// Appends a block to the basis, with its inner products: one wait.
-    template <class Product, class Preconditioner>
-    void extend(const vector& g, const Product& A, const Preconditioner& M, const std::vector<double>& c)
-    {
-        const std::size_t first = b_.size(), count = first + static_cast<std::size_t>(params_.block);
-        while (p_.size() < count)
-        {
-            p_.push_back(space_.make());
-            q_.push_back(space_.make());
-        }
-        if (first == 0)
-            M(g, p_[0]);
-        else
-        {
-            auto terms = pointers(q_, first);
-            auto factors = c;
-            factors.resize(first, 0.0);
-            terms.push_back(&g);
-            factors.push_back(1.0);
-            space_.linear_combination(factors, terms, r_);
-            M(r_, p_[first]);
-        }
-        for (std::size_t k = first; k < count; ++k)
-        {
-            if (k > first) M(q_[k - 1], p_[k]);
-            A(p_[k], q_[k]);
-        }
+    using small = std::vector<std::vector<double>>;
 
-        std::vector<const vector*> left, right = pointers(q_, count);
-        for (std::size_t k = first; k < count; ++k) left.push_back(&p_[k]);
-        left.push_back(&g);
-        right.push_back(&g);
-        std::vector<double> products(left.size() * right.size());
-        space_.multi_dot(left, right, products);
-        broken_ = false;
-        for (std::size_t k = first; k < count; ++k)
+    struct products
+    {
+        small zw, qz; ///< z'A z; q_last'z
+        std::vector<double> zr;
+        double rr = 0;
+    };
+
+    template <class Product, class Preconditioner>
+    void make_block(const Product& A, const Preconditioner& M)
+    {
+        for (std::size_t k = 0; k < s_; ++k)
         {
-            const double* row = products.data() + (k - first) * right.size();
-            K_.emplace_back(row, row + k + 1);
-            b_.push_back(row[count]);
-            for (std::size_t i = 0; i <= count; ++i) broken_ = broken_ || !std::isfinite(row[i]);
+            M(k == 0 ? r_ : w_[k - 1], z_[k]);
+            A(z_[k], w_[k]);
         }
-        gg_ = products.back();
     }
 
-    /// The c with K c = -b for the first k basis vectors; empty if their K is not positive definite.
-    std::vector<double> minimiser(std::size_t k) const
+    /// All inner products of the block: one wait.
+    products multiply(bool first) const
+    {
+        auto left = pointers(z_), right = pointers(w_);
+        left.push_back(&r_);
+        right.push_back(&r_);
+        if (!first)
+            for (const vector& q : q_) right.push_back(&q);
+        std::vector<double> all(left.size() * right.size());
+        space_.multi_dot(left, right, all);
+        const auto at = [&](std::size_t i, std::size_t j) { return all[i * right.size() + j]; };
+        products in{small(s_, std::vector<double>(s_)), small(s_, std::vector<double>(s_)), std::vector<double>(s_),
+                    at(s_, s_)};
+        for (std::size_t i = 0; i < s_; ++i)
+        {
+            in.zr[i] = at(i, s_);
+            for (std::size_t j = 0; j < s_; ++j)
+            {
+                in.zw[i][j] = at(i, j);
+                if (!first) in.qz[j][i] = at(i, s_ + 1 + j);
+            }
+        }
+        return in;
+    }
+
+    /// B = K_last^-1 q_last'z, column by column.
+    small conjugation(const small& qz) const
+    {
+        small B(s_, std::vector<double>(s_, 0.0));
+        for (std::size_t j = 0; j < s_; ++j)
+        {
+            std::vector<double> column(s_);
+            for (std::size_t i = 0; i < s_; ++i) column[i] = -qz[i][j];
+            const auto solved = minimiser(K_, column, s_);
+            for (std::size_t i = 0; i < solved.size(); ++i) B[i][j] = solved[i];
+        }
+        return B;
+    }
+
+    /// p'A p = z'A z - B'K_last B.
+    small curvature(const small& zw, const small& B) const
+    {
+        small K = zw;
+        if (B.empty()) return K;
+        for (std::size_t i = 0; i < s_; ++i)
+            for (std::size_t j = 0; j < s_; ++j)
+                for (std::size_t m = 0; m < s_; ++m)
+                    for (std::size_t n = 0; n < s_; ++n) K[i][j] -= B[m][i] * K_[m][n] * B[n][j];
+        return K;
+    }
+
+    /// d += p c, with p = z - p_last B; d = p c the first time.
+    void add(const std::vector<double>& c, const small& B, vector& d, bool first)
+    {
+        std::vector<const vector*> terms;
+        std::vector<double> factors;
+        for (std::size_t k = 0; k < c.size(); ++k)
+        {
+            terms.push_back(&z_[k]);
+            factors.push_back(c[k]);
+        }
+        if (first) return space_.linear_combination(factors, terms, d);
+        for (std::size_t i = 0; i < s_; ++i)
+        {
+            double sum = 0;
+            for (std::size_t k = 0; k < c.size(); ++k) sum -= B[i][k] * c[k];
+            terms.push_back(&p_[i]);
+            factors.push_back(sum);
+        }
+        for (std::size_t i = 0; i < terms.size(); ++i) space_.axpby(factors[i], *terms[i], 1, d);
+    }
+
+    /// Makes the block the last one, and the residual that of the new d.
+    void advance(const std::vector<double>& c, const small& B, const small& K)
+    {
+        if (!B.empty())
+            for (std::size_t k = 0; k < s_; ++k)
+                for (std::size_t i = 0; i < s_; ++i)
+                {
+                    space_.axpby(-B[i][k], p_[i], 1, z_[k]);
+                    space_.axpby(-B[i][k], q_[i], 1, w_[k]);
+                }
+        std::swap(p_, z_);
+        std::swap(q_, w_);
+        K_ = K;
+        for (std::size_t k = 0; k < c.size(); ++k) space_.axpby(c[k], q_[k], 1, r_);
+    }
+
+    /// The c with K c = -b for the first k unknowns; empty if that part of K is not positive definite.
+    static std::vector<double> minimiser(const small& K, const std::vector<double>& b, std::size_t k)
     {
         constexpr double least_pivot = 1e-6; // of a diagonal entry: below, in float, two vectors are one
-        std::vector<std::vector<double>> L(k, std::vector<double>(k, 0.0));
+        small L(k, std::vector<double>(k, 0.0));
         std::vector<double> c(k);
         for (std::size_t i = 0; i < k; ++i)
         {
-            double sum = -b_[i];
+            double sum = -b[i];
             for (std::size_t j = 0; j <= i; ++j)
             {
-                double s = K_[i][j];
+                double s = K[i][j];
                 for (std::size_t m = 0; m < j; ++m) s -= L[i][m] * L[j][m];
                 if (j < i)
                     sum -= (L[i][j] = s / L[j][j]) * c[j];
-                else if (!(s > least_pivot * K_[i][i]) || !(K_[i][i] > 0))
+                else if (!(s > least_pivot * K[i][i]) || !(K[i][i] > 0) || !std::isfinite(s + sum))
                     return {};
                 else
                     c[i] = sum / (L[i][i] = std::sqrt(s));
@@ -176,21 +252,19 @@ private:
         return c;
     }
 
-    static std::vector<const vector*> pointers(const std::vector<vector>& v, std::size_t n)
+    static std::vector<const vector*> pointers(const std::vector<vector>& v)
     {
         std::vector<const vector*> all;
-        for (std::size_t i = 0; i < n; ++i) all.push_back(&v[i]);
+        for (const vector& x : v) all.push_back(&x);
         return all;
     }
 
     Space& space_;
     pcg_params params_;
+    std::size_t s_;
     vector r_;
-    std::vector<vector> p_, q_;
-    std::vector<std::vector<double>> K_; // lower triangle
-    std::vector<double> b_;
-    double gg_ = 0;
-    bool broken_ = false;
+    std::vector<vector> z_, w_, p_, q_;
+    small K_;
 };
 
 } // namespace taut::solve

@@ -20,11 +20,15 @@ struct stopping_params
     /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
     double gradient_tolerance = 1e-6;
 
-    /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f|. A decrease along a step
-    /// that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only where the
+    /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f - base|. A decrease along a
+    /// step that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only where the
     /// gradient has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop
     /// where the value, not the point, matters.
     double decrease_tolerance = 1e-14;
+
+    /// A value that f cannot fall below, or 0. What is left above it, not the value itself, then tells what a decrease
+    /// is worth.
+    double base = 0;
 
     /// Range >= 1. One small decrease is often an accident of the line search.
     int decrease_count = 2;
@@ -97,7 +101,8 @@ public:
         const double scale = std::max(std::abs(k.value), std::abs(k.value_before));
         const double decrease = k.value_before - k.value;
         const bool lost = decrease <= rounding_ * scale;
-        const bool small = params_.decrease_tolerance > 0 && (lost || decrease <= params_.decrease_tolerance * scale);
+        const bool small = params_.decrease_tolerance > 0 &&
+                           (lost || decrease <= params_.decrease_tolerance * std::abs(k.value - params_.base));
         since_low_ = k.gradient < 0.99 * lowest_gradient_ ? 0 : since_low_ + 1;
         lowest_gradient_ = std::min(lowest_gradient_, k.gradient);
         const bool falling = lost && since_low_ < patience_;

@@ -215,3 +215,21 @@ TEST_CASE("newton: limits, the observer and bad parameters end a run as in the o
     CHECK_THROWS_AS(newton(f, x, {.pcg = {.block = 5}}), taut::parameter_error);
     CHECK_THROWS_AS(newton(f, x, {.exact_below = 1}), taut::parameter_error);
 }
+
+TEST_CASE("newton: whatever ends a run, the report is of the point that it leaves")
+{
+    for (int questions = 1; questions < 40; ++questions)
+    {
+        auto f = rosenbrock(4);
+        std::vector<double> x(4, 0.5), g(4);
+        int asked = 0;
+        const auto r = newton(f, x, {}, {}, [&](const progress&) { return ++asked < questions; });
+        CAPTURE(questions);
+        CHECK((r.stop == stop::user || r.stop == stop::gradient));
+        CHECK(asked <= questions);
+        CHECK(f.value_gradient(x, g) == r.value);
+        CHECK(r.history.size() == static_cast<std::size_t>(r.iterations) + 1);
+        CHECK(r.history.back().value == r.value);
+        CHECK(r.history.back().gradient == r.gradient_norm);
+    }
+}
