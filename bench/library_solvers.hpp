@@ -16,25 +16,6 @@ namespace bench
 namespace detail
 {
 
-/// The level of an iterate in a nested run.
-template <class Entry>
-int level(const Entry& e)
-{
-    if constexpr (requires { e.level; })
-        return static_cast<int>(e.level);
-    else
-        return 0;
-}
-
-template <class Seconds>
-double hierarchy_seconds(const Seconds& s)
-{
-    if constexpr (requires { s.hierarchy; })
-        return s.hierarchy;
-    else
-        return 0;
-}
-
 /// The least that the elements alone move, in double, each array once: a value reads corners, inverses, measures,
 /// weights and positions, writes and reads the energies; a gradient also writes and reads six numbers a triangle and
 /// its slots, and writes two a vertex.
@@ -45,21 +26,6 @@ inline std::uint64_t element_bytes(const taut::mesh<taut::triangle>& m, const ta
     const std::uint64_t value = cells * (12 + 24 + 16 + 16) + vertices * 16;
     const std::uint64_t more = cells * (2 * 48 + 12) + vertices * 16;
     return value * static_cast<std::uint64_t>(r.evaluations) + more * static_cast<std::uint64_t>(r.gradients);
-}
-
-template <class Counters>
-constexpr bool counts_bytes = requires(const Counters& c)
-{
-    c.bytes_moved;
-};
-
-template <class Counters>
-std::uint64_t bytes_moved(const Counters& c, const taut::mesh<taut::triangle>& m, const taut::solve::report& r)
-{
-    if constexpr (counts_bytes<Counters>)
-        return c.bytes_moved;
-    else
-        return element_bytes(m, r);
 }
 
 } // namespace detail
@@ -76,7 +42,7 @@ inline solver_run run_library(taut::queue& q, const std::filesystem::path& path,
     run.seconds.read = std::chrono::duration<double>(clock::now() - begin).count();
     p.time_limit = std::chrono::duration<double>(limits.seconds);
     p.observer = [&](const taut::solve::progress& at)
-    { return !(at.iterate && at.value <= limits.enough && at.value > 0); };
+    { return !(at.iterate && at.level == 0 && at.value <= limits.enough && at.value > 0); };
     const auto [uv, r] = taut::parameterize(q, m, p);
     const double wall = std::chrono::duration<double>(clock::now() - begin).count();
     run.cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
@@ -85,23 +51,21 @@ inline solver_run run_library(taut::queue& q, const std::filesystem::path& path,
 
     auto& s = run.seconds;
     s.device = r.seconds.device;
-    s.hierarchy = detail::hierarchy_seconds(r.seconds);
+    s.hierarchy = r.seconds.hierarchy;
     s.start = r.seconds.start;
     s.solve = r.seconds.solve;
     s.other = wall - s.read - s.device - s.hierarchy - s.start - s.solve;
     run.valid = r.outcome == taut::outcome::valid;
     run.stop = run.valid ? std::string(taut::solve::to_string(r.solve.stop)) : r.reason;
     if (!run.valid) return run;
-    for (const auto& e : r.solve.history)
-        run.history.push_back({e.iteration, detail::level(e), e.value, s.before_solve() + e.seconds});
+    for (const auto& e : r.solve.history) run.history.push_back({e.iteration, e.value, s.before_solve() + e.seconds});
     run.iterations = r.solve.iterations;
     run.evaluations = r.solve.evaluations;
     run.energy = r.solve.value;
     run.flipped = r.flips.flipped;
     run.limited = r.solve.stop == taut::solve::stop::time;
     run.counters = r.counters;
-    run.bytes_moved = detail::bytes_moved(r.counters, m, r.solve);
-    run.bytes_counted = detail::counts_bytes<taut::queue_counters>;
+    run.bytes_moved = detail::element_bytes(m, r.solve);
     return run;
 }
 
@@ -120,11 +84,29 @@ inline std::vector<solver> library_solvers(taut::queue& q)
                              return run_library(q, path, p, limits);
                          }});
     };
+    const taut::barycentric_params tutte{
+        .boundary = {.shape = taut::boundary_shape::circle, .spacing = taut::boundary_spacing::chord},
+        .weights = taut::barycentric_weights::uniform};
     const auto without_end = [](parameterize_params& p)
     {
         p.solve.stopping.max_iterations = 1000000;
         p.solve.stopping.gradient_tolerance = 0;
     };
+    add("nested", true, [](parameterize_params&) {}); // the default: coarse to fine, Newton with multigrid
+    add("newton", true,                               // the same from the plain barycentric map
+        [=](parameterize_params& p)
+        {
+            p.first = taut::start_method::barycentric;
+            p.start = tutte;
+        });
+    add("nested lbfgs", false, // the V-cycle of the start's Hessian as H0
+        [=](parameterize_params& p)
+        {
+            p.solve.method = taut::solve::method::lbfgs;
+            p.multigrid = true;
+            p.first = taut::start_method::coarse;
+            without_end(p);
+        });
     add("lbfgs", false,
         [=](parameterize_params& p)
         {
@@ -135,8 +117,7 @@ inline std::vector<solver> library_solvers(taut::queue& q)
         [=](parameterize_params& p)
         {
             p.solve.method = taut::solve::method::conjugate_gradient;
-            p.start = {.boundary = {.shape = taut::boundary_shape::circle, .spacing = taut::boundary_spacing::chord},
-                       .weights = taut::barycentric_weights::uniform};
+            p.start = tutte;
             without_end(p);
         });
     return table;

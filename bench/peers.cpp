@@ -180,7 +180,7 @@ void minimize(const problem& p, peer::model kind, std::vector<double>& x, peer::
     run.evaluations = 1;
     run.valid = std::isfinite(value);
     run.stop = run.valid ? "iterations" : "the start map has a flipped triangle";
-    if (run.valid) run.history.push_back({0, 0, value, now()});
+    if (run.valid) run.history.push_back({0, value, now()});
     while (run.iterations < most && run.valid)
     {
         p.matrix(x, kind, h);
@@ -206,7 +206,7 @@ void minimize(const problem& p, peer::model kind, std::vector<double>& x, peer::
         p.gradient(x, g);
         ++run.evaluations;
         value = next;
-        run.history.push_back({++run.iterations, 0, value, now()});
+        run.history.push_back({++run.iterations, value, now()});
         if (value <= limits.enough) run.stop = "user";
         run.limited = now() > limits.seconds;
         if (run.limited) run.stop = "time";

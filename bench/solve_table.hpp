@@ -120,10 +120,9 @@ inline nlohmann::ordered_json curve(const solver_run& run, double best)
     {
         const auto& s = run.history[i];
         const double e = s.value / best - 1;
-        if (s.level == 0 && i > 0 && i + 1 < run.history.size() && !(e < 0.98 * error)) continue;
-        if (s.level == 0) error = e;
-        points.push_back(
-            {{"seconds", s.seconds}, {"value", s.value}, {"error", e}, {"iteration", s.iteration}, {"level", s.level}});
+        if (i > 0 && i + 1 < run.history.size() && !(e < 0.98 * error)) continue;
+        error = e;
+        points.push_back({{"seconds", s.seconds}, {"value", s.value}, {"error", e}, {"iteration", s.iteration}});
     }
     return points;
 }
@@ -157,7 +156,7 @@ inline nlohmann::ordered_json to_json(const solver_result& s, double best)
                          {"waits", c.waits},
                          {"bytes_read", c.bytes_read},
                          {"bytes_written", c.bytes_written}};
-    if (last.bytes_moved) json[last.bytes_counted ? "bytes_moved" : "bytes_moved_by_elements"] = *last.bytes_moved;
+    if (last.bytes_moved) json["bytes_moved_by_elements"] = *last.bytes_moved;
     if (const auto rate = s.rate()) json["bytes_a_second"] = *rate;
     json["peak_bytes"] = s.of([](const solver_run& r) { return r.peak_bytes; });
     json["peak_bytes_before"] = s.of([](const solver_run& r) { return r.bytes_before; });

@@ -18,8 +18,7 @@ namespace bench
 /// An iterate of a solver.
 struct sample
 {
-    int iteration = 0;  ///< on its own level
-    int level = 0;      ///< of the hierarchy; 0 is the mesh itself
+    int iteration = 0;
     double value = 0;   ///< mean symmetric Dirichlet energy, by rest area
     double seconds = 0; ///< since the file was opened, all set-up included, less start-up of the device
 };
@@ -30,7 +29,7 @@ struct phases
     double read = 0;      ///< file to mesh
     double device = 0;    ///< kernel builds and their first launches
     double hierarchy = 0; ///< coarse meshes and the prolongations between them
-    double start = 0;     ///< start map
+    double start = 0;     ///< start map; of a nested solver all that happens on coarser levels
     double other = 0;     ///< all other set-up, and the certificate at the end
     double solve = 0;     ///< minimisation
 
@@ -52,8 +51,7 @@ struct solver_run
     std::string stop;                         ///< why it ended
     bool limited = false;                     ///< by the time limit
     taut::queue_counters counters;            ///< of a solver on the device
-    std::optional<std::uint64_t> bytes_moved; ///< between the device's memory and its kernels
-    bool bytes_counted = false;               ///< by the queue; if not, the least that the elements alone take
+    std::optional<std::uint64_t> bytes_moved; ///< by the element kernels, at least
     std::size_t peak_bytes = 0, bytes_before = 0;
 };
 
@@ -82,7 +80,7 @@ struct reached
 inline std::optional<reached> effort(const solver_run& run, double best, double error)
 {
     for (const sample& s : run.history)
-        if (s.level == 0 && s.value - best <= error * best) return reached{s.iteration, s.seconds};
+        if (s.value - best <= error * best) return reached{s.iteration, s.seconds};
     return std::nullopt;
 }
 

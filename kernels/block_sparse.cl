@@ -7,14 +7,15 @@
 // Missing nonzeros have value 0 and name their own row.
 // Vectors: component c of vertex v at [c * stride + v]; stride is a multiple of 256 and its padding zero.
 //
-// Macros: REAL float or double; D block size; C rows a slice; V rows an item; TEAM items of the group of invert_dense.
+// Macros: REAL float or double; D block size; C rows a slice; V rows an item; TEAM items of the group of invert_dense;
+// GROUP, on CPUs, the most rows an item of galerkin.
 // (C, V) = (16, 16): CPUs, where explicit vectors keep the arithmetic wide although the gathers are not; (32, 1): GPUs,
 // where a slice is a warp.
 //
-// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=2 -DC=16 -DV=16 -DTEAM=1 -DEPSILON=1e-12
-// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=3 -DC=16 -DV=16 -DTEAM=1 -DEPSILON=2e-6f
-// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=2 -DC=32 -DV=1 -DTEAM=64 -DEPSILON=2e-6f
-// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DC=32 -DV=1 -DTEAM=64 -DEPSILON=1e-12
+// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=2 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DEPSILON=1e-12
+// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=3 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DEPSILON=2e-6f
+// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=2 -DC=32 -DV=1 -DTEAM=64 -DGROUP=1 -DEPSILON=2e-6f
+// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DC=32 -DV=1 -DTEAM=64 -DGROUP=1 -DEPSILON=1e-12
 
 #if REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -29,14 +30,16 @@
 #define INTV int
 #define LOAD(p, i) (p)[i]
 #define STORE(v, p, i) (p)[i] = (v)
+#define LOAD_INT(p, i) (p)[i]
 #define GATHER(p, at) (p)[at]
 #define WHERE(test, yes, no) ((test) ? (yes) : (no))
 #define WHERE_INT(test, yes, no) ((test) ? (yes) : (no))
 #else
 #define REALV CAT(REAL, 16)
 #define INTV int16
-#define LOAD(p, i) vload16(0, (p) + (i))
-#define STORE(v, p, i) vstore16(v, 0, (p) + (i))
+#define LOAD(p, i) (*(__global const REALV*)((p) + (i)))
+#define STORE(v, p, i) *(__global REALV*)((p) + (i)) = (v)
+#define LOAD_INT(p, i) (*(__global const INTV*)((p) + (i)))
 #define GATHER(p, at)                                                                                                  \
     (REALV)((p)[(at).s0], (p)[(at).s1], (p)[(at).s2], (p)[(at).s3], (p)[(at).s4], (p)[(at).s5], (p)[(at).s6],          \
             (p)[(at).s7], (p)[(at).s8], (p)[(at).s9], (p)[(at).sa], (p)[(at).sb], (p)[(at).sc], (p)[(at).sd],          \
@@ -48,6 +51,8 @@
 #define SLICE ((int)get_global_id(0) / (C / V))
 #define LANE ((int)get_global_id(0) % (C / V))
 #define PACKED (D * (D + 1) / 2)
+#define COLOURS 64
+#define CLASH COLOURS
 
 /// Where entry (r, c) of a packed symmetric block is.
 #define PACK(r, c) ((r) <= (c) ? (r) * D - (r) * ((r) - 1) / 2 + (c) - (r) : (c) * D - (c) * ((c) - 1) / 2 + (r) - (c))
@@ -60,7 +65,7 @@ inline void multiply(const int slice, const int lane, const int stride, __global
     const int end = offsets[slice + 1];
     for (int at = offsets[slice]; at < end; at += C)
     {
-        const INTV j = LOAD(columns, at + lane);
+        const INTV j = LOAD_INT(columns, at + lane);
         REALV xj[D];
         UNROLLED (int c = 0; c < D; ++c) xj[c] = GATHER(x + c * stride, j);
         UNROLLED (int r = 0; r < D; ++r)
@@ -202,7 +207,7 @@ __kernel void assemble(const int cells, __global const int* offsets, __global co
     UNROLLED (int e = 0; e < PACKED; ++e) sum[e] = 0;
     for (int at = diagonal_offsets[slice]; at < diagonal_offsets[slice + 1]; at += C)
     {
-        const INTV s = LOAD(diagonal_slots, at + lane), none = s == NONE, from = WHERE_INT(none, (INTV)0, s);
+        const INTV s = LOAD_INT(diagonal_slots, at + lane), none = s == NONE, from = WHERE_INT(none, (INTV)0, s);
         UNROLLED (int e = 0; e < PACKED; ++e) sum[e] += entries(blocks, from + e * cells, none);
     }
     UNROLLED (int r = 0; r < D; ++r)
@@ -214,7 +219,7 @@ __kernel void assemble(const int cells, __global const int* offsets, __global co
         UNROLLED (int e = 0; e < D * D; ++e) sum[e] = 0;
         for (int at = slot_offsets[place / C]; at < slot_offsets[place / C + 1]; at += C)
         {
-            const INTV s = LOAD(slots, at + lane), none = s == NONE, below = s < 0;
+            const INTV s = LOAD_INT(slots, at + lane), none = s == NONE, below = s < 0;
             const INTV from = WHERE_INT(none, (INTV)0, WHERE_INT(below, ~s, s));
             UNROLLED (int r = 0; r < D; ++r)
                 UNROLLED (int c = 0; c < D; ++c)
@@ -227,86 +232,161 @@ __kernel void assemble(const int cells, __global const int* offsets, __global co
     }
 }
 
-/// Adds P(i, I) A(i, j) P(j, J) to the block of J in row I for all nonzeros of row I of P' A P, I = slice * C + lane.
-/// `find` tells where the block of column J is; its entries are `step` apart. A row of P without weights has no columns;
-/// in others, places without a weight repeat a column, which saves a branch.
-#define ADD_TERMS(find, target, step)                                                                                  \
-    for (int t = transpose_offsets[slice] + lane; t < transpose_offsets[slice + 1]; t += C)                            \
-    {                                                                                                                  \
-        const int term = transpose[t];                                                                                 \
-        if (term < 0) break;                                                                                           \
-        const REAL left = weights[term];                                                                               \
-        const int i = term - ((term >= fine_stride) + (term >= 2 * fine_stride)) * fine_stride, fine_lane = i % C;     \
-        const int first = fine_offsets[i / C], end = fine_offsets[i / C + 1];                                          \
-        for (int at = first; at < end; at += C)                                                                        \
-        {                                                                                                              \
-            const int j = fine_columns[at + fine_lane];                                                                \
-            if (j == i && at > first) break;                                                                           \
-            REAL block[D * D];                                                                                         \
-            UNROLLED (int e = 0; e < D * D; ++e) block[e] = left * fine[at * D * D + e * C + fine_lane];               \
-            REAL right[3];                                                                                             \
-            UNROLLED (int l = 0; l < 3; ++l) right[l] = weights[l * fine_stride + j];                                  \
-            if (right[0] == 0 && right[1] == 0 && right[2] == 0) continue;                                             \
-            UNROLLED (int l = 0; l < 3; ++l)                                                                           \
-            {                                                                                                          \
-                const int J = prolongation[l * fine_stride + j];                                                       \
-                find;                                                                                                  \
-                UNROLLED (int e = 0; e < D * D; ++e) target[e * step] += right[l] * block[e];                          \
-            }                                                                                                          \
-        }                                                                                                              \
+/// Row I = slice * C + lane of P' A P, term by term. transpose: for each coarse row the places in `weights` of its column
+/// of P, ended by -1. A row of P without weights has no columns; in others, places without a weight repeat a column,
+/// which saves a branch.
+inline void product_row(const int slice, const int lane, const int rows, const int fine_stride,
+                        __global const int* transpose_offsets, __global const int* transpose,
+                        __global const int* prolongation, __global const REAL* weights,
+                        __global const int* fine_offsets, __global const int* fine_columns, __global const REAL* fine,
+                        __global const int* offsets, __global const int* columns, __global REAL* coarse)
+{
+    const int start = offsets[slice], stop = offsets[slice + 1];
+    __global REAL* row = coarse + start * D * D + lane;
+    for (int j = 0; start + j * C < stop; ++j)
+        UNROLLED (int e = 0; e < D * D; ++e) row[j * C * D * D + e * C] = 0;
+    if (slice * C + lane >= rows) return;
+    for (int t = transpose_offsets[slice] + lane; t < transpose_offsets[slice + 1]; t += C)
+    {
+        const int term = transpose[t];
+        if (term < 0) break;
+        const REAL left = weights[term];
+        const int i = term - ((term >= fine_stride) + (term >= 2 * fine_stride)) * fine_stride, fine_lane = i % C;
+        const int first = fine_offsets[i / C], end = fine_offsets[i / C + 1];
+        for (int at = first; at < end; at += C)
+        {
+            const int j = fine_columns[at + fine_lane];
+            if (j == i && at > first) break;
+            REAL block[D * D];
+            UNROLLED (int e = 0; e < D * D; ++e) block[e] = left * fine[at * D * D + e * C + fine_lane];
+            REAL right[3];
+            UNROLLED (int l = 0; l < 3; ++l) right[l] = weights[l * fine_stride + j];
+            if (right[0] == 0 && right[1] == 0 && right[2] == 0) continue;
+            UNROLLED (int l = 0; l < 3; ++l)
+            {
+                const int J = prolongation[l * fine_stride + j];
+                int number = 0;
+                while (columns[start + number * C + lane] != J) ++number;
+                __global REAL* sum = row + number * C * D * D;
+                UNROLLED (int e = 0; e < D * D; ++e) sum[e * C] += right[l] * block[e];
+            }
+        }
     }
+}
 
-/// Rows of so many nonzeros are summed in private memory, with a table of four times as many places.
-#define SHORT_ROW 32
-#define TABLE 128
-#define HASH(J) (((uint)(J)*0x9e3779b1u) >> 25)
+#if V > 1
+/// Blocks of 16 rows, entry by entry at from + e * C, side by side.
+inline void read_blocks(__global const REAL* from, REALV* blocks)
+{
+#if D == 2
+#define LOW(x, y)                                                                                                      \
+    (REALV)((x).s0, (y).s0, (x).s1, (y).s1, (x).s2, (y).s2, (x).s3, (y).s3, (x).s4, (y).s4, (x).s5, (y).s5, (x).s6,    \
+            (y).s6, (x).s7, (y).s7)
+#define HIGH(x, y)                                                                                                     \
+    (REALV)((x).s8, (y).s8, (x).s9, (y).s9, (x).sa, (y).sa, (x).sb, (y).sb, (x).sc, (y).sc, (x).sd, (y).sd, (x).se,    \
+            (y).se, (x).sf, (y).sf)
+    const REALV a = LOAD(from, 0), b = LOAD(from, C), c = LOAD(from, 2 * C), d = LOAD(from, 3 * C);
+    const REALV ac = LOW(a, c), bd = LOW(b, d), ac2 = HIGH(a, c), bd2 = HIGH(b, d);
+    blocks[0] = LOW(ac, bd);
+    blocks[1] = HIGH(ac, bd);
+    blocks[2] = LOW(ac2, bd2);
+    blocks[3] = HIGH(ac2, bd2);
+#else
+    for (int e = 0; e < D * D; ++e)
+        for (int lane = 0; lane < C; ++lane) ((REAL*)blocks)[lane * D * D + e] = from[e * C + lane];
+#endif
+}
+#endif
 
-/// Values of the coarse matrix P' A P, row by row; an item does a lane or, on CPUs, all rows of its slice. transpose:
-/// for each coarse row the places in `weights` of its column of P, ended by -1.
-__kernel void galerkin(const int rows, const int fine_stride, __global const int* transpose_offsets,
-                       __global const int* transpose, __global const int* prolongation, __global const REAL* weights,
+/// Values of the coarse matrix P' A P. On GPUs an item does a row. On CPUs it does a group of `size` rows, and sums row i
+/// of A P once for all of its rows that fine row i goes to. Nonzeros of a row are told apart by the colours of their
+/// columns, `count` in all; where those of a row do not differ, its own colour has the flag CLASH, and it is summed term
+/// by term. codes: the colours of the columns of each row of P, a byte each. visits: of each group the slices of fine
+/// rows that go to it, and a bit for each lane that does.
+__kernel void galerkin(const int rows, const int fine_stride, const int size, const int count,
+                       __global const int* transpose_offsets, __global const int* transpose,
+                       __global const int* prolongation, __global const REAL* weights, __global const int* codes,
+                       __global const int* colours, __global const int* visit_offsets, __global const int* visits,
                        __global const int* fine_offsets, __global const int* fine_columns, __global const REAL* fine,
                        __global const int* offsets, __global const int* columns, __global REAL* coarse)
 {
-    const int slice = SLICE;
-    if (slice * C >= rows) return;
-    const int start = offsets[slice], stop = offsets[slice + 1];
-    for (int lane = LANE; lane < LANE + V; ++lane)
+#if V == 1
+    if (SLICE * C < rows)
+        product_row(SLICE, LANE, rows, fine_stride, transpose_offsets, transpose, prolongation, weights, fine_offsets,
+                    fine_columns, fine, offsets, columns, coarse);
+#else
+    const int group = (int)get_global_id(0), begin = group * size, parts = (count * D * D + V - 1) / V;
+    // Of rows of P' A P, and of a slice of A P; rows lie close, and not a power of two apart.
+    REALV sums[(GROUP + 1) * COLOURS * D * D / V], products[C * COLOURS * D * D / V];
+    for (int p = 0; p < (size + 1) * parts; ++p) sums[p] = 0;
+    for (int p = 0; p < C * parts; ++p) products[p] = 0;
+
+    for (int v = visit_offsets[group]; v < visit_offsets[group + 1]; v += 2)
     {
-        const int I = slice * C + lane;
-        int length = I < rows ? 1 : 0;
-        while (I < rows && start + length * C < stop && columns[start + length * C + lane] != I) ++length;
-        __global REAL* row = coarse + start * D * D + lane;
-#if V > 1
-        if (length <= SHORT_ROW)
+        const int slice = visits[v], end = fine_offsets[slice + 1];
+        int lanes[C], lane_count = 0;
+        for (int lane = 0; lane < C; ++lane)
         {
-            REAL sums[SHORT_ROW * D * D];
-            int keys[TABLE], numbers[TABLE];
-            for (int k = 0; k < TABLE; ++k) keys[k] = -1;
-            for (int j = 0; j < length; ++j)
+            lanes[lane_count] = lane;
+            lane_count += visits[v + 1] >> lane & 1;
+        }
+        for (int at = fine_offsets[slice]; at < end; at += C)
+        {
+            REALV blocks[D * D];
+            read_blocks(fine + at * D * D, blocks);
+            for (int n = 0; n < lane_count; ++n)
             {
-                const int column = columns[start + j * C + lane];
-                uint h = HASH(column);
-                while (keys[h] >= 0) h = (h + 1) % TABLE;
-                keys[h] = column;
-                numbers[h] = j;
+                const int lane = lanes[n], j = fine_columns[at + lane], code = codes[j];
+                const REAL* block = (const REAL*)blocks + lane * D * D;
+                REAL* product = (REAL*)(products + lane * parts);
+                UNROLLED (int l = 0; l < 3; ++l)
+                {
+                    REAL* to = product + (code >> 8 * l & 255) * (D * D);
+                    const REAL right = weights[l * fine_stride + j];
+                    UNROLLED (int e = 0; e < D * D; ++e) to[e] += right * block[e];
+                }
             }
-            for (int k = 0; k < length * D * D; ++k) sums[k] = 0;
-            if (length > 0)
-                ADD_TERMS(uint h = HASH(J); while (keys[h] != J) h = (h + 1) % TABLE;
-                          REAL* sum = sums + numbers[h] * D * D, sum, 1)
-            for (int j = 0; start + j * C < stop; ++j)
-                UNROLLED (int e = 0; e < D * D; ++e)
-                    row[j * C * D * D + e * C] = j < length ? sums[j * D * D + e] : 0;
+        }
+        for (int n = 0; n < lane_count; ++n)
+        {
+            const int i = slice * C + lanes[n];
+            // What goes to rows elsewhere is added, times 0, to a row that nobody reads.
+            REALV *from = products + lanes[n] * parts, *to[3];
+            REAL left[3];
+            UNROLLED (int k = 0; k < 3; ++k)
+            {
+                const int r = prolongation[k * fine_stride + i] - begin;
+                const bool here = (uint)r < (uint)size;
+                to[k] = sums + (here ? r : size) * parts;
+                left[k] = here ? weights[k * fine_stride + i] : 0;
+            }
+            for (int p = 0; p < parts; ++p)
+            {
+                const REALV part = from[p];
+                from[p] = 0;
+                UNROLLED (int k = 0; k < 3; ++k) to[k][p] += left[k] * part;
+            }
+        }
+    }
+
+    for (int r = 0; r < size && begin + r < rows; ++r)
+    {
+        const int I = begin + r, slice = I / C, lane = I % C, start = offsets[slice];
+        if (colours[I] >= CLASH)
+        {
+            product_row(slice, lane, rows, fine_stride, transpose_offsets, transpose, prolongation, weights,
+                        fine_offsets, fine_columns, fine, offsets, columns, coarse);
             continue;
         }
-#endif
-        for (int j = 0; start + j * C < stop; ++j)
-            UNROLLED (int e = 0; e < D * D; ++e) row[j * C * D * D + e * C] = 0;
-        if (length > 0)
-            ADD_TERMS(int number = 0; while (columns[start + number * C + lane] != J)++ number;
-                      __global REAL* sum = row + number * C * D * D, sum, C)
+        for (int at = start; at < offsets[slice + 1]; at += C)
+        {
+            const int J = columns[at + lane], c = colours[J] % COLOURS;
+            const bool none = J == I && at > start;
+            UNROLLED (int e = 0; e < D * D; ++e)
+                coarse[at * D * D + e * C + lane] = none ? 0 : ((const REAL*)(sums + r * parts))[c * D * D + e];
+        }
     }
+#endif
 }
 
 /// b = P' r, and the smoother's first step from zero: x = scale inverse b. transpose: see galerkin.
@@ -320,7 +400,7 @@ __kernel void restrict_residual(const int fine_stride, const int stride, __globa
     const int end = offsets[slice + 1];
     for (int at = offsets[slice]; at < end; at += C)
     {
-        const INTV term = LOAD(transpose, at + lane), none = term < 0, place = WHERE_INT(none, (INTV)0, term);
+        const INTV term = LOAD_INT(transpose, at + lane), none = term < 0, place = WHERE_INT(none, (INTV)0, term);
         const REALV w = entries(weights, place, none);
         const INTV second = WHERE_INT(place >= fine_stride, (INTV)fine_stride, (INTV)0);
         const INTV third = WHERE_INT(place >= 2 * fine_stride, (INTV)fine_stride, (INTV)0);
@@ -342,7 +422,7 @@ inline void prolong_rows(const int i, const int stride, const int coarse_stride,
     UNROLLED (int c = 0; c < D; ++c) sum[c] = LOAD(x, c * stride + i);
     UNROLLED (int k = 0; k < 3; ++k)
     {
-        const INTV j = LOAD(columns, k * stride + i);
+        const INTV j = LOAD_INT(columns, k * stride + i);
         const REALV w = LOAD(weights, k * stride + i);
         UNROLLED (int c = 0; c < D; ++c) sum[c] += w * GATHER(coarse + c * coarse_stride, j);
     }
@@ -367,8 +447,8 @@ inline void dense_rows(const int first, const int size, const int pitch, __globa
         odd += LOAD(inverse, (k + 1) * pitch + first) * b[at[k + 1]];
     }
     if (k < size) even += LOAD(inverse, k * pitch + first) * b[at[k]];
-    REAL s[V];
-    STORE(even + odd, s, 0);
+    const REALV sum = even + odd;
+    const REAL* s = (const REAL*)&sum;
     for (int v = 0; v < V; ++v)
         if (first + v < size) x[at[first + v]] = s[v];
 }
@@ -476,15 +556,15 @@ __kernel void small_cycle(const int rows, const int stride, const int coarse_str
     for (int i = 0; i < rows; i += V)
     {
         REALV sum[D];
-        REAL r[D][V];
+        REALV r[D];
         multiply(i / C, 0, stride, offsets, columns, A, x, sum);
-        UNROLLED (int c = 0; c < D; ++c) STORE(LOAD(b, c * stride + i) - sum[c], r[c], 0);
+        UNROLLED (int c = 0; c < D; ++c) r[c] = LOAD(b, c * stride + i) - sum[c];
         for (int v = 0; v < V && i + v < rows; ++v)
             for (int l = 0; l < 3; ++l)
             {
                 const int place = l * stride + i + v;
                 UNROLLED (int c = 0; c < D; ++c)
-                    coarse_b[c * coarse_stride + prolongation[place]] += weights[place] * r[c][v];
+                    coarse_b[c * coarse_stride + prolongation[place]] += weights[place] * ((const REAL*)&r[c])[v];
             }
     }
     for (int k = 0; k < pitch; k += V) dense_rows(k, size, pitch, at, dense_inverse, coarse_b, coarse_x);

@@ -4,22 +4,23 @@
 //
 // Macros:
 //   REAL   element type: float or double
-//   SUM    accumulator type: double, or float on a device without fp64
+//   FP64   1 where the device has double: accumulators are double, else float
 //   L, V   items a group and elements a load. (1, 8): a CPU, where an item is one long serial run through memory.
 //          (256, 1): a GPU, where neighbouring items take neighbouring elements, and one barrier joins them.
-//   U      loads in flight an item: independent accumulators hide the latency of the additions
-//   NL, NR size of the tile of dot products that one pass computes: every left with every right vector
 //
-// check: -DREAL=double -DSUM=double -DSUM_IS_DOUBLE=1 -DL=1 -DV=8 -DU=4 -DNL=1 -DNR=1
-// check: -DREAL=float -DSUM=double -DSUM_IS_DOUBLE=1 -DL=1 -DV=8 -DU=1 -DNL=3 -DNR=4
-// check: -DREAL=double -DSUM=double -DSUM_IS_DOUBLE=1 -DL=256 -DV=1 -DU=2 -DNL=1 -DNR=4
-// check: -DREAL=float -DSUM=float -DSUM_IS_DOUBLE=0 -DL=128 -DV=1 -DU=1 -DNL=4 -DNR=4
+// check: -DREAL=double -DFP64=1 -DL=1 -DV=8
+// check: -DREAL=float -DFP64=1 -DL=1 -DV=8
+// check: -DREAL=double -DFP64=1 -DL=256 -DV=1
+// check: -DREAL=float -DFP64=0 -DL=128 -DV=1
 
 #define CAT_(a, b) a##b
 #define CAT(a, b) CAT_(a, b)
 
-#if SUM_IS_DOUBLE
+#if FP64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#define SUM double
+#else
+#define SUM float
 #endif
 
 #if V == 1
@@ -47,65 +48,85 @@
             UNROLLED (int r = 0; r < NR; ++r) sum[l * NR + r] += x[l] * y[r];                                          \
     }
 
-/// Joins the K values of each of the L items of a group, column by column: one barrier, no loop around it.
+/// Joins the K values of each of the items of a group, column by column: one barrier, no loop around it.
 #if L == 1
-#define JOIN(K, value, out)                                                                                            \
+#define JOIN(K, items, value, out)                                                                                     \
     UNROLLED (int k = 0; k < (K); ++k) (out)[k * groups] = (value)[k];
 #else
-#define JOIN(K, value, out)                                                                                            \
-    __local SUM shared[(K) * L];                                                                                       \
-    UNROLLED (int k = 0; k < (K); ++k) shared[k * L + lid] = (value)[k];                                                    \
+#define JOIN(K, items, value, out)                                                                                     \
+    __local SUM shared[(K) * (items)];                                                                                 \
+    UNROLLED (int k = 0; k < (K); ++k) shared[k * (items) + lid] = (value)[k];                                         \
     barrier(CLK_LOCAL_MEM_FENCE);                                                                                      \
     if (lid < (K))                                                                                                     \
     {                                                                                                                  \
         SUM s0 = 0, s1 = 0, s2 = 0, s3 = 0;                                                                            \
-        for (int i = 0; i < L; i += 4)                                                                                 \
+        for (int i = 0; i < (items); i += 4)                                                                           \
         {                                                                                                              \
-            s0 += shared[lid * L + i];                                                                                 \
-            s1 += shared[lid * L + i + 1];                                                                             \
-            s2 += shared[lid * L + i + 2];                                                                             \
-            s3 += shared[lid * L + i + 3];                                                                             \
+            s0 += shared[lid * (items) + i];                                                                           \
+            s1 += shared[lid * (items) + i + 1];                                                                       \
+            s2 += shared[lid * (items) + i + 2];                                                                       \
+            s3 += shared[lid * (items) + i + 3];                                                                       \
         }                                                                                                              \
         (out)[lid * groups] = (s0 + s1) + (s2 + s3);                                                                   \
     }
 #endif
 
+/// The last n % V elements of a block; device vectors are padded and have none.
+#if V == 1
+#define ADD_LAST_PRODUCTS(sum, from, to)
+#else
+#define ADD_LAST_PRODUCTS(sum, from, to)                                                                               \
+    for (uint t = from; t < to; ++t) ADD_PRODUCTS(SUM, sum, LOAD_ONE, t)
+#endif
+
 /// partials[first + k * groups + group] = the group's share of the dot product k = l * NR + r of vectors of n elements.
 /// block: elements a group, a multiple of V. Only the first NL and NR vectors are read; the others fill the signature.
-__kernel void dots(const uint n, const uint block, const uint groups, const uint first, __global SUM* partials,
-                   __global const REAL* a0, __global const REAL* a1, __global const REAL* a2, __global const REAL* a3,
-                   __global const REAL* b0, __global const REAL* b1, __global const REAL* b2, __global const REAL* b3)
-{
-    __global const REAL* const a[4] = {a0, a1, a2, a3};
-    __global const REAL* const b[4] = {b0, b1, b2, b3};
-    const uint group = get_group_id(0);
-    const int lid = (int)get_local_id(0);
-    const uint begin = min(group * block, n), end = min(begin + block, n);
-    const uint vend = end / V;
-
-    SUMV s[U][NL * NR];
-    UNROLLED (int u = 0; u < U; ++u)
-        UNROLLED (int k = 0; k < NL * NR; ++k) s[u][k] = 0;
-
-    uint i = begin / V + (uint)lid;
-    for (; i + (U - 1) * L < vend; i += U * L)
-    {
-        UNROLLED (int u = 0; u < U; ++u) ADD_PRODUCTS(SUMV, s[u], LOAD, i + u * L)
+/// U: loads in flight an item: independent accumulators hide the latency of the additions. Large tiles have half as many
+/// items, for 16 KB of local memory at most.
+#define DOTS(LEFT, RIGHT, LOADS)                                                                                       \
+    __kernel void dots_##LEFT##x##RIGHT(                                                                               \
+        const uint n, const uint block, const uint groups, const uint first, __global SUM* partials,                   \
+        __global const REAL* a0, __global const REAL* a1, __global const REAL* a2, __global const REAL* a3,            \
+        __global const REAL* b0, __global const REAL* b1, __global const REAL* b2, __global const REAL* b3)            \
+    {                                                                                                                  \
+        enum { NL = LEFT, NR = RIGHT, U = LOADS, ITEMS = NL * NR > 8 && L > 128 ? 128 : L };                           \
+        __global const REAL* const a[4] = {a0, a1, a2, a3};                                                            \
+        __global const REAL* const b[4] = {b0, b1, b2, b3};                                                            \
+        const uint group = get_group_id(0);                                                                            \
+        const int lid = (int)get_local_id(0);                                                                          \
+        const uint begin = min(group * block, n), end = min(begin + block, n);                                         \
+        const uint vend = end / V;                                                                                     \
+                                                                                                                       \
+        SUMV s[U][NL * NR];                                                                                            \
+        UNROLLED (int u = 0; u < U; ++u)                                                                               \
+            UNROLLED (int k = 0; k < NL * NR; ++k) s[u][k] = 0;                                                        \
+                                                                                                                       \
+        uint i = begin / V + (uint)lid;                                                                                \
+        for (; i + (U - 1) * ITEMS < vend; i += U * ITEMS)                                                             \
+        {                                                                                                              \
+            UNROLLED (int u = 0; u < U; ++u) ADD_PRODUCTS(SUMV, s[u], LOAD, i + u * ITEMS)                             \
+        }                                                                                                              \
+        for (; i < vend; i += ITEMS) ADD_PRODUCTS(SUMV, s[0], LOAD, i)                                                 \
+                                                                                                                       \
+        SUM total[NL * NR];                                                                                            \
+        UNROLLED (int k = 0; k < NL * NR; ++k)                                                                         \
+        {                                                                                                              \
+            UNROLLED (int u = 1; u < U; ++u) s[0][k] += s[u][k];                                                       \
+            total[k] = FOLD(s[0][k]);                                                                                  \
+        }                                                                                                              \
+        ADD_LAST_PRODUCTS(total, vend * V, end)                                                                        \
+        JOIN(NL * NR, ITEMS, total, partials + first + group)                                                          \
     }
-    for (; i < vend; i += L) ADD_PRODUCTS(SUMV, s[0], LOAD, i)
 
-    SUM total[NL * NR];
-    UNROLLED (int k = 0; k < NL * NR; ++k)
-    {
-        UNROLLED (int u = 1; u < U; ++u) s[0][k] += s[u][k];
-        total[k] = FOLD(s[0][k]);
-    }
-#if V > 1
-    // The last n % V elements; device vectors are padded and have none.
-    for (uint t = vend * V; t < end; ++t) ADD_PRODUCTS(SUM, total, LOAD_ONE, t)
-#endif
-    JOIN(NL * NR, total, partials + first + group)
-}
+// Right tiles are full but for a single vector: a repeated one costs nothing beside a further kernel to compile.
+DOTS(1, 1, 4)
+DOTS(2, 1, 2)
+DOTS(3, 1, 2)
+DOTS(4, 1, 2)
+DOTS(1, 4, 2)
+DOTS(2, 4, 1)
+DOTS(3, 4, 1)
+DOTS(4, 4, 1)
 
 /// Sums of segments of x: segment k is the n elements from start + k * stride. The launch has groups groups for each
 /// segment; partials[first + k * groups + g] is the share of block g.
@@ -133,7 +154,7 @@ __kernel void sums(const uint n, const uint block, const uint groups, const uint
 #if V > 1
     for (uint t = vend * V; t < end - begin; ++t) total[0] += from[t];
 #endif
-    JOIN(1, total, partials + first + segment * groups + group)
+    JOIN(1, L, total, partials + first + segment * groups + group)
 }
 
 /// The smaller of two numbers; NaN if either is: fmin would hide it.

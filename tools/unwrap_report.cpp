@@ -24,13 +24,9 @@ std::uint64_t peak_memory()
 means mean_energy(const any_energy& energy, const mesh<triangle>& surface, const ideal_elements<triangle>& ideal,
                   std::span<const vec2> uv)
 {
-    std::vector<double> values(surface.cells().size());
-    for (std::size_t c = 0; c < values.size(); ++c)
-    {
-        const auto e = mapped_element(surface, ideal, uv, c);
-        values[c] = e.det > 0 ? energy(e) : std::numeric_limits<double>::infinity();
-    }
-    return mean(values, ideal.measure);
+    return mean_over<triangle>(surface, ideal, uv,
+                               [&](const element<double, 2>& e)
+                               { return e.det > 0 ? energy(e) : std::numeric_limits<double>::infinity(); });
 }
 
 /// The stop in words.

@@ -14,6 +14,7 @@
 #include <taut/compute/handler.hpp>
 #include <taut/compute/vector_space.hpp>
 
+#include <taut/mesh/hierarchy/hierarchy.hpp>
 #include <taut/mesh/mesh.hpp>
 #include <taut/mesh/validate.hpp>
 
@@ -26,5 +27,6 @@
 #include <taut/io/write_obj.hpp>
 
 #include <taut/map/check_gradient.hpp>
+#include <taut/map/crossings.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/map/quality.hpp>

@@ -158,7 +158,8 @@ test_usage()
     expect 2 unwrap in.obj -o out.obj --iterations many
     error_says '--iterations'
     for wrong in '--iterations -1' '--tolerance -1' '--tolerance 2' '--tolerance nan' '--time-limit 0' \
-                 '--time-limit -3' '--time-limit nan' '--boundary circle --start uv' '--precision half'; do
+                 '--time-limit -3' '--time-limit nan' '--boundary circle --start uv' '--precision half' \
+                 '--solver simplex' '--start tube'; do
         # shellcheck disable=SC2086
         expect 2 unwrap in.obj -o out.obj $wrong
         error_says "${wrong%% *}"
@@ -302,12 +303,27 @@ test_unwrap()
 
     grid 8 >small.obj
     for options in '--energy shape' '--energy area' '--weights uniform' '--boundary circle' '--boundary square' \
-                   '--start mean-value --spacing uniform' '--spacing centripetal' '--solver cg' \
-                   '--solver gd --iterations 20' '--precision float' '--precision mixed' '--iterations 0'; do
+                   '--start mean-value --spacing uniform' '--spacing centripetal' '--solver newton' \
+                   '--solver mg-lbfgs' '--solver lbfgs' '--solver cg' '--solver gd --iterations 20' '--start auto' \
+                   '--start coarse' '--start stretch' '--start tutte' '--start conformal' \
+                   '--start conformal --boundary circle' '--start coarse --solver lbfgs' '--precision auto' \
+                   '--precision double' '--precision float' '--precision mixed' '--iterations 0'; do
         # shellcheck disable=SC2086
         expect 0 unwrap small.obj -o out.obj --quiet $options
         same_vertices small.obj out.obj
         valid_map out.obj
+    done
+
+    # All solvers that converge find the same minimum.
+    least=
+    for solver in newton mg-lbfgs lbfgs cg; do
+        expect 0 unwrap small.obj -o out.obj --quiet --solver $solver --stats stats.json
+        keys stats.json method.solver stop energy
+        says values "^method.solver=$solver\$" '^stop=gradient$'
+        energy=$(sed -n 's/^energy=//p' values)
+        [ -n "$least" ] || least=$energy
+        awk -v a="$energy" -v b="$least" 'BEGIN { d = (a - b) / b; exit !(d < 1e-6 && d > -1e-6) }' ||
+            fail "$solver ends at $energy, newton at $least"
     done
 
     # A fixed boundary stays where the start has it, bit for bit; a free one moves.
@@ -327,13 +343,15 @@ test_reports()
     expect 0 unwrap in.obj -o out.obj --stats stats.json --picture layout.png --render render.png --quiet
     silent out
     silent err
-    keys stats.json schema vertices faces device precision stop iterations evaluations gradients energy_start energy \
-        flipped min_det max_det seconds.read seconds.device seconds.setup seconds.start seconds.untangle seconds.solve \
-        seconds.write seconds.total peak_memory_bytes quality.isometric.by_area quality.isometric.mean \
+    keys stats.json schema vertices faces device precision method.solver method.start stop iterations evaluations \
+        gradients hessian_products energy_start energy flipped min_det max_det seconds.read seconds.device \
+        seconds.setup seconds.hierarchy seconds.start seconds.untangle seconds.solve seconds.write seconds.total \
+        launches waits peak_memory_bytes quality.isometric.by_area quality.isometric.mean \
         quality.shape.by_area quality.area.by_area quality.stretch_l2.rms quality.stretch_linf.max \
         quality.area_ratio.rms quality.angular quality.boundary_crossings
-    says values '^vertices=121$' '^faces=200$' '^precision=double$' '^stop=gradient$' '^flipped=0$' \
-        '^seconds.total=[0-9.e-]+$' '^peak_memory_bytes=[1-9][0-9]+$' '^energy=4\.[0-9]+$'
+    says values '^vertices=121$' '^faces=200$' '^precision=mixed$' '^stop=gradient$' '^flipped=0$' \
+        '^method.solver=newton$' '^method.start=coarse$' '^hessian_products=[1-9]' '^launches=[1-9]' '^waits=[1-9]' \
+        '^seconds.hierarchy=[0-9.e-]+$' '^seconds.total=[0-9.e-]+$' '^peak_memory_bytes=[1-9][0-9]+$' '^energy=4\.[0-9]+$'
     for picture in layout.png render.png; do
         [ "$(od -An -tx1 -N8 "$picture" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$picture is no PNG"
     done
@@ -341,6 +359,18 @@ test_reports()
     says layout.svg '<svg ' '</svg>'
     keys stats.json precision stop iterations
     says values '^precision=float$' '^stop=iterations$' '^iterations=3$'
+
+    # A mesh with levels above the one of the start.
+    grid 40 >large.obj
+    expect 0 unwrap large.obj -o out.obj --stats stats.json
+    says out '^time .*hierarchy'
+    keys stats.json levels.0.level levels.0.vertices levels.0.iterations levels.0.energy_start levels.0.energy \
+        levels.0.seconds
+    says values '^levels.0.level=[1-9]$' '^levels.0.vertices=[1-9][0-9]*$'
+    expect 0 unwrap large.obj -o out.obj --stats stats.json --quiet --solver lbfgs --iterations 5
+    keys stats.json precision method.solver method.start hessian_products levels
+    says values '^precision=double$' '^method.solver=lbfgs$' '^method.start=evened stretch on a circle$' \
+        '^hessian_products=0$' '^levels=\[\]$'
 
     expect 0 unwrap in.obj -o out.obj --progress json
     "$cmake" -DFILE=err -DLINES=ON "-DKEYS=phase;iteration;energy;gradient;step;seconds" -P "$here/json.cmake" \
@@ -466,10 +496,12 @@ stopped()
 test_stops()
 {
     grid 150 >in.obj
-    expect 8 unwrap in.obj -o out.obj --stats stats.json --time-limit 0.05
-    says out '^stop .*time limit'
-    stopped time
-    rm out.obj stats.json
+    for solver in newton lbfgs; do
+        expect 8 unwrap in.obj -o out.obj --stats stats.json --time-limit 0.05 --solver $solver
+        says out '^stop .*time limit'
+        stopped time
+        rm out.obj stats.json
+    done
 
     # Ctrl-C in the middle of a run that would last for hours.
     "$taut" unwrap in.obj -o out.obj --stats stats.json --tolerance 0 --iterations 1000000000 --solver gd \

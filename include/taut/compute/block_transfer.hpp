@@ -2,7 +2,7 @@
 #pragma once
 
 #include <taut/compute/block_sparse.hpp>
-#include <taut/compute/transfer_weights.hpp>
+#include <taut/compute/product_groups.hpp>
 
 namespace taut
 {
@@ -31,6 +31,7 @@ public:
             throw parameter_error("transfer_weights", "does not fit the matrices");
         make_prolongation(P);
         make_transpose(P, t);
+        make_groups(P, t, coarse);
         const int D = fine.block_size();
         detail::load_block_kernel<T>(prolong_, queue_, "prolong", D, form_);
         detail::load_block_kernel<T>(restrict_, queue_, "restrict_residual", D, form_);
@@ -53,9 +54,9 @@ public:
     /// coarse = P' fine P. The diagonal is not inverted.
     void refresh(const block_matrix<T>& fine, block_matrix<T>& coarse) const
     {
-        galerkin_(form_.items(static_cast<std::size_t>(stride_)), static_cast<index>(coarse.rows()), fine_stride_,
-                  transpose_offsets_, transpose_, columns_, weights_, fine.offsets(), fine.columns(), fine.values(),
-                  coarse.offsets(), coarse.columns(), coarse.values());
+        galerkin_(product_items_, static_cast<index>(coarse.rows()), fine_stride_, group_size_, colour_count_,
+                  transpose_offsets_, transpose_, columns_, weights_, codes_, colours_, visit_offsets_, visits_,
+                  fine.offsets(), fine.columns(), fine.values(), coarse.offsets(), coarse.columns(), coarse.values());
     }
 
     /// Columns and weights of P at [k * stride + row], for places k < 3.
@@ -65,7 +66,8 @@ public:
     /// Bytes of the lists.
     std::size_t bytes() const
     {
-        return columns_.bytes() + weights_.bytes() + transpose_offsets_.bytes() + transpose_.bytes();
+        return columns_.bytes() + weights_.bytes() + transpose_offsets_.bytes() + transpose_.bytes() + codes_.bytes() +
+               colours_.bytes() + visit_offsets_.bytes() + visits_.bytes();
     }
 
 private:
@@ -119,16 +121,41 @@ private:
         transpose_ = detail::upload_lists(queue_, chunks);
     }
 
+    /// For the product on CPUs; elsewhere an item does a row.
+    void make_groups(const transfer_weights& P, const transposed_weights& t, const block_matrix<T>& coarse)
+    {
+        if (form_.lanes == 1)
+        {
+            for (auto* unused : {&codes_, &colours_, &visit_offsets_, &visits_}) *unused = buffer<index>(queue_, 1);
+            product_items_ = form_.items(coarse.stride());
+            return;
+        }
+        // Large groups share more fine rows; small levels need some groups for all cores.
+        constexpr std::size_t few = 32;
+        const std::size_t size = std::clamp<std::size_t>(padded(coarse.rows() / few, 16), 16, detail::product_group);
+        const detail::product_groups groups(P, t, coarse.pattern(), size);
+        codes_ = buffer<index>(queue_, groups.codes);
+        colours_ = buffer<index>(queue_, groups.colours);
+        visit_offsets_ = buffer<index>(queue_, groups.offsets);
+        visits_ = buffer<index>(queue_, groups.visits);
+        product_items_ = {groups.offsets.size() - 1, 1};
+        group_size_ = static_cast<index>(size);
+        colour_count_ = groups.count;
+    }
+
     mutable queue queue_;
     lane_form form_;
-    index fine_stride_, stride_;
-    buffer<index> columns_, transpose_offsets_, transpose_;
+    index fine_stride_, stride_, group_size_ = 1, colour_count_ = 0;
+    range product_items_{0};
+    buffer<index> columns_, transpose_offsets_, transpose_, codes_, colours_, visit_offsets_, visits_;
     buffer<T> weights_;
     using in = const buffer<T>;
     using list = const buffer<index>;
     typed_kernel<index, index, list, in, in, buffer<T>> prolong_;
     typed_kernel<index, index, list, list, in, in, in, T, buffer<T>, buffer<T>> restrict_;
-    typed_kernel<index, index, list, list, list, in, list, list, in, list, list, buffer<T>> galerkin_;
+    typed_kernel<index, index, index, index, list, list, list, in, list, list, list, list, list, list, in, list, list,
+                 buffer<T>>
+        galerkin_;
 };
 
 } // namespace taut

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
-#include <taut/compute/detail/kernels/gather.hpp>
+#include <taut/compute/detail/vector_program.hpp>
 #include <taut/compute/kernel.hpp>
 #include <taut/core/parallel.hpp>
 
@@ -26,15 +27,15 @@ struct gather_layout
 /// Sums corner contributions into vertices (paper, Fig. 8): out[v] = sum over row v of contributions at (corner, cell).
 /// Deterministic, without atomics. The first slots of all vertices are kept in columns (ELLPACK), which vectorises; the
 /// few vertices of high valence have a second, short launch for the rest of their rows. Vertices without a row, up to
-/// vertex_stride, get zero. Sums in T.
-template <class T>
+/// vertex_stride, get zero. Contributions and the first sums are Term, what is stored of them is T.
+template <class Term, class T = Term>
 class gather
 {
 public:
     /// Row v of the incidence is k = offsets[v] .. offsets[v + 1] - 1, with cell cells[k] and corner corners[k].
     gather(queue& q, std::span<const index> offsets, std::span<const index> cells, std::span<const index> corners,
            const gather_layout& layout)
-        : vertices_(to_int(layout.vertex_stride)), cells_(to_int(layout.cell_stride))
+        : components_(layout.components), vertices_(to_int(layout.vertex_stride)), cells_(to_int(layout.cell_stride))
     {
         const auto D = static_cast<std::size_t>(layout.components);
         const std::size_t rows = offsets.empty() ? 0 : offsets.size() - 1;
@@ -81,15 +82,15 @@ public:
         rest_offsets_ = buffer<index>(q, rest_offsets);
         rest_ = buffer<index>(q, rest);
 
-        const std::string options = std::string("-DREAL=") + cl_name<T>() +
-                                    " -DREAL_IS_DOUBLE=" + (std::is_same_v<T, double> ? "1" : "0") +
-                                    " -DD=" + std::to_string(D) + " -DW=" + std::to_string(width_);
-        gather_ = {q, detail::kernels::gather, "gather", options};
-        if (rest_rows_) gather_rest_ = {q, detail::kernels::gather, "gather_rest", options};
+        const std::string term = cl_name<Term>();
+        const auto options = detail::vector_options<T>(q.device(), reduction_plan::for_device(q.device()));
+        gather_ = {q, detail::vector_program(),
+                   "gather_" + term + "_" + std::to_string(D) + 'x' + std::to_string(width_), options};
+        if (rest_rows_) gather_rest_ = {q, detail::vector_program(), "gather_rest_" + term, options};
     }
 
     /// Enqueues the sums: one launch, or two with vertices of high valence.
-    void operator()(const buffer<T>& contributions, buffer<T>& out) const
+    void operator()(const buffer<Term>& contributions, buffer<T>& out) const
     {
         if (contributions.size() < reach_ || out.size() < sums_)
             throw parameter_error("gather", "buffers of " + std::to_string(reach_) + " contributions and " +
@@ -97,8 +98,8 @@ public:
         if (reach_ == 0) return out.fill(0);
         gather_({static_cast<std::size_t>(vertices_), 64}, vertices_, cells_, columns_, contributions, out);
         if (rest_rows_)
-            gather_rest_({padded(static_cast<std::size_t>(rest_rows_), 64), 64}, vertices_, cells_, rest_rows_, which_,
-                         rest_offsets_, rest_, contributions, out);
+            gather_rest_({padded(static_cast<std::size_t>(rest_rows_), 64), 64}, components_, vertices_, cells_,
+                         rest_rows_, which_, rest_offsets_, rest_, contributions, out);
     }
 
     /// Slots a vertex in the first launch, and vertices that need the second.
@@ -132,23 +133,23 @@ private:
         throw parameter_error("gather_layout.cell_stride", "cell " + std::to_string(cell) + " is beyond it");
     }
 
-    /// The even width of least cost. By measurement on PoCL, in units of a slot of the first launch, a vertex in the
-    /// second launch costs about 30 and the launch itself 10,000.
+    /// The width of least cost, of those that kernels/gather.cl has. By measurement on PoCL, in units of a slot of the
+    /// first launch, a vertex in the second launch costs about 30 and the launch itself 10,000.
     template <class Valence>
     static std::size_t common_width(std::size_t rows, const Valence& valence)
     {
-        constexpr std::size_t widest = 64;
+        constexpr std::array<std::size_t, 9> widths = {48, 32, 24, 16, 12, 10, 8, 6, 4};
+        constexpr std::size_t widest = widths.front();
         std::vector<std::size_t> count(widest + 2, 0); // of rows by length; the last entry: all longer ones
         for (std::size_t v = 0; v < rows; ++v) ++count[std::min(valence(v), widest + 1)];
-        std::size_t best = widest, beyond = count[widest + 1];
-        const auto cost = [&](std::size_t width) { return width * rows + (beyond ? 10000 + 30 * beyond : 0); };
-        std::size_t least = cost(widest);
-        for (std::size_t width = widest - 2; width >= 2; width -= 2)
+        std::size_t best = widest, beyond = 0, length = widest + 1, least = std::numeric_limits<std::size_t>::max();
+        for (const std::size_t width : widths)
         {
-            beyond += count[width + 1] + count[width + 2];
-            if (cost(width) > least) continue;
+            for (; length > width; --length) beyond += count[length];
+            const std::size_t cost = width * rows + (beyond ? 10000 + 30 * beyond : 0);
+            if (cost > least) continue;
             best = width;
-            least = cost(width);
+            least = cost;
         }
         return best;
     }
@@ -160,14 +161,14 @@ private:
         return static_cast<index>(n);
     }
 
-    index vertices_, cells_, rest_rows_ = 0;
+    index components_, vertices_, cells_, rest_rows_ = 0;
     std::size_t reach_ = 0; ///< contributions up to the last one that is read
     std::size_t sums_ = 0;
     std::size_t width_ = 4;
     buffer<index> columns_, which_, rest_offsets_, rest_;
     using in = const buffer<index>;
-    typed_kernel<index, index, in, const buffer<T>, buffer<T>> gather_;
-    typed_kernel<index, index, index, in, in, in, const buffer<T>, buffer<T>> gather_rest_;
+    typed_kernel<index, index, in, const buffer<Term>, buffer<T>> gather_;
+    typed_kernel<index, index, index, index, in, in, in, const buffer<Term>, buffer<T>> gather_rest_;
 };
 
 } // namespace taut

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/compute/detail/joined_source.hpp>
 #include <taut/compute/kernel.hpp>
 #include <taut/compute/quirks.hpp>
 #include <taut/symbolic/recording.hpp>
@@ -131,17 +132,48 @@ inline index count_of(const queue_state& state, const std::string& name, const r
 
 } // namespace detail
 
+/// Kernels that are recorded one by one and built as one program: what a driver does once a build, it does once for all
+/// of them (PoCL reads OpenCL's header, some 50 ms, even where its cache holds the program).
+///
+///     const traced_program p(q, {record_value(..), record_gradient(..)});
+///     const traced_kernel<in<double>, out<double>> value(p, "value");
+class traced_program
+{
+public:
+    /// Throws parameter_error for two kernels of one name.
+    traced_program(taut::queue q, std::vector<kernel_text> texts)
+        : queue_(std::move(q)), texts_(std::move(texts)), source_(detail::joined_source(texts_))
+    {
+    }
+
+    /// Of the program, in OpenCL C.
+    const std::string& source() const noexcept { return source_; }
+
+    /// The kernel of that name, as it was recorded. Throws parameter_error for a name that is not there.
+    const kernel_text& text(const std::string& name) const
+    {
+        for (const auto& t : texts_)
+            if (t.name == name) return t;
+        throw parameter_error(name, "the program has no kernel of this name");
+    }
+
+    taut::queue& queue() const noexcept { return queue_; }
+
+private:
+    mutable taut::queue queue_;
+    std::vector<kernel_text> texts_;
+    std::string source_;
+};
+
 /// A kernel recorded from C++: built once, launched many times with other buffers. See trace().
 template <class... Tags>
 class traced_kernel
 {
 public:
     traced_kernel() = default;
-    traced_kernel(queue& q, kernel_text text) : state_(q.state()), text_(std::move(text))
+    traced_kernel(queue& q, kernel_text text) : traced_kernel(q, text, text.source) {}
+    traced_kernel(const traced_program& p, const std::string& name) : traced_kernel(p.queue(), p.text(name), p.source())
     {
-        detail::require_fp64(*state_, text_);
-        require_signature();
-        kernel_ = {q, text_.source, text_.name};
     }
 
     /// Runs over the indices 0 .. r.global - 1, for any number of them. The group size r.local counts on GPUs alone.
@@ -156,6 +188,13 @@ public:
     const kernel_text& text() const noexcept { return text_; }
 
 private:
+    traced_kernel(queue& q, kernel_text text, const std::string& source) : state_(q.state()), text_(std::move(text))
+    {
+        detail::require_fp64(*state_, text_);
+        require_signature();
+        kernel_ = {q, source, text_.name};
+    }
+
     /// The tags must tell what the recording says, and the text must take a count.
     void require_signature() const
     {

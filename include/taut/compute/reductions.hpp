@@ -8,9 +8,8 @@
 #include <span>
 #include <vector>
 
-#include <taut/compute/detail/kernels/reduce.hpp>
 #include <taut/compute/detail/partials.hpp>
-#include <taut/compute/reduction_plan.hpp>
+#include <taut/compute/detail/vector_program.hpp>
 
 namespace taut
 {
@@ -102,7 +101,7 @@ public:
         begin_round();
         const result all = {jobs_.size(), left.size() * right.size()};
         const auto blocks = plan_.cut(n);
-        // Right tiles are full: a repeated vector costs nothing beside a further kernel to compile.
+        // The tiles of kernels/reduce.cl.
         const std::size_t nr = right.size() == 1 ? 1 : 4;
         jobs_.resize(all.first + all.count);
         for (std::size_t l = 0; l < left.size(); l += 4)
@@ -115,7 +114,7 @@ public:
                 const auto b = [&](std::size_t k) -> const buffer<T>&
                 { return *right[std::min(r + k, right.size() - 1)]; };
                 const std::size_t first = reserve(nl * nr * blocks.count);
-                // 16 KB of local memory at most: half as many items for the large tiles.
+                // As the kernel has it: half as many items for the large tiles.
                 const std::size_t local = nl * nr > 8 && plan_.local > 128 ? 128 : plan_.local;
                 launch<T>(slot::dots, nl, nr, local, blocks.count, as_uint(n), as_uint(blocks.length),
                           as_uint(blocks.count), as_uint(first), partials_, a(0), a(1), a(2), a(3), b(0), b(1), b(2),
@@ -194,22 +193,17 @@ private:
     void launch(slot what, std::size_t nl, std::size_t nr, std::size_t local, std::size_t groups, const Args&... args)
     {
         if (groups == 0) return;
-        static constexpr const char* names[] = {"dots", "sums", "minima", "limit"};
-        const std::size_t which = what == slot::dots ? 2 * (nl - 1) + (nr == 4) : static_cast<std::size_t>(what);
-        const std::string name = names[what == slot::dots ? 0 : static_cast<std::size_t>(what) - 7];
+        const bool tile = what == slot::dots;
+        const std::size_t which = tile ? 2 * (nl - 1) + (nr == 4) : static_cast<std::size_t>(what);
+        const std::string name = tile                   ? "dots_" + std::to_string(nl) + 'x' + std::to_string(nr)
+                                 : what == slot::sums   ? "sums"
+                                 : what == slot::minima ? "minima"
+                                                        : "limit";
         auto& kernel = kernels_[std::is_same_v<T, double>][which];
         if (!kernel.get())
         {
-            const auto define = [](const char* macro, std::size_t v)
-            { return std::string(" -D") + macro + '=' + std::to_string(v); };
-            const std::string sum = partials_.wide() ? "double" : "float";
-            kernel = queue_.state()->cache.find(detail::kernels::reduce, name,
-                                                std::string("-DREAL=") + cl_name<T>() + " -DSUM=" + sum +
-                                                    define("SUM_IS_DOUBLE", partials_.wide()) + define("L", local) +
-                                                    define("V", plan_.width) + define("NL", nl) + define("NR", nr) +
-                                                    define("U", nl * nr == 1   ? 4
-                                                                : nl * nr <= 4 ? 2
-                                                                               : 1));
+            kernel = queue_.state()->cache.find(detail::vector_program(), name,
+                                                detail::vector_options<T>(queue_.device(), plan_));
         }
         cl_uint i = 0;
         (detail::set_argument(*queue_.state(), kernel.get(), name, i++, args), ...);

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <taut/compute/detail/kernels/blas.hpp>
 #include <taut/compute/reductions.hpp>
 
 namespace taut
@@ -119,11 +118,10 @@ public:
             // From the second launch on, the sum so far takes part.
             if (done > 0) v[n] = &out.data(), c[n++] = 1;
             while (n < 8 && done < x.size()) v[n] = &x[done]->data(), c[n++] = T(a[done++]);
-            const std::size_t width = n <= 2 ? 0 : n <= 4 ? 1 : 2;
             // A filler has coefficient 0 and repeats a vector that is in the sum, so that it cannot bring a new NaN.
             for (std::size_t k = n; k < 8; ++k) v[k] = v[0];
-            shared_->combination(width)(all(), out.data(), c[0], *v[0], c[1], *v[1], c[2], *v[2], c[3], *v[3], c[4],
-                                        *v[4], c[5], *v[5], c[6], *v[6], c[7], *v[7]);
+            shared_->combination(n)(all(), out.data(), c[0], *v[0], c[1], *v[1], c[2], *v[2], c[3], *v[3], c[4], *v[4],
+                                    c[5], *v[5], c[6], *v[6], c[7], *v[7]);
         }
     }
 
@@ -132,21 +130,13 @@ public:
     void step(const device_vector<P>& x, double a, const vector& d, device_vector<P>& out) const
     {
         auto& kernel = shared_->template step<P>();
-        if (!kernel)
-            kernel = {shared_->queue, detail::kernels::blas, "step_along",
-                      options(cl_name<P>(), std::is_same_v<P, double>, 2)};
+        if (!kernel) shared_->load(kernel, std::is_same_v<P, double> ? "step_along_double" : "step_along_float");
         kernel(all(), x.data(), P(a), d.data(), out.data());
     }
 
 private:
     static constexpr std::size_t group = 256;
     range all() const { return {padded_, group}; }
-
-    static std::string options(const char* point, bool wide, int nx)
-    {
-        return std::string("-DREAL=") + cl_name<T>() + " -DPOINT=" + point +
-               " -DUSES_DOUBLE=" + (wide || std::is_same_v<T, double> ? "1" : "0") + " -DNX=" + std::to_string(nx);
-    }
 
     static std::vector<const buffer<T>*> buffers(std::span<const vector* const> vectors)
     {
@@ -163,19 +153,26 @@ private:
     /// Workspace, shared by copies of the space; kernels are built when first used.
     struct shared
     {
-        shared(const taut::queue& q, reduction_plan plan)
-            : queue(q),
-              reductions(q, plan),
-              scale(queue, detail::kernels::blas, "scale", options(cl_name<T>(), false, 2)),
-              axpby(queue, detail::kernels::blas, "axpby", options(cl_name<T>(), false, 2))
+        shared(const taut::queue& q, reduction_plan plan) : queue(q), reductions(q, plan)
         {
+            load(scale, "scale");
+            load(axpby, "axpby");
         }
 
-        combine_kernel& combination(std::size_t width)
+        template <class Kernel>
+        void load(Kernel& kernel, const char* name)
         {
-            auto& kernel = combine[width];
-            if (!kernel) kernel = {queue, detail::kernels::blas, "combine", options(cl_name<T>(), false, 2 << width)};
-            return kernel;
+            kernel = {queue, detail::vector_program(), name,
+                      detail::vector_options<T>(queue.device(), reductions.plan())};
+        }
+
+        /// The narrowest one for n vectors.
+        combine_kernel& combination(std::size_t n)
+        {
+            const std::size_t width = n <= 2 ? 0 : n <= 4 ? 1 : 2;
+            static constexpr const char* names[] = {"combine_2", "combine_4", "combine_8"};
+            if (!combine[width]) load(combine[width], names[width]);
+            return combine[width];
         }
 
         template <class P>

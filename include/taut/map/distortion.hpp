@@ -8,6 +8,7 @@
 
 #include <taut/core/parallel.hpp>
 #include <taut/energy/isometric.hpp>
+#include <taut/mesh/block_sum.hpp>
 #include <taut/mesh/ideal.hpp>
 
 namespace taut
@@ -28,7 +29,14 @@ element<double, Element::dimension> mapped_element(const mesh<Element>& m, const
     return {S, glm::determinant(S), ideal.measure[c]};
 }
 
-/// An energy's value for every element: +infinity beyond its barrier, where an element is flipped or flat.
+/// An energy's value at an element: +infinity beyond its barrier, where the element is flipped or flat.
+template <class Energy, int D>
+double bounded(const Energy& energy, const element<double, D>& e)
+{
+    return Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
+}
+
+/// An energy's value for every element, as bounded() has it.
 template <class Element, class Energy>
 std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Element>& ideal,
                                std::span<const vec<Element::dimension>> x, const Energy& energy)
@@ -38,11 +46,7 @@ std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Elem
                  [&](std::size_t begin, std::size_t end)
                  {
                      for (std::size_t c = begin; c < end; ++c)
-                     {
-                         const auto e = mapped_element(m, ideal, x, c);
-                         result[c] =
-                             Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
-                     }
+                         result[c] = bounded(energy, mapped_element(m, ideal, x, c));
                  });
     return result;
 }
@@ -59,21 +63,61 @@ struct means
 {
     double uniform = 0; ///< every element counts 1, as in the paper
     double measure = 0; ///< every element counts its rest area or volume
+
+    /// Sums on the way to means: adds an element, or other sums; then divides them.
+    void add(double value, double by)
+    {
+        uniform += value;
+        measure += value * by;
+    }
+    means& operator+=(const means& other)
+    {
+        uniform += other.uniform;
+        measure += other.measure;
+        return *this;
+    }
+    means over(std::size_t elements, double total) const
+    {
+        return {uniform / static_cast<double>(elements), measure / total};
+    }
 };
 
 inline means mean(std::span<const double> value, std::span<const double> measure)
 {
-    means result;
+    means sums;
     double total = 0;
     for (std::size_t c = 0; c < value.size(); ++c)
     {
-        result.uniform += value[c];
-        result.measure += value[c] * measure[c];
+        sums.add(value[c], measure[c]);
         total += measure[c];
     }
-    result.uniform /= static_cast<double>(value.size());
-    result.measure /= total;
-    return result;
+    return sums.over(value.size(), total);
+}
+
+/// Both means of value(element) over the elements of a map.
+template <class Element, class Value>
+means mean_over(const mesh<Element>& m, const ideal_elements<Element>& ideal,
+                std::span<const vec<Element::dimension>> x, const Value& value)
+{
+    struct sums
+    {
+        means values;
+        double total = 0;
+        sums& operator+=(const sums& o)
+        {
+            values += o.values;
+            total += o.total;
+            return *this;
+        }
+    };
+    const auto s = detail::block_sum<sums>(m.cells().size(),
+                                           [&](sums& part, std::size_t c)
+                                           {
+                                               const auto e = mapped_element(m, ideal, x, c);
+                                               part.values.add(value(e), e.measure);
+                                               part.total += e.measure;
+                                           });
+    return s.values.over(m.cells().size(), s.total);
 }
 
 } // namespace taut

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include <taut/compute/record.hpp>
 #include <taut/map/eigenvalue_clamp.hpp>
 #include <taut/map/plane_modes.hpp>
@@ -51,15 +53,26 @@ struct element_hessian_kernels
     using kernel = traced_kernel<in<index>, in<R>, in<R>, in<R>, in<P>, out<R>, uniform<index>, uniform<index>>;
     kernel projected, indefinite;
 
-    element_hessian_kernels(queue& q, const any_energy& energy)
-        : projected(q, record(energy, definiteness::projected, detail::form_for(q.device()))),
-          indefinite(q, record(energy, definiteness::indefinite, detail::form_for(q.device())))
+    element_hessian_kernels(const queue& q, const any_energy& energy)
+        : element_hessian_kernels(traced_program(q, record(energy, detail::form_for(q.device()))))
+    {
+    }
+
+    /// From a program with all that record() gives.
+    explicit element_hessian_kernels(const traced_program& p)
+        : projected(p, name_of(definiteness::projected)), indefinite(p, name_of(definiteness::indefinite))
     {
         static_assert(D == 2, "taut: in space the projection is 0.8 MB of unrolled rotations, which a driver compiles "
                               "for half a minute; take record() for the indefinite kernel");
     }
 
-    /// The kernels as text. In space, too; see the constructor for what a projected one costs there.
+    /// Both kernels as text, for a program that others share.
+    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    {
+        return {record(energy, definiteness::projected, form), record(energy, definiteness::indefinite, form)};
+    }
+
+    /// One as text. In space, too; see the constructor for what a projected one costs there.
     static kernel_text record(const any_energy& energy, definiteness sign, kernel_form form)
     {
         recording r;
@@ -78,7 +91,7 @@ struct element_hessian_kernels
                 for (int i = 0; i < D; ++i)
                     for (int j = k == l ? i : 0; j < D; ++j)
                         hessian[cell + slots::at(k, i, l, j) * cell_stride] = H(k * D + i, l * D + j);
-        return r.finish(sign == definiteness::projected ? "element_hessian_projected" : "element_hessian", form);
+        return r.finish(name_of(sign), form);
     }
 
 private:
@@ -86,6 +99,11 @@ private:
     using real = typename traced::real;
     using matrix = typename traced::matrix;
     static constexpr int N = D * D;
+
+    static const char* name_of(definiteness sign)
+    {
+        return sign == definiteness::projected ? "element_hessian_projected" : "element_hessian";
+    }
 
     /// Second derivatives of weight * energy by the entries of S, by columns.
     static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const matrix& S, real measure,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include <taut/compute/record.hpp>
 #include <taut/map/first_flip.hpp>
@@ -12,7 +13,8 @@ namespace taut
 {
 
 /// The kernels of one energy over one kind of element, one work-item an element, traced from the energy's C++ template.
-/// P is the type of positions, R that of everything else. Arrays are laid out as in layout.hpp; ranges are whole
+/// P is the type of positions and of the arithmetic, R that of directions, energies and what is constant in a mesh.
+/// Arrays are laid out as in layout.hpp; ranges are whole
 /// multiples of its step, so there are no bounds tests, and loads and stores have stride 1 but for the vertices, which
 /// is what lets a CPU device vectorise them.
 template <class Element, class P, class R>
@@ -25,7 +27,7 @@ struct element_kernels
     traced_kernel<in<index>, in<R>, in<R>, in<R>, in<P>, out<R>, uniform<index>, uniform<index>> value;
 
     /// the same, and the gradient of each corner: entry ((corner * D) + k) * cell_stride + cell
-    traced_kernel<in<index>, in<R>, in<R>, in<R>, in<P>, out<R>, out<R>, uniform<index>, uniform<index>> gradient;
+    traced_kernel<in<index>, in<R>, in<R>, in<R>, in<P>, out<R>, out<P>, uniform<index>, uniform<index>> gradient;
 
     /// the same as value at x + unit[0] a d for `trials` step lengths a, one segment of cell_stride each
     traced_kernel<in<index>, in<R>, in<R>, in<R>, in<P>, in<R>, in<R>, out<R>, uniform<index>, uniform<index>,
@@ -35,15 +37,27 @@ struct element_kernels
     /// corners, x, d -> the first a > 0 at which det(x + a d) of each element vanishes
     traced_kernel<in<index>, in<P>, in<R>, out<R>, uniform<index>, uniform<index>> first_flips;
 
-    element_kernels(queue q, const any_energy& energy)
-        : value(q, record_value(energy, form_of(q))),
-          gradient(q, record_gradient(energy, form_of(q))),
-          along(q, record_along(energy, form_of(q))),
-          first_flips(q, record_first_flips(form_of(q)))
+    element_kernels(const queue& q, const any_energy& energy)
+        : element_kernels(traced_program(q, record(energy, detail::form_for(q.device()))))
     {
     }
 
-    /// The kernels as text, for tests and for the curious.
+    /// From a program with all that record() gives.
+    explicit element_kernels(const traced_program& p)
+        : value(p, "element_value"),
+          gradient(p, "element_gradient"),
+          along(p, "element_along"),
+          first_flips(p, "element_first_flip")
+    {
+    }
+
+    /// The kernels as text: for a program that others share, for tests and for the curious.
+    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    {
+        return {record_value(energy, form), record_gradient(energy, form), record_along(energy, form),
+                record_first_flips(form)};
+    }
+
     static kernel_text record_value(const any_energy& energy, kernel_form form)
     {
         recording r;
@@ -52,7 +66,8 @@ struct element_kernels
         const strides n(r);
         const typename traced::rest W(in.cell, in.inverse, n.cell);
         const auto S = W.shape_matrix(traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex));
-        energies[in.cell] = traced::weighted(energy, S, in.measure[in.cell], in.weight[in.cell]);
+        energies[in.cell] =
+            cast<R>(traced::weighted(energy, S, cast<P>(in.measure[in.cell]), cast<P>(in.weight[in.cell])));
         return r.finish("element_value", form);
     }
 
@@ -61,12 +76,12 @@ struct element_kernels
         recording r;
         const inputs in(r);
         auto energies = r.out<R>("energy");
-        auto gradients = r.out<R>("corner_gradient");
+        auto gradients = r.out<P>("corner_gradient");
         const strides n(r);
         const typename traced::rest W(in.cell, in.inverse, n.cell);
         const auto S = W.shape_matrix(traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex));
-        const real measure = in.measure[in.cell], weight = in.weight[in.cell];
-        energies[in.cell] = traced::weighted(energy, S, measure, weight);
+        const real measure = cast<P>(in.measure[in.cell]), weight = cast<P>(in.weight[in.cell]);
+        energies[in.cell] = cast<R>(traced::weighted(energy, S, measure, weight));
         const auto g = traced::corner_gradients(energy, S, W, measure, weight);
         for (int k = 0; k <= D; ++k)
             for (int i = 0; i < D; ++i)
@@ -86,14 +101,14 @@ struct element_kernels
         const typename traced::rest W(in.cell, in.inverse, n.cell);
         const auto S = W.shape_matrix(traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex));
         const auto dS = W.shape_matrix(traced::edges(in.cell, in.corners, d, n.cell, n.vertex));
-        const real measure = in.measure[in.cell], weight = in.weight[in.cell];
+        const real measure = cast<P>(in.measure[in.cell]), weight = cast<P>(in.weight[in.cell]);
         for (int t = 0; t < trials; ++t)
         {
-            const real a = unit[sym<index>(0)] * r.scalar<R>("step" + std::to_string(t));
+            const real a = cast<P>(unit[sym<index>(0)] * r.scalar<R>("step" + std::to_string(t)));
             typename traced::matrix trial;
             for (int c = 0; c < D; ++c)
                 for (int k = 0; k < D; ++k) trial[c][k] = S[c][k] + a * dS[c][k];
-            energies[in.cell + t * n.cell] = traced::weighted(energy, trial, measure, weight);
+            energies[in.cell + t * n.cell] = cast<R>(traced::weighted(energy, trial, measure, weight));
         }
         return r.finish("element_along", form);
     }
@@ -107,16 +122,13 @@ struct element_kernels
         auto first = r.out<R>("first");
         const strides n(r);
         const auto cell = r.global_id();
-        const auto edges = traced::edges(cell, corners, x, n.cell, n.vertex);
-        typename traced::matrix A;
-        for (int k = 0; k < D; ++k)
-            for (int i = 0; i < D; ++i) A[k][i] = cast<R>(edges[k][i]);
-        first[cell] = first_flip(A, traced::edges(cell, corners, d, n.cell, n.vertex));
+        first[cell] = cast<R>(first_flip(traced::edges(cell, corners, x, n.cell, n.vertex),
+                                         traced::edges(cell, corners, d, n.cell, n.vertex)));
         return r.finish("element_first_flip", form);
     }
 
 private:
-    using traced = traced_element<D, P, R>;
+    using traced = traced_element<D, P, P>;
     using real = typename traced::real;
 
     /// What every energy kernel reads, in the order of its signature.
@@ -145,8 +157,6 @@ private:
         }
         sym<index> cell, vertex;
     };
-
-    static kernel_form form_of(const queue& q) { return detail::form_for(q.device()); }
 };
 
 } // namespace taut

@@ -12,7 +12,8 @@
 namespace taut
 {
 
-/// The kernels of one energy for Newton's method, traced once and shared by all levels of a hierarchy.
+/// The kernels of one energy for Newton's method, traced once, built as one program and shared by all levels of a
+/// hierarchy.
 template <class Element, class P, class R>
 struct newton_kernels
 {
@@ -20,7 +21,21 @@ struct newton_kernels
     element_hessian_kernels<Element, P, R> second;
     relaxation_kernels<Element, P, R> relaxation;
 
-    newton_kernels(queue q, const any_energy& energy) : first(q, energy), second(q, energy), relaxation(q, energy) {}
+    newton_kernels(const queue& q, const any_energy& energy)
+        : newton_kernels(traced_program(q, record(energy, detail::form_for(q.device()))), energy)
+    {
+    }
+
+private:
+    newton_kernels(const traced_program& p, const any_energy& energy) : first(p), second(p), relaxation(p, energy) {}
+
+    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    {
+        auto all = decltype(first)::record(energy, form);
+        for (auto& text : decltype(second)::record(energy, form)) all.push_back(std::move(text));
+        for (auto& text : decltype(relaxation)::record(energy, form)) all.push_back(std::move(text));
+        return all;
+    }
 };
 
 /// A problem that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into block-sparse
@@ -79,10 +94,9 @@ public:
         linearize(x, true);
         hessian_product(v, w);
         precondition(v, w);
-        const vector* const all[17] = {&v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v, &v};
-        double products[51];
-        for (const std::size_t n : {2, 4, 6, 8})
-            this->space().multi_dot(std::span(all, 3), std::span(all, n + 1), products);
+        const vector* const all[5] = {&v, &v, &v, &v, &v};
+        double products[15];
+        this->space().multi_dot(std::span(all, 3), std::span(all), products);
     }
 
 private:

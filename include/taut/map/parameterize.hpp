@@ -67,10 +67,15 @@ private:
         return params_.first == start_method::coarse || params_.first == start_method::automatic;
     }
 
-    bool proceed() const
+    bool proceed() { return in_time() && ask({.seconds = watch_.total(), .iterate = false}); }
+
+    bool in_time() const { return watch_.total() < params_.time_limit.count(); }
+
+    /// Who has once said no is not asked again, whatever the level.
+    bool ask(const solve::progress& p)
     {
-        return watch_.total() < params_.time_limit.count() &&
-               (!params_.observer || params_.observer({.seconds = watch_.total(), .iterate = false}));
+        stopped_ = stopped_ || (params_.observer && !params_.observer(p));
+        return !stopped_;
     }
 
     void fix_boundary(const facet_table& sides)
@@ -101,26 +106,18 @@ private:
 
     void optimize(const facet_table& sides)
     {
-        const bool chosen = params_.precision == precision::automatic;
         auto how = params_.precision;
-        if (chosen)
+        if (how == precision::automatic)
             how = !queue_.device().has_fp64() ? precision::single : levels_ ? precision::mixed : precision::full;
-        bool done = attempt(how);
-        if (!done && coarse_)
+        solve_in_turns(how);
+        if (!certified_ && coarse_)
         {
             report().notes.push_back("the coarse start failed (" + coarse_reason_ + "); a barycentric start was made");
             coarse_ = false;
+            arrival_.reset();
             make_start(sides);
             if (!report().reason.empty()) return;
-            done = attempt(how);
-        }
-        const bool wider = how != precision::full && queue_.device().has_fp64();
-        if (wider && (!certified_ || (chosen && !accurate())))
-        {
-            report().notes.push_back(certified_ ? "float could not reach the tolerance; continued in double"
-                                                : "float could not hold this map; repeated in double");
-            if (!certified_) arrival_.reset();
-            attempt(precision::full);
+            solve_in_turns(how);
         }
         if (!certified_ && !report().start.uv.empty())
         {
@@ -141,6 +138,18 @@ private:
     {
         report().ids = report().flips.ids;
         report().reason = "the map that was found has " + std::to_string(report().flips.flipped) + " flipped triangles";
+    }
+
+    /// Solves in a precision, and in double where that did not do.
+    void solve_in_turns(precision how)
+    {
+        const bool chosen = params_.precision == precision::automatic;
+        if (!attempt(how) || how == precision::full || !queue_.device().has_fp64()) return;
+        if (certified_ && (!chosen || accurate())) return;
+        report().notes.push_back(certified_ ? "float could not reach the tolerance; continued in double"
+                                            : "float could not hold this map; repeated in double");
+        if (!certified_) arrival_.reset();
+        attempt(precision::full);
     }
 
     /// Solves in a precision and certifies the map; whether there is one.
@@ -187,7 +196,7 @@ private:
         // Drivers compile at the first launch; that is start-up, not solving.
         f.warm_up(x);
         report().seconds.device += watch_.lap();
-        report().solve = solve::minimize(f, x, limited(), params_.observer);
+        report().solve = solve::minimize(f, x, limited(), observer_on(0));
         result_.uv = f.download(x);
         restore(report().start.uv);
         report().seconds.solve += watch_.lap();
@@ -201,21 +210,17 @@ private:
         level_solver<P, R> solver(queue_, *levels_, params_.energy, params_.weights);
         solver.warm_up();
         report().seconds.device += watch_.lap();
-        if (!coarse_)
-            arrival_ = numbers.apply(centred(report().start.uv));
-        else if (!arrival_ && !descend(solver))
-            return false;
+        if (!arrival_ && !coarse_) arrival_ = numbers.apply(centred(report().start.uv));
+        if (!arrival_ && !descend(solver)) return false;
         typename level_solver<P, R>::level finest(solver, 0, *arrival_);
         report().seconds.setup += watch_.lap();
         if (coarse_) finest.relax();
         report().solve = finest.minimize(limited(), observer_on(0));
         for (int& c : report().solve.capping) c = levels_->order().cells.new_to_old[static_cast<std::size_t>(c)];
-        const double before = report().seconds.start;
-        for (auto& entry : report().solve.history) entry.seconds += coarse_ ? before : 0;
         auto uv = finest.download();
-        const auto pins = numbers.undo(*arrival_);
-        if (coarse_) arrival_ = uv;
+        const auto pins = coarse_ ? numbers.undo(*arrival_) : report().start.uv;
         result_.uv = numbers.undo(uv);
+        arrival_ = std::move(uv);
         restore(pins);
         report().seconds.solve += watch_.lap();
         return true;
@@ -233,21 +238,21 @@ private:
         auto uv = nested.run([this](std::size_t l) { return observer_on(l); });
         report().start = nested.start();
         report().levels = nested.reports();
-        coarse_reason_ = nested.reason();
+        coarse_reason_ = uv.empty() ? nested.reason() : "the map that came of it could not be certified";
         report().seconds.start += watch_.lap();
         if (uv.empty()) return false;
         arrival_ = std::move(uv);
         return true;
     }
 
-    /// The user's observer, told where it is; it also keeps the time.
+    /// The user's observer, told where it is; on coarser levels it also keeps the time.
     solve::observer observer_on(std::size_t level)
     {
         return [this, level](solve::progress p)
         {
             p.level = static_cast<int>(level);
             p.seconds = watch_.total();
-            return p.seconds < params_.time_limit.count() && (!params_.observer || params_.observer(p));
+            return (level == 0 || in_time()) && ask(p);
         };
     }
 
@@ -298,8 +303,9 @@ private:
     std::vector<bool> pinned_; ///< of the mesh; empty if nothing is
     std::optional<mesh_levels> levels_;
     bool certified_ = false;
+    bool stopped_ = false;                     ///< by the observer
     bool coarse_ = false;                      ///< the start comes from coarser levels
-    std::string coarse_reason_;                ///< why it does not
+    std::string coarse_reason_;                ///< why it does not, or no more
     std::optional<std::vector<vec2>> arrival_; ///< on the finest level, in its numbers, centred
     vec2 centre_{0};
     map_result result_;

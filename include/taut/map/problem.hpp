@@ -183,18 +183,22 @@ private:
     }
 
     /// Rows of free vertices only: the others get zero.
-    gather<R> make_gather()
+    gather<P, R> make_gather()
     {
         const auto& corners = layout_->vertex_corners;
         const auto rows = static_cast<std::size_t>(layout_->free_count);
         const auto used = static_cast<std::size_t>(corners.offsets[rows]);
         std::vector<index> cell(used), corner(used);
-        for (std::size_t k = 0; k < used; ++k)
-        {
-            cell[k] = corners.items[k] / Element::corners;
-            corner[k] = corners.items[k] % Element::corners;
-        }
-        return gather<R>(
+        parallel_for(used,
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t k = begin; k < end; ++k)
+                         {
+                             cell[k] = corners.items[k] / Element::corners;
+                             corner[k] = corners.items[k] % Element::corners;
+                         }
+                     });
+        return gather<P, R>(
             queue_, std::span(corners.offsets).first(rows + 1), cell, corner,
             {.components = D, .cell_stride = layout_->cell_stride, .vertex_stride = layout_->vertex_stride});
     }
@@ -247,8 +251,8 @@ private:
     std::shared_ptr<const element_arrays<Element, R>> arrays_;
     buffer<R> energies_;
     buffer<R> one_, limit_; ///< units of step lengths
-    buffer<R> corner_gradients_;
-    gather<R> gather_;
+    buffer<P> corner_gradients_;
+    gather<P, R> gather_;
     double gradient_scale_;
 };
 

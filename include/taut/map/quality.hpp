@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -45,15 +46,25 @@ struct quality
 namespace detail
 {
 
-/// Angle at p, exact to rounding from 0 to pi (Kahan): half of it has the chord and the bisector as legs.
-template <class Point>
-double angle(const Point& p, const Point& q, const Point& r)
+/// Twice the area of a triangle from two of its edges.
+inline double double_area(const vec2& a, const vec2& b)
 {
-    const auto a = q - p;
-    const auto b = r - p;
-    const auto u = a * glm::length(b);
-    const auto v = b * glm::length(a);
-    return 2 * std::atan2(glm::length(u - v), glm::length(u + v));
+    return std::abs(a.x * b.y - a.y * b.x);
+}
+inline double double_area(const vec3& a, const vec3& b)
+{
+    return glm::length(glm::cross(a, b));
+}
+
+/// Angles of a triangle at its corners, each from 0 to pi to a few roundings of the coordinates' differences: the area,
+/// which is the sine part of all three, comes from the two shortest edges.
+template <class Point>
+std::array<double, 3> angles(const Point& p, const Point& q, const Point& r)
+{
+    const Point a = r - q, b = p - r, c = q - p;
+    const double aa = glm::dot(a, a), bb = glm::dot(b, b), cc = glm::dot(c, c);
+    const double area = aa >= bb && aa >= cc ? double_area(b, c) : bb >= cc ? double_area(a, c) : double_area(a, b);
+    return {std::atan2(area, -glm::dot(b, c)), std::atan2(area, -glm::dot(a, c)), std::atan2(area, -glm::dot(a, b))};
 }
 
 class spread_sum
@@ -65,6 +76,14 @@ public:
         result_.max = std::max(result_.max, ratio);
         result_.rms += (ratio - 1) * (ratio - 1);
         ++count_;
+    }
+    spread_sum& operator+=(const spread_sum& other)
+    {
+        result_.min = std::min(result_.min, other.result_.min);
+        result_.max = std::max(result_.max, other.result_.max);
+        result_.rms += other.result_.rms;
+        count_ += other.count_;
+        return *this;
     }
     spread result() const
     {
@@ -78,27 +97,58 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Mean of ((mapped - rest) / rest)^2 over the angles of all triangles of all cells.
+/// Sum of ((mapped - rest) / rest)^2 over the angles of the triangles of a cell.
 template <class Element>
-double angular_distortion(const mesh<Element>& m, std::span<const vec<Element::dimension>> x)
+double angular_distortion(const mesh<Element>& m, std::span<const vec<Element::dimension>> x, std::size_t c)
 {
     double sum = 0;
-    std::size_t count = 0;
-    const auto u = [](index v) { return static_cast<std::size_t>(v); };
-    for (const auto& cell : m.cells())
-        for (std::size_t i = 0; i < cell.size(); ++i)
-            for (std::size_t j = 0; j < cell.size(); ++j)
-                for (std::size_t k = j + 1; k < cell.size(); ++k)
-                {
-                    if (j == i || k == i) continue;
-                    const auto& p = m.points();
-                    const double rest = angle(p[u(cell[i])], p[u(cell[j])], p[u(cell[k])]);
-                    const double mapped = angle(x[u(cell[i])], x[u(cell[j])], x[u(cell[k])]);
-                    sum += (mapped / rest - 1) * (mapped / rest - 1);
-                    ++count;
-                }
-    return sum / static_cast<double>(count);
+    const auto& cell = m.cells()[c];
+    const auto at = [](const auto& points, index v) { return points[static_cast<std::size_t>(v)]; };
+    for (std::size_t i = 0; i < cell.size(); ++i)
+        for (std::size_t j = i + 1; j < cell.size(); ++j)
+            for (std::size_t k = j + 1; k < cell.size(); ++k)
+            {
+                const auto& p = m.points();
+                const auto rest = angles(at(p, cell[i]), at(p, cell[j]), at(p, cell[k]));
+                const auto mapped = angles(at(x, cell[i]), at(x, cell[j]), at(x, cell[k]));
+                for (std::size_t n = 0; n < 3; ++n) sum += (mapped[n] / rest[n] - 1) * (mapped[n] / rest[n] - 1);
+            }
+    return sum;
 }
+
+/// What a pass over the cells adds up before the scale is known.
+struct quality_sums
+{
+    means isometric, shape, area;
+    double angular = 0, rest = 0, mapped = 0;
+
+    quality_sums& operator+=(const quality_sums& o)
+    {
+        isometric += o.isometric;
+        shape += o.shape;
+        area += o.area;
+        angular += o.angular;
+        rest += o.rest;
+        mapped += o.mapped;
+        return *this;
+    }
+};
+
+/// And what one adds up at that scale.
+struct stretch_sums
+{
+    spread_sum l2, linf, ratio;
+    double total = 0; ///< of l2^2, by measure
+
+    stretch_sums& operator+=(const stretch_sums& o)
+    {
+        l2 += o.l2;
+        linf += o.linf;
+        ratio += o.ratio;
+        total += o.total;
+        return *this;
+    }
+};
 
 } // namespace detail
 
@@ -110,44 +160,48 @@ quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& i
     constexpr int D = Element::dimension;
     quality q;
     q.flips = certify<D>(m.cells(), x, ideal.measure);
-    q.isometric = mean(distortion(m, ideal, x, energy::isometric{}), ideal.measure);
-    q.shape = mean(distortion(m, ideal, x, energy::shape{}), ideal.measure);
-    q.area = mean(distortion(m, ideal, x, energy::area{}), ideal.measure);
-    q.angular = detail::angular_distortion(m, x);
+    const std::size_t cells = m.cells().size();
+    const auto sums =
+        detail::block_sum<detail::quality_sums>(cells,
+                                                [&](detail::quality_sums& s, std::size_t c)
+                                                {
+                                                    const auto e = mapped_element(m, ideal, x, c);
+                                                    s.isometric.add(bounded(energy::isometric{}, e), e.measure);
+                                                    s.shape.add(bounded(energy::shape{}, e), e.measure);
+                                                    s.area.add(bounded(energy::area{}, e), e.measure);
+                                                    s.angular += detail::angular_distortion(m, x, c);
+                                                    s.rest += e.measure;
+                                                    s.mapped += std::abs(e.det) * e.measure;
+                                                });
+    q.isometric = sums.isometric.over(cells, sums.rest);
+    q.shape = sums.shape.over(cells, sums.rest);
+    q.area = sums.area.over(cells, sums.rest);
+    constexpr std::size_t angles = D == 2 ? 3 : 12; // of a cell
+    q.angular = sums.angular / static_cast<double>(angles * cells);
+    q.scale = D == 2 ? std::sqrt(sums.rest / sums.mapped) : std::cbrt(sums.rest / sums.mapped);
 
-    double rest = 0;
-    double mapped = 0;
-    for (std::size_t c = 0; c < m.cells().size(); ++c)
-    {
-        rest += ideal.measure[c];
-        mapped += std::abs(mapped_element(m, ideal, x, c).det) * ideal.measure[c];
-    }
-    q.scale = D == 2 ? std::sqrt(rest / mapped) : std::cbrt(rest / mapped);
-
-    detail::spread_sum l2;
-    detail::spread_sum linf;
-    detail::spread_sum ratio;
-    double total = 0;
-    for (std::size_t c = 0; c < m.cells().size(); ++c)
-    {
-        const auto e = mapped_element(m, ideal, x, c);
-        const auto sigma = singular_values<D>(q.scale * e.S);
-        double sum = 0;
-        double volume = 1;
-        for (const double s : sigma)
-        {
-            sum += 1 / (s * s);
-            volume *= s;
-        }
-        l2.add(std::sqrt(sum / D));
-        linf.add(1 / sigma.back());
-        ratio.add(volume);
-        total += ideal.measure[c] * sum / D;
-    }
-    q.stretch_l2 = l2.result();
-    q.stretch_linf = linf.result();
-    q.area_ratio = ratio.result();
-    q.stretch_l2_total = std::sqrt(total / rest);
+    const auto stretch = detail::block_sum<detail::stretch_sums>(cells,
+                                                                 [&](detail::stretch_sums& s, std::size_t c)
+                                                                 {
+                                                                     const auto e = mapped_element(m, ideal, x, c);
+                                                                     const auto sigma =
+                                                                         singular_values<D>(q.scale * e.S);
+                                                                     double sum = 0;
+                                                                     double volume = 1;
+                                                                     for (const double v : sigma)
+                                                                     {
+                                                                         sum += 1 / (v * v);
+                                                                         volume *= v;
+                                                                     }
+                                                                     s.l2.add(std::sqrt(sum / D));
+                                                                     s.linf.add(1 / sigma.back());
+                                                                     s.ratio.add(volume);
+                                                                     s.total += e.measure * sum / D;
+                                                                 });
+    q.stretch_l2 = stretch.l2.result();
+    q.stretch_linf = stretch.linf.result();
+    q.area_ratio = stretch.ratio.result();
+    q.stretch_l2_total = std::sqrt(stretch.total / sums.rest);
     return q;
 }
 

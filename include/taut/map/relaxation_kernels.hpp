@@ -61,14 +61,27 @@ struct relaxation_kernels
 
     double rest; ///< density of the identity
 
-    relaxation_kernels(queue& q, const any_energy& energy)
-        : densities(q, record_densities(energy, form_of(q))),
-          terms(q, record_terms(energy, form_of(q))),
-          steps(q, record_steps(form_of(q))),
-          tries(q, record_tries(energy, form_of(q))),
-          moves(q, record_moves(form_of(q))),
+    relaxation_kernels(const queue& q, const any_energy& energy)
+        : relaxation_kernels(traced_program(q, record(energy, detail::form_for(q.device()))), energy)
+    {
+    }
+
+    /// From a program with all that record() gives for this energy.
+    relaxation_kernels(const traced_program& p, const any_energy& energy)
+        : densities(p, "relaxation_densities"),
+          terms(p, "relaxation_terms"),
+          steps(p, "relaxation_steps"),
+          tries(p, "relaxation_tries"),
+          moves(p, "relaxation_moves"),
           rest(energy(element<double, D>{mat<D>(1.0), 1.0, 1.0}))
     {
+    }
+
+    /// The kernels as text, for a program that others share.
+    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    {
+        return {record_densities(energy, form), record_terms(energy, form), record_steps(form),
+                record_tries(energy, form), record_moves(form)};
     }
 
     static kernel_text record_densities(const any_energy& energy, kernel_form form)
@@ -199,7 +212,6 @@ private:
     using traced = traced_element<D, P, R>;
     using real = typename traced::real;
 
-    static kernel_form form_of(const queue& q) { return detail::form_for(q.device()); }
     static real length(int t) { return real(step_lengths[static_cast<std::size_t>(t)]); }
 
     /// One spelling for the trial and for the move: what was measured is what is taken.

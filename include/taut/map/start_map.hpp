@@ -25,7 +25,7 @@ struct start_map
     void assess(const mesh<triangle>& m, const ideal_elements<triangle>& ideal)
     {
         flips = certify<2>(m.cells(), uv, ideal.measure);
-        distortion = mean(taut::distortion<triangle>(m, ideal, uv, energy::isometric{}), ideal.measure);
+        distortion = mean_over<triangle>(m, ideal, uv, [](const auto& e) { return bounded(energy::isometric{}, e); });
     }
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <taut/map/any_energy.hpp>
+#include <taut/symbolic/array.hpp>
 #include <taut/symbolic/differentiate.hpp>
 
 namespace taut
@@ -20,17 +21,18 @@ struct traced_element
     using real = sym<R>;
     using matrix = glm::mat<D, D, real>;
 
-    /// Edges from corner 0 to corners 1..D, as columns, of an array of coordinates (positions in P, directions in R).
+    /// Edges from corner 0 to corners 1..D, as columns, of an array of coordinates, formed in P.
     template <class Corners, class T>
-    static glm::mat<D, D, sym<T>> edges(sym<index> cell, const Corners& corners, const in_array<T>& x,
+    static glm::mat<D, D, sym<P>> edges(sym<index> cell, const Corners& corners, const in_array<T>& x,
                                         sym<index> cell_stride, sym<index> vertex_stride)
     {
         const sym<index> first = corners[cell];
-        glm::mat<D, D, sym<T>> A;
+        glm::mat<D, D, sym<P>> A;
         for (int k = 0; k < D; ++k)
         {
             const sym<index> vertex = corners[cell + (k + 1) * cell_stride];
-            for (int r = 0; r < D; ++r) A[k][r] = x[vertex + r * vertex_stride] - x[first + r * vertex_stride];
+            for (int r = 0; r < D; ++r)
+                A[k][r] = cast<P>(x[vertex + r * vertex_stride]) - cast<P>(x[first + r * vertex_stride]);
         }
         return A;
     }
@@ -44,7 +46,7 @@ struct traced_element
         rest(sym<index> cell, const Inverse& inverse, sym<index> cell_stride)
         {
             for (std::size_t k = 0; k < entries.size(); ++k)
-                entries[k] = inverse[cell + static_cast<int>(k) * cell_stride];
+                entries[k] = cast<R>(inverse[cell + static_cast<int>(k) * cell_stride]);
         }
 
         const real& operator()(int row, int column) const

@@ -285,3 +285,40 @@ TEST_CASE_TEMPLATE("block sparse: transfers and the coarse matrix are those of a
             CHECK(difference(x.download(), hp) < tolerance<T>);
         }
 }
+
+TEST_CASE_TEMPLATE("block sparse: the product with the identity is the matrix, rows of many nonzeros included", T,
+                   float, double)
+{
+    // A fan about vertex 0, whose row is longer than there are colours for, and a strip apart from it.
+    constexpr taut::index rim = 80, n = 300;
+    std::vector<std::array<taut::index, 3>> cells;
+    for (taut::index v = 1; v < rim; ++v) cells.push_back({0, v, v + 1});
+    for (taut::index v = rim + 1; v + 2 < n; ++v) cells.push_back({v, v + 1, v + 2});
+    std::vector<std::array<taut::index, 3>> columns;
+    for (taut::index v = 0; v < n; ++v) columns.push_back({v, v, v});
+    const std::vector<std::array<double, 3>> weights(columns.size(), {1, 0, 0});
+    const transfer_weights identity{columns, weights, columns.size(), {}, {}, {}};
+    queue q;
+    for (const lane_form form : forms)
+        for (const int D : {2, 3})
+        {
+            block_matrix<T> A(q, pattern_of_cells(cells, columns.size(), form.slice), D, form);
+            block_matrix<T> B(q, pattern_of_product(A.pattern(), identity), D, form);
+            const auto values = random_blocks<T>(A.pattern(), std::size_t(D), 7);
+            A.upload(values);
+            block_transfer<T>(A, identity, B).refresh(A, B);
+            const auto product = B.download();
+            double most = 0;
+            const auto d = std::size_t(D * D);
+            for (std::size_t r = 0; r < columns.size(); ++r)
+                for (std::size_t j = 0; j < A.pattern().length(r); ++j)
+                {
+                    const std::size_t at = B.pattern().find(r, A.pattern().column(r, j));
+                    REQUIRE(at < B.pattern().length(r));
+                    for (std::size_t e = 0; e < d; ++e)
+                        most = std::max(most, std::abs(double(product[B.pattern().place(r, at) * d + e]) -
+                                                       double(values[A.pattern().place(r, j) * d + e])));
+                }
+            CHECK(most < tolerance<T>);
+        }
+}

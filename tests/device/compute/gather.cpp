@@ -70,6 +70,40 @@ TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in ord
     }
 }
 
+TEST_CASE("gather: agrees with the host at every width that its kernels have")
+{
+    taut::queue q;
+    const std::size_t rows = 60, cells = 128;
+    std::mt19937 random(11);
+    const auto host = random_values<double>(4 * 3 * cells, 3);
+    const buffer<double> contributions(q, host);
+    for (const std::size_t valence : {1, 4, 5, 7, 10, 11, 16, 20, 30, 40, 48, 60})
+    {
+        CAPTURE(valence);
+        std::vector<taut::index> offsets{0}, cell, corner;
+        std::vector<double> expected(3 * 64, 0.0);
+        for (std::size_t v = 0; v < rows; ++v)
+        {
+            for (std::size_t k = 0; k < valence; ++k)
+            {
+                cell.push_back(static_cast<taut::index>(random() % cells));
+                corner.push_back(static_cast<taut::index>(random() % 4));
+                for (std::size_t c = 0; c < 3; ++c)
+                    expected[c * 64 + v] += host[(static_cast<std::size_t>(corner.back()) * 3 + c) * cells +
+                                                 static_cast<std::size_t>(cell.back())];
+            }
+            offsets.push_back(static_cast<taut::index>(cell.size()));
+        }
+        const taut::gather<double> sum(q, offsets, cell, corner, {3, cells, 64});
+        if (valence <= 48) CHECK(sum.width() >= valence);
+        CHECK(sum.overfull() == (valence <= 48 ? 0 : rows));
+        buffer<double> out(q, 3 * 64);
+        sum(contributions, out);
+        CHECK(out.download() == expected);
+    }
+    CHECK(q.counters().builds == 1);
+}
+
 TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
 {
     taut::queue q;

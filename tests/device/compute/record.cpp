@@ -88,6 +88,53 @@ TEST_CASE("trace: equal recordings share one build, another captured value is an
     CHECK(x.download() == std::vector<double>{18, 36});
 }
 
+TEST_CASE("trace: recordings in one program are built once and compute what each does alone")
+{
+    taut::queue q;
+    const auto form = q.device().is_cpu() ? taut::kernel_form::run : taut::kernel_form::guarded;
+    // Kernels with and without double, that share helper functions.
+    const auto record = [&]<class T>(T, const std::string& name, int power)
+    {
+        taut::recording r;
+        const auto x = r.in<T>("x");
+        auto y = r.out<T>("y");
+        const auto i = r.global_id();
+        auto root = cbrt(x[i]);
+        for (int k = 1; k < power; ++k) root = root * cbrt(x[i] + taut::sym<T>(T(k)));
+        y[i] = root;
+        return r.finish(name, form);
+    };
+    const std::vector<taut::kernel_text> texts = {record(0.0f, "narrow", 1), record(0.0, "wide", 1),
+                                                  record(0.0f, "narrow_square", 2), record(0.0, "wide_square", 2)};
+    const taut::traced_program p(q, texts);
+    for (const char* helper : {" taut_cbrt_f32(const float", " taut_cbrt_f64(const double"})
+        CHECK(p.source().find(helper) == p.source().rfind(helper));
+
+    using floats = taut::traced_kernel<taut::in<float>, taut::out<float>>;
+    using doubles = taut::traced_kernel<taut::in<double>, taut::out<double>>;
+    const auto run = [&]<class Kernel, class T>(const Kernel& kernel, const std::vector<T>& x)
+    {
+        const buffer<T> bx(q, x);
+        buffer<T> by(q, x.size());
+        kernel(x.size(), bx, by);
+        return by.download();
+    };
+    const auto x = random_values<float>(500, 5);
+    const auto y = random_values<double>(500, 6);
+    const auto narrow = run(floats(p, "narrow"), x), narrow_square = run(floats(p, "narrow_square"), x);
+    const auto wide = run(doubles(p, "wide"), y), wide_square = run(doubles(p, "wide_square"), y);
+    CHECK(q.counters().builds == 1);
+    CHECK(narrow == run(floats(q, texts[0]), x));
+    CHECK(wide == run(doubles(q, texts[1]), y));
+    CHECK(narrow_square == run(floats(q, texts[2]), x));
+    CHECK(wide_square == run(doubles(q, texts[3]), y));
+    CHECK(wide[7] == doctest::Approx(std::cbrt(y[7])));
+
+    CHECK_THROWS_AS(floats(p, "absent"), taut::parameter_error);
+    CHECK_THROWS_AS(floats(p, "wide"), taut::device_error);
+    CHECK_THROWS_AS(taut::traced_program(q, {texts[0], texts[1], texts[0]}), taut::parameter_error);
+}
+
 TEST_CASE("trace: a buffer that is written must not be bound twice")
 {
     taut::queue q;

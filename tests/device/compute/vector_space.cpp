@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <taut/compute/gather.hpp>
 #include <taut/compute/vector_space.hpp>
 
 #include "support.hpp"
@@ -155,6 +156,33 @@ TEST_CASE("device_vectors: float positions step on a device without fp64")
     space.step(x, 0.5, d, x);
     CHECK(x.download() == std::vector<float>(10, 1.0f));
     CHECK(space.dot(x, d) == 20);
+}
+
+TEST_CASE("device_vectors: vectors, reductions and gathers of a type share one build")
+{
+    taut::queue q;
+    const device_vectors<float> space(q, 100);
+    auto x = space.make(), y = space.make();
+    auto point = space.make_points<double>();
+    space.axpby(2, x, 3, y);
+    space.step(point, 0.5, x, point);
+    CHECK(space.dot(x, y) == 0);
+    for (const std::size_t n : {2, 3, 8})
+    {
+        const std::vector<const device_vector<float>*> v(n, &x);
+        const std::vector<double> a(n, 1.0);
+        space.linear_combination(a, v, y);
+        std::vector<double> products(n * n);
+        space.multi_dot(v, v, products);
+    }
+    taut::reductions r(q);
+    r.sum(x.data());
+    r.minimum(x.data(), 100);
+    r.fetch();
+    const std::vector<taut::index> offsets = {0, 1}, zero = {0};
+    const taut::gather<float> sum(q, offsets, zero, zero, {.components = 3, .cell_stride = 64, .vertex_stride = 64});
+    q.finish();
+    CHECK(q.counters().builds == 1);
 }
 
 TEST_CASE("device_vectors: the space of no dimension")

@@ -29,6 +29,9 @@ mesh<triangle> dome()
     return test::bumpy(test::sized(16, 3), 0.3, 2);
 }
 
+/// The default, and the one without a hierarchy.
+constexpr solve::method methods[] = {solve::method::automatic, solve::method::lbfgs};
+
 /// Energies fall monotonically, up to the rounding of a value.
 void check_falling(const solve::report& r, precision how = precision::full)
 {
@@ -48,20 +51,24 @@ TEST_CASE("parameterize: every energy, weighting, boundary and precision gives a
         for (const auto weights : {energy::weighting::uniform, energy::weighting::measure})
             for (const auto boundary : {boundary_mode::free, boundary_mode::fixed})
                 for (const auto how : {precision::full, precision::mixed, precision::single})
-                {
-                    const auto r = parameterize(q, m,
-                                                {.energy = energy,
-                                                 .weights = weights,
-                                                 .boundary = boundary,
-                                                 .precision = how,
-                                                 .solve = {.stopping = {.max_iterations = 15}}});
-                    REQUIRE(r);
-                    CHECK(r.report.flips.flipped == 0);
-                    CHECK(r.report.solve.value < r.report.solve.value_start);
-                    check_falling(r.report.solve, how);
-                    CHECK(r.uv.size() == m.points().size());
-                    CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
-                }
+                    for (const auto method : methods)
+                    {
+                        const auto r = parameterize(q, m,
+                                                    {.energy = energy,
+                                                     .weights = weights,
+                                                     .boundary = boundary,
+                                                     .precision = how,
+                                                     .solve = {.method = method, .stopping = {.max_iterations = 15}}});
+                        REQUIRE(r);
+                        CHECK(r.report.flips.flipped == 0);
+                        CHECK(r.report.precision == how);
+                        CHECK(r.report.solve.value <= r.report.solve.value_start);
+                        if (method != solve::method::automatic)
+                            CHECK(r.report.solve.value < r.report.solve.value_start);
+                        check_falling(r.report.solve, how);
+                        CHECK(r.uv.size() == m.points().size());
+                        CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
+                    }
 }
 
 TEST_CASE("parameterize: a developable surface is flattened without distortion")
@@ -83,19 +90,23 @@ TEST_CASE("parameterize: size and place of the model do not matter")
 {
     queue q;
     const auto m = dome();
-    const parameterize_params params{.solve = {.stopping = {.max_iterations = 20}}};
-    const auto reference = parameterize(q, m, params);
-    for (const double scale : {1e-9, 0.37, 1e9})
+    for (const auto method : methods)
     {
-        const auto r = parameterize(q, moved(m, scale, vec3(0)), params);
-        REQUIRE(r);
-        CHECK(r.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-3));
-        const double size = glm::length(r.uv.front() - r.uv.back());
-        CHECK(size == doctest::Approx(scale * glm::length(reference.uv.front() - reference.uv.back())).epsilon(1e-2));
+        const parameterize_params params{.solve = {.method = method, .stopping = {.max_iterations = 20}}};
+        const auto reference = parameterize(q, m, params);
+        for (const double scale : {1e-9, 0.37, 1e9})
+        {
+            const auto r = parameterize(q, moved(m, scale, vec3(0)), params);
+            REQUIRE(r);
+            CHECK(r.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-3));
+            const double size = glm::length(r.uv.front() - r.uv.back());
+            const double expected = scale * glm::length(reference.uv.front() - reference.uv.back());
+            CHECK(size == doctest::Approx(expected).epsilon(1e-2));
+        }
+        const auto far = parameterize(q, moved(m, 1, vec3(1e5, -1e5, 1e5)), params);
+        REQUIRE(far);
+        CHECK(far.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-3));
     }
-    const auto far = parameterize(q, moved(m, 1, vec3(1e5, -1e5, 1e5)), params);
-    REQUIRE(far);
-    CHECK(far.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-3));
 }
 
 TEST_CASE("parameterize: a fixed boundary stays where the start has it, bit for bit")
@@ -103,18 +114,20 @@ TEST_CASE("parameterize: a fixed boundary stays where the start has it, bit for 
     queue q;
     const auto m = dome();
     for (const auto shape : {boundary_shape::circle, boundary_shape::square})
-        for (const auto how : {precision::full, precision::single})
-        {
-            const auto r = parameterize(q, m,
-                                        {.boundary = boundary_mode::fixed,
-                                         .start = {.boundary = {.shape = shape}},
-                                         .precision = how,
-                                         .solve = {.stopping = {.max_iterations = 10}}});
-            REQUIRE(r);
-            const auto loops = boundary_loops(m);
-            for (const auto v : loops.front())
-                CHECK(r.uv[static_cast<std::size_t>(v)] == r.report.start.uv[static_cast<std::size_t>(v)]);
-        }
+        for (const auto how : {precision::full, precision::mixed, precision::single})
+            for (const auto method : methods)
+            {
+                const auto r = parameterize(q, m,
+                                            {.boundary = boundary_mode::fixed,
+                                             .first = start_method::barycentric,
+                                             .start = {.boundary = {.shape = shape}},
+                                             .precision = how,
+                                             .solve = {.method = method, .stopping = {.max_iterations = 10}}});
+                REQUIRE(r);
+                const auto loops = boundary_loops(m);
+                for (const auto v : loops.front())
+                    CHECK(r.uv[static_cast<std::size_t>(v)] == r.report.start.uv[static_cast<std::size_t>(v)]);
+            }
 }
 
 TEST_CASE("parameterize: a scale-invariant energy returns the area of the surface")
@@ -167,34 +180,37 @@ TEST_CASE("parameterize: place and scale of a start do not matter to a free boun
     queue q;
     const auto m = dome();
     const auto start = barycentric_map(m).uv;
-    for (const auto how : {precision::full, precision::single})
-    {
-        const auto run = [&](double scale, double shift)
+    for (const auto how : {precision::full, precision::mixed, precision::single})
+        for (const auto method : methods)
         {
-            auto initial = start;
-            for (auto& p : initial) p = p * scale + vec2(shift);
-            const solve::params few{.stopping = {.max_iterations = 20}};
-            return parameterize(q, m, {.initial = initial, .precision = how, .solve = few}).report.solve.value;
-        };
-        const double reference = run(1, 0);
-        CHECK(run(1, 1e4) == doctest::Approx(reference).epsilon(1e-2));
-        CHECK(run(1e-3, 0) == doctest::Approx(reference).epsilon(1e-2));
-        CHECK(run(std::ldexp(1.0, 960), 0) == doctest::Approx(reference).epsilon(1e-2));
-    }
+            const auto run = [&](double scale, double shift)
+            {
+                auto initial = start;
+                for (auto& p : initial) p = p * scale + vec2(shift);
+                const solve::params few{.method = method, .stopping = {.max_iterations = 60}};
+                return parameterize(q, m, {.initial = initial, .precision = how, .solve = few}).report.solve.value;
+            };
+            const double reference = run(1, 0);
+            CHECK(run(1, 1e4) == doctest::Approx(reference).epsilon(1e-2));
+            CHECK(run(1e-3, 0) == doctest::Approx(reference).epsilon(1e-2));
+            CHECK(run(std::ldexp(1.0, 960), 0) == doctest::Approx(reference).epsilon(1e-2));
+        }
 }
 
 TEST_CASE("parameterize: models of extreme size do not overflow")
 {
     queue q;
     for (const double scale : {1e-290, 1e290})
-    {
-        const auto r = parameterize(q, moved(dome(), scale, vec3(0)), {.solve = {.stopping = {.max_iterations = 20}}});
-        REQUIRE(r);
-        CHECK(std::isfinite(r.report.solve.value));
-        CHECK(r.report.solve.value < r.report.solve.value_start);
-        CHECK(measure_quality<triangle>(moved(dome(), scale, vec3(0)), r.uv).isometric.measure ==
-              doctest::Approx(r.report.solve.value).epsilon(1e-6));
-    }
+        for (const auto method : methods)
+        {
+            const auto m = moved(dome(), scale, vec3(0));
+            const auto r = parameterize(q, m, {.solve = {.method = method, .stopping = {.max_iterations = 20}}});
+            REQUIRE(r);
+            CHECK(std::isfinite(r.report.solve.value));
+            CHECK(r.report.solve.value <= r.report.solve.value_start);
+            CHECK(measure_quality<triangle>(m, r.uv).isometric.measure ==
+                  doctest::Approx(r.report.solve.value).epsilon(1e-6));
+        }
 }
 
 namespace
@@ -215,23 +231,34 @@ TEST_CASE("parameterize: an energy without a barrier folds nothing; what cannot 
 {
     queue q;
     const auto m = dome();
-    const auto r = parameterize(q, m, {.energy = dirichlet{}});
-    REQUIRE(r);
-    CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
-    if (r.uv == r.report.start.uv)
-    {
-        CHECK(r.report.notes.size() == 1);
-        CHECK(r.report.solve.value == r.report.solve.value_start);
-    }
+    for (const auto method : methods)
+        for (const auto boundary : {boundary_mode::free, boundary_mode::fixed})
+        {
+            const auto r =
+                parameterize(q, m, {.energy = dirichlet{}, .boundary = boundary, .solve = {.method = method}});
+            REQUIRE(r);
+            CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
+            if (r.uv == r.report.start.uv)
+            {
+                CHECK_FALSE(r.report.notes.empty());
+                CHECK(r.report.solve.value == r.report.solve.value_start);
+            }
+        }
 }
 
 TEST_CASE("parameterize: without double precision the start survives what float cannot hold")
 {
     queue q(choose_device().without_fp64());
     const auto m = dome();
-    const auto r = parameterize(q, m, {.energy = dirichlet{}, .precision = precision::single});
-    CHECK(r);
-    CHECK_THROWS_AS(parameterize(q, m), device_error);
+    for (const auto method : methods)
+    {
+        CHECK(parameterize(q, m, {.energy = dirichlet{}, .precision = precision::single, .solve = {.method = method}}));
+        // By default it does with what the device has.
+        const auto r = parameterize(q, m, {.solve = {.method = method, .stopping = {.gradient_tolerance = 1e-4}}});
+        CHECK(r);
+        CHECK(r.report.precision == precision::single);
+        CHECK_THROWS_AS(parameterize(q, m, {.precision = precision::full, .solve = {.method = method}}), device_error);
+    }
 }
 
 TEST_CASE("parameterize: parameters outside their domain are named")
@@ -253,35 +280,40 @@ TEST_CASE("parameterize: parameters outside their domain are named")
     CHECK(field_of({.precision = static_cast<precision>(9)}) == "precision");
     CHECK(field_of({.boundary = static_cast<boundary_mode>(7)}) == "boundary");
     CHECK(field_of({.time_limit = -3s}) == "time_limit");
-    CHECK(field_of({.start = {.stretch_rounds = -1}}) == "stretch_rounds");
+    CHECK(field_of({.first = static_cast<start_method>(9)}) == "first");
+    CHECK(field_of({.first = start_method::barycentric, .start = {.stretch_rounds = -1}}) == "stretch_rounds");
+    CHECK(field_of({.solve = {.newton = {.relax_below = 2}}}) == "newton.relax_below");
 }
 
 TEST_CASE("parameterize: stopping for any reason leaves a valid map")
 {
     queue q;
     const auto m = test::bumpy(test::sized(40, 3), 0.5, 3);
-    const auto endless = solve::params{.stopping = {.gradient_tolerance = 1e-15, .max_iterations = 100000}};
+    for (const auto method : methods)
+    {
+        const auto endless =
+            solve::params{.method = method, .stopping = {.gradient_tolerance = 0, .max_iterations = 100000}};
 
-    int asked = 0;
-    const auto cancelled =
-        parameterize(q, m, {.solve = endless, .observer = [&](const solve::progress&) { return ++asked < 20; }});
-    CHECK(cancelled);
-    CHECK(cancelled.report.solve.stop == solve::stop::user);
-    CHECK(certify<2>(m.cells(), cancelled.uv).flipped == 0);
+        for (const int questions : {1, 6, 20})
+        {
+            int asked = 0;
+            const auto cancelled = parameterize(
+                q, m, {.solve = endless, .observer = [&](const solve::progress&) { return ++asked < questions; }});
+            CHECK(cancelled);
+            CHECK(asked == questions);
+            CHECK(cancelled.report.solve.stop == solve::stop::user);
+            CHECK(certify<2>(m.cells(), cancelled.uv).flipped == 0);
+        }
 
-    const auto late = parameterize(q, m, {.solve = endless, .time_limit = 1ms});
-    CHECK(late);
-    CHECK(late.report.solve.stop == solve::stop::time);
+        const auto late = parameterize(q, m, {.solve = endless, .time_limit = 1ms});
+        CHECK(late);
+        CHECK(late.report.solve.stop == solve::stop::time);
+        CHECK(late.report.solve.iterations == 0);
 
-    // Between the rounds of the start already.
-    int rounds = 0;
-    const auto early = parameterize(q, m, {.observer = [&](const solve::progress&) { return ++rounds < 1; }});
-    CHECK(early);
-    CHECK(early.report.solve.iterations == 0);
-
-    const auto none = parameterize(q, m, {.solve = {.stopping = {.max_iterations = 0}}});
-    CHECK(none);
-    CHECK(none.report.solve.iterations == 0);
+        const auto none = parameterize(q, m, {.solve = {.method = method, .stopping = {.max_iterations = 0}}});
+        CHECK(none);
+        CHECK(none.report.solve.iterations == 0);
+    }
 }
 
 TEST_CASE("parameterize: unsuitable surfaces are refused with their fault")
@@ -317,12 +349,14 @@ TEST_CASE("parameterize: slivers and long tubes")
 {
     queue q;
     const auto tube = test::tube(test::sized(12, 4), test::sized(8, 1));
-    CHECK(parameterize(q, tube, {.solve = {.stopping = {.max_iterations = 30}}}));
+    for (const auto method : methods)
+        CHECK(parameterize(q, tube, {.solve = {.method = method, .stopping = {.max_iterations = 30}}}));
 
     auto points = test::grid(6, 6).points();
     for (auto& p : points) p.y *= 1e-6;
-    CHECK(parameterize(q, mesh<triangle>(points, test::grid(6, 6).cells()),
-                       {.solve = {.stopping = {.max_iterations = 30}}}));
+    for (const auto method : methods)
+        CHECK(parameterize(q, mesh<triangle>(points, test::grid(6, 6).cells()),
+                           {.solve = {.method = method, .stopping = {.max_iterations = 30}}}));
 }
 
 TEST_CASE("parameterize: random disks keep every triangle upright, whatever the iteration limit")
@@ -331,9 +365,13 @@ TEST_CASE("parameterize: random disks keep every triangle upright, whatever the 
     for (unsigned seed = 0; seed < 12; ++seed)
     {
         const auto m = test::bumpy(3 + static_cast<int>(seed) % test::sized(6, 2), 0.6, seed);
-        const auto r = parameterize(q, m, {.solve = {.stopping = {.max_iterations = static_cast<int>(seed * 7)}}});
-        REQUIRE(r);
-        CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
-        check_falling(r.report.solve);
+        for (const auto method : methods)
+        {
+            const int most = method == solve::method::lbfgs ? static_cast<int>(seed * 7) : static_cast<int>(seed);
+            const auto r = parameterize(q, m, {.solve = {.method = method, .stopping = {.max_iterations = most}}});
+            REQUIRE(r);
+            CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
+            check_falling(r.report.solve, r.report.precision);
+        }
     }
 }

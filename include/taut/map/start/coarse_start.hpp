@@ -58,9 +58,7 @@ inline start_map coarse_start(const mesh<triangle>& m, const hierarchy& h, const
         auto lost = std::count(fixed.begin(), fixed.end(), 1);
         for (const index v : h.levels[level].vertices) lost -= fixed[static_cast<std::size_t>(v)];
         if (lost != 0) throw parameter_error("h", "must keep the boundary, which is to be fixed");
-        // The outline has the area of the level; it is to have that of the whole surface.
-        const double scale = std::sqrt(detail::surface_area(h, 0, points) / detail::surface_area(h, level, points));
-        for (vec2& p : map.uv) p *= scale;
+        detail::scale_outline(h, level, points, map.uv);
     }
     double energy = map.distortion.measure;
     while (level-- > 0)

@@ -25,20 +25,19 @@ struct raise_params
 
 /// Scales a map of a level, all triangles of which are positive, to the least isometric energy. Where rounding would
 /// turn a triangle over, to the nearest power of two.
-inline void scale_to_fit(const hierarchy& h, std::size_t level, std::span<const vec3> points, std::vector<vec2>& uv)
+inline void scale_to_fit(const hierarchy& h, std::size_t level, std::span<const vec3> points, std::vector<vec2>& uv,
+                         unsigned threads = 0)
 {
-    const double scale = isometric_scale(h, level, points, uv);
-    auto scaled = uv;
-    for (vec2& p : scaled) p *= scale;
-    const auto at = [](const std::vector<vec2>& x, index v) { return x[static_cast<std::size_t>(v)]; };
+    const double scale = isometric_scale(h, level, points, uv, threads);
     const auto& cells = h.levels[level].cells;
-    const bool kept = std::all_of(cells.begin(), cells.end(),
-                                  [&](const auto& t)
-                                  { return surely_positive(at(scaled, t[0]), at(scaled, t[1]), at(scaled, t[2])); });
-    if (kept)
-        uv = std::move(scaled);
-    else
-        for (vec2& p : uv) p *= std::exp2(std::round(std::log2(scale)));
+    const auto scaled = [&](index v) { return scale * uv[static_cast<std::size_t>(v)]; };
+    const auto turned = block_sum<int>(
+        cells.size(),
+        [&](int& count, std::size_t c)
+        { count += !surely_positive(scaled(cells[c][0]), scaled(cells[c][1]), scaled(cells[c][2])); },
+        threads);
+    const double factor = turned == 0 ? scale : std::exp2(std::round(std::log2(scale)));
+    for (vec2& p : uv) p *= factor;
 }
 
 /// A map of a level.
@@ -60,7 +59,7 @@ inline raised_map raise_map(const hierarchy& h, std::size_t level, std::span<con
         std::vector<char> fixed;
         if (!params.fixed.empty())
             for (const index v : l.vertices) fixed.push_back(params.fixed[static_cast<std::size_t>(v)]);
-        if (fixed.empty()) scale_to_fit(h, at, points, uv);
+        if (fixed.empty()) scale_to_fit(h, at, points, uv, params.threads);
         return star_relaxation(points, l.vertices, l.cells, fixed, params.threads).run(uv, factor, sweeps);
     };
     constexpr int attempts = 3;

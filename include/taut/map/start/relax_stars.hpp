@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/core/parallel.hpp>
+#include <taut/mesh/block_sum.hpp>
 #include <taut/mesh/hierarchy/star_energy.hpp>
 #include <taut/mesh/triangle.hpp>
 
@@ -60,33 +60,32 @@ private:
     /// Sets the energies of all triangles; their area mean.
     double mean(std::span<const vec2> x)
     {
-        std::vector<double> area(cells_.size());
-        parallel_for(
-            cells_.size(),
-            [&](std::size_t begin, std::size_t end)
-            {
-                for (std::size_t c = begin; c < end; ++c)
-                {
-                    const auto [i, j, k] = cells_[c];
-                    const mat2 W = triangle::ideal({rest(i), rest(j), rest(k)});
-                    const vec2 a = x[u(j)] - x[u(i)], b = x[u(k)] - x[u(i)];
-                    const double height = std::max(W[1][1], 1e-6 * W[0][0]); // as in star_energy
-                    const vec2 first = a / W[0][0], second = (b - W[1][0] * first) / height;
-                    const double det = cross(first, second);
-                    area[c] = W[0][0] * height;
-                    density_[c] = surely_positive(x[u(i)], x[u(j)], x[u(k)])
-                                      ? (glm::dot(first, first) + glm::dot(second, second)) * (1 + 1 / (det * det))
-                                      : std::numeric_limits<double>::infinity();
-                }
-            },
-            threads_);
-        double sum = 0, total = 0;
-        for (std::size_t c = 0; c < cells_.size(); ++c)
+        struct sums
         {
-            sum += area[c] * density_[c];
-            total += area[c];
-        }
-        return sum / total;
+            double energy = 0, area = 0;
+            sums& operator+=(const sums& o)
+            {
+                energy += o.energy;
+                area += o.area;
+                return *this;
+            }
+        };
+        const auto add = [&](sums& sum, std::size_t c)
+        {
+            const auto [i, j, k] = cells_[c];
+            const mat2 W = triangle::ideal({rest(i), rest(j), rest(k)});
+            const vec2 a = x[u(j)] - x[u(i)], b = x[u(k)] - x[u(i)];
+            const double height = std::max(W[1][1], 1e-6 * W[0][0]); // as in star_energy
+            const vec2 first = a / W[0][0], second = (b - W[1][0] * first) / height;
+            const double det = cross(first, second), area = W[0][0] * height;
+            density_[c] = surely_positive(x[u(i)], x[u(j)], x[u(k)])
+                              ? (glm::dot(first, first) + glm::dot(second, second)) * (1 + 1 / (det * det))
+                              : std::numeric_limits<double>::infinity();
+            sum.energy += area * density_[c];
+            sum.area += area;
+        };
+        const auto sum = block_sum<sums>(cells_.size(), add, threads_);
+        return sum.energy / sum.area;
     }
 
     /// Triangles of each vertex, as 3 * triangle + corner.

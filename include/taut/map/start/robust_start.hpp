@@ -80,6 +80,13 @@ inline double surface_area(const hierarchy& h, std::size_t level, std::span<cons
     return sum;
 }
 
+/// Brings a map of a level on an outline, which has the area of the level, to the area of the whole surface.
+inline void scale_outline(const hierarchy& h, std::size_t level, std::span<const vec3> points, std::vector<vec2>& uv)
+{
+    const double scale = std::sqrt(surface_area(h, 0, points) / surface_area(h, level, points));
+    for (vec2& p : uv) p *= scale;
+}
+
 /// Newton's method on the isometric energy of a level, from a map without flips. Returns the energy, as area mean.
 inline double optimize_level(const hierarchy& h, std::size_t level, std::span<const vec3> rest,
                              std::span<const char> fixed, const robust_start_params& params, std::vector<vec2>& uv)
@@ -113,11 +120,7 @@ inline start_map nested_start(const mesh<triangle>& m, const ideal_elements<tria
     const std::size_t coarsest = h.levels.size() - 1;
     const auto coarse = level_mesh(h, coarsest, m.points());
     start_map map = barycentric_map(coarse, facets(coarse), {.boundary = params.boundary, .weights = plan.weights});
-    if (!fixed.empty())
-    {
-        const double scale = std::sqrt(surface_area(h, 0, m.points()) / surface_area(h, coarsest, m.points()));
-        for (vec2& p : map.uv) p *= scale;
-    }
+    if (!fixed.empty()) scale_outline(h, coarsest, m.points(), map.uv);
     raise_params raise{.fixed = fixed, .threads = params.threads};
     for (std::size_t level = coarsest;; --level)
     {

@@ -104,26 +104,42 @@ inline int choose_target(const thinning_surface& m, index v, const flat_star& s,
 {
     const auto ring = m.rings[v];
     if (s.open && s.angle < rules.sharpest_corner * std::numbers::pi) return -1;
-    std::array<double, largest_star> quality{};
     const double normal_length = glm::length(s.normal);
     // Where the surface has worse triangles, as in a strip of needles, it need not become better at once.
     const double least = std::min(rules.quality, 0.9 * star_quality(s));
-    double best = 0;
+    std::array<double, largest_star> liked{};
     for (std::size_t t = 0; t < s.size; ++t)
     {
         if (s.open && t != 0 && t + 1 != s.size) continue;
         // Hubs are unwelcome: their stars cannot be removed later.
         const auto valence = m.rings[ring[t]].size() + s.size - 4;
-        const double liked = valence <= 7 ? 1.0 : valence <= 9 ? 0.7 : valence <= 11 ? 0.3 : 0.1;
-        // The rest are only needed should the best break the surface; half its quality is then good enough.
-        quality[t] = liked * fan_quality(s, t, normal_length, std::max(least, 0.5 * best), rules.may_fold);
-        best = std::max(best, quality[t]);
+        liked[t] = valence <= 7 ? 1.0 : valence <= 9 ? 0.7 : valence <= 11 ? 0.3 : 0.1;
     }
+    const auto quality = [&](std::size_t t, double enough)
+    { return liked[t] > 0 ? liked[t] * fan_quality(s, t, normal_length, enough, rules.may_fold) : 0.0; };
+
+    double best = 0;
+    std::size_t target = 0;
+    for (std::size_t t = 0; t < s.size; ++t)
+    {
+        if (liked[t] <= best) continue;
+        const double here = quality(t, std::max(least, best / liked[t]));
+        if (here <= best) continue;
+        best = here;
+        target = t;
+    }
+    if (best == 0) return -1;
+    if (!breaks_surface(m, ring, s.open, target)) return static_cast<int>(target);
+
+    // The others, of which half the quality of the best is good enough.
+    std::array<double, largest_star> rest{};
+    for (std::size_t t = 0; t < s.size; ++t)
+        if (t != target) rest[t] = quality(t, std::max(least, 0.5 * best));
     for (;;)
     {
-        const auto top = std::max_element(quality.begin(), quality.begin() + static_cast<std::ptrdiff_t>(s.size));
+        const auto top = std::max_element(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(s.size));
         if (!(*top > 0)) return -1;
-        const auto t = static_cast<std::size_t>(top - quality.begin());
+        const auto t = static_cast<std::size_t>(top - rest.begin());
         if (!breaks_surface(m, ring, s.open, t)) return static_cast<int>(t);
         *top = 0;
     }

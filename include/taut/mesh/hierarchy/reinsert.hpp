@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/mesh/block_sum.hpp>
 #include <taut/mesh/hierarchy/hierarchy.hpp>
 #include <taut/mesh/hierarchy/star_energy.hpp>
 
@@ -160,27 +161,39 @@ inline reinsertion reinsert(const hierarchy& h, std::size_t level, std::span<con
 /// a = sum of area |S|^2 and b = sum of area |S|^2 / det^2 over the cells. 1 if that is not finite and positive.
 /// Meant for maps without pins.
 inline double isometric_scale(const hierarchy& h, std::size_t level, std::span<const vec3> points,
-                              std::span<const vec2> uv)
+                              std::span<const vec2> uv, unsigned threads = 0)
 {
-    double a = 0, b = 0;
-    const auto& numbers = h.levels[level].vertices;
-    for (const auto& t : h.levels[level].cells)
+    struct sums
     {
+        double plain = 0, inverse = 0;
+        sums& operator+=(const sums& o)
+        {
+            plain += o.plain;
+            inverse += o.inverse;
+            return *this;
+        }
+    };
+    const auto& numbers = h.levels[level].vertices;
+    const auto& cells = h.levels[level].cells;
+    const auto add = [&](sums& sum, std::size_t c)
+    {
+        const auto& t = cells[c];
         triangle::rest_corners rest;
         for (std::size_t k = 0; k < 3; ++k)
             rest[k] = points[static_cast<std::size_t>(numbers[static_cast<std::size_t>(t[k])])];
         const mat2 W = triangle::ideal(rest);
-        if (!(W[1][1] > 0)) continue; // flat at rest: no area
+        if (!(W[1][1] > 0)) return; // flat at rest: no area
         const vec2 x = uv[static_cast<std::size_t>(t[0])];
         const vec2 first = (uv[static_cast<std::size_t>(t[1])] - x) / W[0][0];
         const vec2 second = (uv[static_cast<std::size_t>(t[2])] - x - W[1][0] * first) / W[1][1];
         const double area = 0.5 * W[0][0] * W[1][1];
         const double det = detail::cross(first, second);
         const double n = area * (glm::dot(first, first) + glm::dot(second, second));
-        a += n;
-        b += n / (det * det);
-    }
-    const double scale = std::pow(b / a, 0.25);
+        sum.plain += n;
+        sum.inverse += n / (det * det);
+    };
+    const auto sum = detail::block_sum<sums>(cells.size(), add, threads);
+    const double scale = std::pow(sum.inverse / sum.plain, 0.25);
     return std::isfinite(scale) && scale > 0 ? scale : 1.0;
 }
 

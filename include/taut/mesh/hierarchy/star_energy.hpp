@@ -26,9 +26,12 @@ public:
             const vec3 a = rest[i], b = rest[ring.next(i)];
             rest_triangle& t = triangle_[i];
             // Flat triangles at rest have no ideal element; a height near 0 makes them stiff instead.
-            t.length = std::max(glm::length(a), std::numeric_limits<double>::min());
-            t.shear = glm::dot(a, b) / (t.length * t.length);
-            t.height = std::max(glm::length(glm::cross(a, b)) / t.length, 1e-6 * t.length);
+            const double length = std::max(glm::length(a), std::numeric_limits<double>::min());
+            const double height = std::max(glm::length(glm::cross(a, b)) / length, 1e-6 * length);
+            t.along = 1 / length;
+            t.across = 1 / height;
+            t.shear = glm::dot(a, b) / (length * length);
+            t.area = 0.5 * length * height;
         }
     }
 
@@ -40,7 +43,7 @@ public:
         {
             const element e = at(i, p);
             if (!(e.det > 0)) return std::numeric_limits<double>::infinity();
-            sum += e.area * e.norm2 * (1 + 1 / (e.det * e.det));
+            sum += triangle_[i].area * e.norm2 * (1 + 1 / (e.det * e.det));
         }
         return sum;
     }
@@ -55,13 +58,13 @@ public:
             const element e = at(i, p);
             const rest_triangle& t = triangle_[i];
             // Columns of S move by s0 dp and s1 dp.
-            const double s0 = -1 / t.length, s1 = (t.shear - 1) / t.height;
+            const double s0 = -t.along, s1 = (t.shear - 1) * t.across;
             const vec2 dn = 2.0 * (s0 * e.first + s1 * e.second);
             const vec2 side = ring_.corner[ring_.next(i)] - ring_.corner[i];
-            const vec2 dd = vec2(-side.y, side.x) / (t.length * t.height);
+            const vec2 dd = (t.along * t.across) * vec2(-side.y, side.x);
             const double r = 1 / e.det, r2 = r * r;
-            gradient += e.area * ((1 + r2) * dn - 2 * e.norm2 * r2 * r * dd);
-            hessian += e.area * (mat2(2 * (1 + r2) * (s0 * s0 + s1 * s1)) -
+            gradient += t.area * ((1 + r2) * dn - 2 * e.norm2 * r2 * r * dd);
+            hessian += t.area * (mat2(2 * (1 + r2) * (s0 * s0 + s1 * s1)) -
                                  2 * r2 * r * (glm::outerProduct(dn, dd) + glm::outerProduct(dd, dn)) +
                                  6 * e.norm2 * r2 * r2 * glm::outerProduct(dd, dd));
         }
@@ -70,21 +73,20 @@ public:
 private:
     struct rest_triangle
     {
-        double length, shear, height; // W = (length, shear length; 0, height)
+        double along, across, shear, area; // W = (1 / along, shear / along; 0, 1 / across)
     };
     struct element
     {
         vec2 first, second; // columns of S
-        double det, norm2, area;
+        double det, norm2;
     };
 
     element at(std::size_t i, const vec2& p) const
     {
         const rest_triangle& t = triangle_[i];
         const vec2 a = ring_.corner[i] - p, b = ring_.corner[ring_.next(i)] - p;
-        const vec2 first = a / t.length, second = (b - t.shear * a) / t.height;
-        return {first, second, cross(first, second), glm::dot(first, first) + glm::dot(second, second),
-                0.5 * t.length * t.height};
+        const vec2 first = t.along * a, second = t.across * (b - t.shear * a);
+        return {first, second, cross(first, second), glm::dot(first, first) + glm::dot(second, second)};
     }
 
     const ring_image& ring_;
@@ -97,9 +99,14 @@ inline vec2 newton_direction(const vec2& g, const mat2& h)
 {
     const double mean = 0.5 * (h[0][0] + h[1][1]), half = 0.5 * (h[0][0] - h[1][1]), off = h[1][0];
     const double radius = std::hypot(half, off);
-    // Eigenvectors at angle phi and phi + 90 degrees.
-    const double phi = 0.5 * std::atan2(off, half);
-    const vec2 u(std::cos(phi), std::sin(phi)), w(-u.y, u.x);
+    // Eigenvectors at half the angle of (half, off), and that and 90 degrees; the larger of sine and cosine first.
+    vec2 u(1, 0);
+    if (radius > 0)
+    {
+        const double large = std::sqrt(0.5 + 0.5 * std::abs(half) / radius), small = 0.5 * off / (radius * large);
+        u = half >= 0 ? vec2(large, small) : vec2(std::abs(small), std::copysign(large, off));
+    }
+    const vec2 w(-u.y, u.x);
     const double least = 1e-8 * (std::abs(mean) + radius);
     const double l1 = std::max(std::abs(mean + radius), least), l2 = std::max(std::abs(mean - radius), least);
     return -(glm::dot(g, u) / l1 * u + glm::dot(g, w) / l2 * w);
