@@ -85,8 +85,8 @@ public:
           measure_(q, to<R>(a.measure)),
           x_(q, to<P>(a.x)),
           energy_(q, a.cell_stride),
-          corner_gradient_(q, 6 * a.cell_stride),
           gradient_(q, 2 * a.vertex_stride),
+          corner_gradient_(q, 6 * a.cell_stride),
           gather_(make_gather())
     {
     }
@@ -120,7 +120,7 @@ private:
     static taut::index stride(std::size_t n) { return static_cast<taut::index>(n); }
     taut::range range() const { return {a_.cell_stride, layout<triangle>::step}; }
 
-    gather<R> make_gather()
+    gather<P, R> make_gather()
     {
         std::vector<taut::index> cell, corner;
         for (const auto item : a_.incidence.items)
@@ -128,7 +128,7 @@ private:
             cell.push_back(item / 3);
             corner.push_back(item % 3);
         }
-        return gather<R>(queue_, a_.incidence.offsets, cell, corner,
+        return gather<P, R>(queue_, a_.incidence.offsets, cell, corner,
                          {.components = 2, .cell_stride = a_.cell_stride, .vertex_stride = a_.vertex_stride});
     }
 
@@ -138,8 +138,9 @@ private:
     buffer<taut::index> corners_;
     buffer<R> inverse_, measure_;
     buffer<P> x_;
-    buffer<R> energy_, corner_gradient_, gradient_;
-    gather<R> gather_;
+    buffer<R> energy_, gradient_;
+    buffer<P> corner_gradient_;
+    gather<P, R> gather_;
 };
 
 template <class P, class R>

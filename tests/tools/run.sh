@@ -355,7 +355,8 @@ test_reports()
     for picture in layout.png render.png; do
         [ "$(od -An -tx1 -N8 "$picture" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$picture is no PNG"
     done
-    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision float --iterations 3 --quiet
+    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision float --solver lbfgs \
+        --iterations 3 --quiet
     says layout.svg '<svg ' '</svg>'
     keys stats.json precision stop iterations
     says values '^precision=float$' '^stop=iterations$' '^iterations=3$'

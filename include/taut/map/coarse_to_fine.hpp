@@ -58,6 +58,8 @@ public:
         for (std::size_t l = first; l > 0; --l)
         {
             uv = minimised(l, uv, l < first, observer(l));
+            if (reports_.back().solve.stop == solve::stop::not_finite_start)
+                return fail("the energy is not finite on level " + std::to_string(l));
             auto finer = detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv),
                                            {.fixed = levels_.pinned() ? levels_.fixed(0) : std::span<const char>()});
             if (!std::isfinite(finer.energy))

@@ -144,8 +144,8 @@ private:
     void solve_in_turns(precision how)
     {
         const bool chosen = params_.precision == precision::automatic;
-        if (!attempt(how) || how == precision::full || !queue_.device().has_fp64()) return;
-        if (certified_ && (!chosen || accurate())) return;
+        const bool done = attempt(how) && certified_ && (!chosen || accurate());
+        if (done || how == precision::full || !queue_.device().has_fp64()) return;
         report().notes.push_back(certified_ ? "float could not reach the tolerance; continued in double"
                                             : "float could not hold this map; repeated in double");
         if (!certified_) arrival_.reset();

@@ -175,7 +175,7 @@ TEST_CASE("newton: finds the minimum of Rosenbrock's function in few iterations"
         std::vector<double> x = functions::rosenbrock_start(n);
         if (n > 2) // away from the second, local minimum
             for (double& v : x) v = 0.5;
-        const auto r = newton(f, x, {.pcg = {.max_steps = 16, .gain = 0.01}},
+        const auto r = newton(f, x, {.pcg = {.max_steps = 40, .gain = 0.01}},
                               {.stopping = {.gradient_tolerance = 1e-10, .max_iterations = 200}});
         CAPTURE(n);
         CHECK(r.stop == stop::gradient);

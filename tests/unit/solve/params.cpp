@@ -43,7 +43,7 @@ TEST_CASE("params: a bad field is named, also by minimize")
         {"conjugate_gradient.restart_interval", [](params& p) { p.conjugate_gradient.restart_interval = -1; }},
         {"newton.exact_below", [](params& p) { p.newton.exact_below = 1; }},
         {"newton.relax_below", [&](params& p) { p.newton.relax_below = nan; }},
-        {"pcg.max_steps", [](params& p) { p.newton.pcg.max_steps = 17; }},
+        {"pcg.max_steps", [](params& p) { p.newton.pcg.max_steps = 0; }},
         {"pcg.block", [](params& p) { p.newton.pcg.block = 0; }},
         {"pcg.gain", [](params& p) { p.newton.pcg.gain = 0; }},
         {"method", [](params& p) { p.method = method::newton; }}, // f has no Hessian
