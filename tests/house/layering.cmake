@@ -11,7 +11,7 @@ set(allowed_solve core solve)
 set(allowed_io core mesh io)
 set(allowed_map core symbolic compute mesh energy solve io map)
 set(allowed_edit ${allowed_map} edit)
-set(extra_edges "compute/record.hpp>symbolic" "compute/handler.hpp>symbolic")
+set(extra_edges "compute/record.hpp>symbolic" "compute/handler.hpp>symbolic" "compute/detail/joined_source.hpp>symbolic")
 
 set(failures "")
 file(GLOB_RECURSE headers RELATIVE ${ROOT}/include/taut ${ROOT}/include/taut/*.hpp)
