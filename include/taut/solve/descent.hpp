@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/solve/any_line.hpp>
 #include <taut/solve/descent_params.hpp>
 #include <taut/solve/objective_line.hpp>
 #include <taut/solve/report.hpp>
@@ -113,7 +114,8 @@ private:
         const line_search_params& p = params_.line_search;
         objective_line phi(f_, {x_, d_, trial_, g_new_}, slope, {0, value_, d.slope},
                            {bound, lowest_, rounding() * std::abs(lowest_), p.batch}, monitor_);
-        const search_result found = search(phi, std::min(1.0, bound), p, h_.fresh());
+        any_line line(phi);
+        const search_result found = search(line, std::min(1.0, bound), p, h_.fresh());
 
         // An interrupted search keeps x_k; a step that was accepted in the same moment is kept too.
         if (found.status == status::interrupted) return monitor_.reason();

@@ -20,11 +20,14 @@ auto with_inverse_hessian(Objective& f, const typename Objective::point& x, cons
     if constexpr (has_precondition<Objective>)
         h0 = [&f](const vector_of<Objective>& v, vector_of<Objective>& out) { f.precondition(v, out); };
 
-    if (params.form == inverse_hessian_form::two_loop)
-    {
-        two_loop_inverse_hessian<space> h(f.space(), params, h0);
-        return run(h);
-    }
+    // The two-loop form is the reference of the other. Objectives with a Hessian do without it, which halves what
+    // compilers have to make of them.
+    if constexpr (!has_hessian<Objective>)
+        if (params.form == inverse_hessian_form::two_loop)
+        {
+            two_loop_inverse_hessian<space> h(f.space(), params, h0);
+            return run(h);
+        }
     gram_inverse_hessian<space> h(f.space(), params, h0);
     return run(h);
 }
