@@ -1,2 +1,0 @@
-// SPDX-License-Identifier: MIT
-// The translation unit of the precompiled header of the tests.
