@@ -3,18 +3,10 @@
 #include <numbers>
 #include <random>
 
-#if __has_include(<Eigen/Eigenvalues>)
-#include <Eigen/Eigenvalues>
-#define TAUT_TEST_EIGEN
-#elif __has_include(<eigen3/Eigen/Eigenvalues>)
-#include <eigen3/Eigen/Eigenvalues>
-#define TAUT_TEST_EIGEN
-#endif
-
-// The references are Eigen's.
-#ifdef TAUT_TEST_EIGEN
-
 #include <doctest/doctest.h>
+
+#include <support/mips_power.hpp>
+#include <support/symmetric_eigen.hpp>
 
 #include <taut/energy/algebra.hpp>
 #include <taut/energy/isometric.hpp>
@@ -27,8 +19,8 @@ namespace
 {
 
 using namespace taut;
-using Matrix4 = Eigen::Matrix4d;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using matrix = Eigen::MatrixXd;
+using vector = Eigen::VectorXd;
 using slots = hessian_slots<2>;
 
 /// Stretch along the first axis of the ideal element costs more: S -> S Q is seen.
@@ -56,19 +48,6 @@ struct spelled
     }
 };
 
-/// A user's, in the invariants.
-struct mips_power
-{
-    static constexpr bool barrier = true;
-
-    template <class T, int D>
-    T operator()(const element<T, D>& e) const
-    {
-        using std::pow;
-        return pow(norm2(e.S) / (T(2) * e.det), T(3));
-    }
-};
-
 struct named_energy
 {
     const char* name;
@@ -82,7 +61,7 @@ std::vector<named_energy> energies()
     return {{"isometric", isometric{}, true},
             {"shape", shape{}, true},
             {"area", area{}, true},
-            {"a sum", 0.7 * isometric{} + 0.3 * shape{} + 0.1 * mips_power{}, true},
+            {"a sum", 0.7 * isometric{} + 0.3 * shape{} + 0.1 * test::mips_power{.p = 3}, true},
             {"a product", shape{} * area{}, true},
             {"anisotropic", anisotropic{}, false},
             {"spelled by rows", spelled{}, false},
@@ -148,7 +127,7 @@ private:
 };
 
 template <class P, class R>
-std::vector<Matrix6> on_device(queue& q, const any_energy& energy, const elements& e, definiteness sign)
+std::vector<matrix> on_device(queue& q, const any_energy& energy, const elements& e, definiteness sign)
 {
     const std::size_t n = e.S.size();
     std::vector<taut::index> corners(3 * n);
@@ -175,7 +154,7 @@ std::vector<Matrix6> on_device(queue& q, const any_energy& energy, const element
            buffer<P>(q, x), hessian, static_cast<taut::index>(n), static_cast<taut::index>(3 * n));
     const auto h = hessian.download();
 
-    std::vector<Matrix6> result(n);
+    std::vector<matrix> result(n, matrix(6, 6));
     for (std::size_t c = 0; c < n; ++c)
         for (int a = 0; a < 6; ++a)
             for (int b = 0; b < 6; ++b)
@@ -196,8 +175,8 @@ public:
             for (const auto second : differentiate(g, unknowns_)) hessian_.push_back(second);
     }
 
-    Eigen::Vector4d gradient(const mat2& S) { return Eigen::Vector4d(evaluate_at(S, gradient_).data()); }
-    Matrix4 hessian(const mat2& S) { return Matrix4(evaluate_at(S, hessian_).data()); }
+    vector gradient(const mat2& S) { return Eigen::Map<const vector>(evaluate_at(S, gradient_).data(), 4); }
+    matrix hessian(const mat2& S) { return Eigen::Map<const matrix>(evaluate_at(S, hessian_).data(), 4, 4); }
 
 private:
     std::vector<double> evaluate_at(const mat2& S, const std::vector<sym<double>>& f)
@@ -214,9 +193,9 @@ private:
 };
 
 /// d S / d corners, S by columns.
-Eigen::Matrix<double, 4, 6> corner_map(const mat2& inverse)
+matrix corner_map(const mat2& inverse)
 {
-    Eigen::Matrix<double, 4, 6> K = Eigen::Matrix<double, 4, 6>::Zero();
+    matrix K = matrix::Zero(4, 6);
     for (int c = 0; c < 2; ++c)
         for (int i = 0; i < 2; ++i)
             for (int k = 0; k < 2; ++k)
@@ -225,12 +204,6 @@ Eigen::Matrix<double, 4, 6> corner_map(const mat2& inverse)
                 K(2 * c + i, i) -= inverse[c][k];
             }
     return K;
-}
-
-Matrix4 clamped(const Matrix4& H)
-{
-    const Eigen::SelfAdjointEigenSolver<Matrix4> eigen(H);
-    return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
 template <class P_, class R_>
@@ -250,9 +223,10 @@ double worst_error(queue& q, const any_energy& energy, const elements& e, defini
     double worst = 0;
     for (std::size_t c = 0; c < e.S.size(); ++c)
     {
-        const Matrix4 H = host.hessian(e.S[c]);
+        const matrix H = host.hessian(e.S[c]);
         const auto K = corner_map(e.inverse[c]);
-        const Matrix6 expected = e.weight[c] * (K.transpose() * (sign == definiteness::projected ? clamped(H) : H) * K);
+        const matrix expected =
+            e.weight[c] * (K.transpose() * (sign == definiteness::projected ? test::decompose(H).clamped() : H) * K);
         const double unit = A::epsilon * stretch_ratio(e.S[c]) * e.weight[c] * H.norm() * K.squaredNorm();
         const double error = (device[c] - expected).norm() / unit;
         worst = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(worst, error);
@@ -305,19 +279,19 @@ TEST_CASE("element Hessian: it is the derivative of the gradient, by finite diff
             const auto K = corner_map(e.inverse[c]);
             // A move of one corner coordinate moves S by a column of K.
             const double h = 1e-4 * std::sqrt(glm::determinant(e.S[c]) / stretch_ratio(e.S[c]));
-            Matrix6 expected;
+            matrix expected;
             for (int a = 0; a < 6; ++a)
             {
-                const Eigen::Vector4d direction = K.col(a);
+                const vector direction = K.col(a);
                 const double length = direction.norm();
-                const auto at = [&](double t) -> Eigen::Vector4d
+                const auto at = [&](double t) -> vector
                 {
                     mat2 S = e.S[c];
                     for (int k = 0; k < 4; ++k) S[k / 2][k % 2] += t * direction(k) / length;
                     return host.gradient(S);
                 };
                 // Fourth order.
-                const Eigen::Vector4d change = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h) * length;
+                const vector change = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h) * length;
                 expected.col(a) = e.weight[c] * (K.transpose() * change);
             }
             worst = std::max(worst, (device[c] - expected).norm() / expected.norm());
@@ -355,7 +329,7 @@ TEST_CASE_TEMPLATE("element Hessian: projected is positive semi-definite to roun
         {
             finite = finite && H.allFinite();
             if (!H.allFinite()) continue;
-            const auto values = Eigen::SelfAdjointEigenSolver<Matrix6>(H, Eigen::EigenvaluesOnly).eigenvalues();
+            const auto values = test::decompose(H).values;
             if (values.maxCoeff() > 0) least = std::min(least, values.minCoeff() / values.maxCoeff());
         }
         CHECK(finite);
@@ -369,7 +343,7 @@ TEST_CASE("element Hessian: the twist mode of the isometric energy has its close
     generator random;
     elements e;
     std::vector<vec2> stretches;
-    std::vector<Eigen::Vector4d> twists;
+    std::vector<vector> twists;
     for (int k = 0; k < 256; ++k)
     {
         const vec2 s = k == 0 ? vec2(1.0) : vec2(random.decade(0.5), random.decade(0.5));
@@ -377,7 +351,7 @@ TEST_CASE("element Hessian: the twist mode of the isometric energy has its close
         e.add(U * mat2(s.x, 0, 0, s.y) * V, mat2(1.0), 1.0);
         const mat2 twist = U * mat2(0, 1, -1, 0) * V / std::numbers::sqrt2;
         stretches.push_back(s);
-        twists.emplace_back(twist[0][0], twist[0][1], twist[1][0], twist[1][1]);
+        twists.push_back(Eigen::Map<const vector>(&twist[0][0], 4));
     }
     const auto plain = on_device<double, double>(q, energy::isometric{}, e, definiteness::indefinite);
     const auto projected = on_device<double, double>(q, energy::isometric{}, e, definiteness::projected);
@@ -388,7 +362,7 @@ TEST_CASE("element Hessian: the twist mode of the isometric energy has its close
         const double expected = 2 - 2 * (glm::dot(stretches[c], stretches[c]) - product) / std::pow(product, 3);
         negative += expected < 0;
         // With W = 1 corners 1 and 2 are the columns of S.
-        const auto along = [&](const Matrix6& H) { return twists[c].dot(H.bottomRightCorner<4, 4>() * twists[c]); };
+        const auto along = [&](const matrix& H) { return twists[c].dot(H.bottomRightCorner(4, 4) * twists[c]); };
         const double rounding = 1e-13 * plain[c].norm();
         CHECK(std::abs(along(plain[c]) - expected) < rounding);
         CHECK(std::abs(along(projected[c]) - std::max(expected, 0.0)) < rounding);
@@ -401,7 +375,6 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
                    std::integral_constant<int, 4>, std::integral_constant<int, 9>)
 {
     constexpr int N = Size::value;
-    using matrix = Eigen::Matrix<double, N, N>;
     tape recorded;
     const tape_scope scope(recorded);
     symmetric_matrix<sym<double>, N> H;
@@ -417,10 +390,10 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
     for (int trial = 0; trial < 200; ++trial)
     {
         // In turn: random, of low rank and so with repeated eigenvalues, graded over 12 decades, and 0.
-        matrix M = matrix::NullaryExpr([&] { return normal(random); });
+        matrix M = matrix::NullaryExpr(N, N, [&] { return normal(random); });
         M = (M + M.transpose()).eval();
-        const Eigen::Matrix<double, N, 1> u = M.col(0).normalized();
-        if (trial % 4 == 1) M = matrix::Identity() - 3 * u * u.transpose();
+        const vector u = M.col(0).normalized();
+        if (trial % 4 == 1) M = matrix::Identity(N, N) - 3 * u * u.transpose();
         if (trial % 4 == 2)
             for (int j = 0; j < N; ++j)
                 for (int i = 0; i < N; ++i) M(i, j) *= std::pow(10.0, -6.0 * (i + j) / (N - 1));
@@ -432,9 +405,7 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
             for (int i = 0; i <= j; ++i) values.emplace_back(unknowns[next++], M(i, j));
         const auto result = evaluate(outputs, values);
 
-        const Eigen::SelfAdjointEigenSolver<matrix> eigen(M);
-        const matrix expected =
-            eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+        const matrix expected = test::decompose(M).clamped();
         double worst = 0;
         next = 0;
         for (int j = 0; j < N; ++j)
@@ -453,5 +424,3 @@ TEST_CASE("element Hessian: in space it is the derivative taken twice on the tap
     CHECK(stores == static_cast<std::size_t>(E::slots::count));
     CHECK(E::slots::count == 78);
 }
-
-#endif

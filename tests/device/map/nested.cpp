@@ -6,6 +6,7 @@
 
 #include <support/extreme_meshes.hpp>
 #include <support/meshes.hpp>
+#include <support/mips_power.hpp>
 #include <support/size.hpp>
 
 #include <taut/energy/algebra.hpp>
@@ -16,20 +17,6 @@ namespace
 {
 
 using namespace taut;
-
-/// A user's energy: nothing is known of its eigenvalues in advance.
-struct mips_power
-{
-    static constexpr bool barrier = true;
-    double p = 2;
-
-    template <class T, int D>
-    T operator()(const element<T, D>& e) const
-    {
-        using std::pow;
-        return pow(norm2(e.S) / (T(D) * pow(e.det, T(2.0 / D))), T(p));
-    }
-};
 
 /// Enough vertices for levels above the one that the start is made on.
 mesh<triangle> hills()
@@ -109,8 +96,8 @@ TEST_CASE("nested: every energy and weighting ends in one minimum, whatever the 
         {"isometric", isometric{}},
         {"shape", shape{}},
         {"area", area{}},
-        {"a user's", mips_power{}},
-        {"a sum with a user's", 0.8 * isometric{} + 0.2 * mips_power{.p = 3}}};
+        {"a user's", test::mips_power{}},
+        {"a sum with a user's", 0.8 * isometric{} + 0.2 * test::mips_power{.p = 3}}};
     for (const auto& [name, energy] : energies)
         for (const auto weights : {weighting::uniform, weighting::measure})
         {

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/mips_power.hpp>
 #include <support/size.hpp>
 
 #include <taut/energy/algebra.hpp>
@@ -18,20 +19,6 @@ namespace
 
 using namespace taut;
 
-/// A user's energy: nothing is known of its eigenvalues in advance.
-struct mips_power
-{
-    static constexpr bool barrier = true;
-    double p = 2;
-
-    template <class T, int D>
-    T operator()(const element<T, D>& e) const
-    {
-        using std::pow;
-        return pow(norm2(e.S) / (T(D) * pow(e.det, T(2.0 / D))), T(p));
-    }
-};
-
 struct named_energy
 {
     std::string name;
@@ -44,7 +31,7 @@ std::vector<named_energy> energies()
     return {{"isometric", isometric{}},
             {"shape", shape{}},
             {"area", area{}},
-            {"a sum with a user's energy", 0.8 * isometric{} + 0.2 * mips_power{.p = 3}}};
+            {"a sum with a user's energy", 0.8 * isometric{} + 0.2 * test::mips_power{.p = 3}}};
 }
 
 /// A curved surface with its levels, and a start that is distorted but not folded, in the order of level 0.

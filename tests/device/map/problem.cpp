@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/mips_power.hpp>
 #include <support/reference_problem.hpp>
 #include <support/size.hpp>
 
@@ -19,19 +20,6 @@ namespace
 
 using namespace taut;
 
-struct mips_power
-{
-    static constexpr bool barrier = true;
-    double p = 2;
-
-    template <class T, int D>
-    T operator()(const element<T, D>& e) const
-    {
-        using std::pow;
-        return pow(norm2(e.S) / (T(D) * pow(e.det, T(2.0 / D))), T(p));
-    }
-};
-
 struct named_energy
 {
     const char* name;
@@ -44,7 +32,7 @@ std::vector<named_energy> energies()
     return {{"isometric", isometric{}},
             {"shape", shape{}},
             {"area", area{}},
-            {"a sum with a user's energy", 0.8 * isometric{} + 0.2 * mips_power{.p = 3}},
+            {"a sum with a user's energy", 0.8 * isometric{} + 0.2 * test::mips_power{.p = 3}},
             {"a product", shape{} * area{}}};
 }
 

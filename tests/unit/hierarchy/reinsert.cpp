@@ -36,7 +36,7 @@ std::vector<vec2> refine(const hierarchy& h, const mesh<triangle>& m, std::vecto
 std::vector<vec2> flat_positions(const hierarchy& h, std::size_t level, const mesh<triangle>& m)
 {
     std::vector<vec2> uv;
-    for (const index v : h.levels[level].vertices)
+    for (const taut::index v : h.levels[level].vertices)
         uv.emplace_back(m.points()[static_cast<std::size_t>(v)].x, m.points()[static_cast<std::size_t>(v)].y);
     return uv;
 }
@@ -106,7 +106,7 @@ TEST_CASE("reinsertion: maps at random, as bad as they may be, stay injective")
             const vec2 before = uv[v];
             uv[v] += 0.3 * vec2(uniform() - 0.5, uniform() - 0.5);
             for (const auto& t : coarsest.cells)
-                if (t[0] == index(v) || t[1] == index(v) || t[2] == index(v))
+                if (t[0] == taut::index(v) || t[1] == taut::index(v) || t[2] == taut::index(v))
                     if (orient2d(uv[std::size_t(t[0])], uv[std::size_t(t[1])], uv[std::size_t(t[2])]) <= 0)
                         uv[v] = before;
         }
@@ -162,7 +162,7 @@ TEST_CASE("reinsertion: a flipped coarse map is reported, with the vertices that
     const auto r = reinsert(h, 0, m.points(), uv);
     CHECK(r.failed.size() > m.points().size() / 4);
     CHECK(std::is_sorted(r.failed.begin(), r.failed.end()));
-    for (const index v : r.failed)
+    for (const taut::index v : r.failed)
         CHECK(!std::binary_search(h.levels[1].vertices.begin(), h.levels[1].vertices.end(), v));
 }
 

@@ -13,7 +13,7 @@ namespace
 using namespace taut;
 using io::parse_ply;
 using taut::index;
-using cell = std::array<index, 3>;
+using cell = std::array<taut::index, 3>;
 
 /// Bytes of a value in the wanted order.
 template <class T>

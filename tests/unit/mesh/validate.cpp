@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
-using ids = std::vector<index>;
+using ids = std::vector<taut::index>;
 
 } // namespace
 
@@ -69,7 +69,7 @@ TEST_CASE("validate: throws the first finding with fault, ids and remedy")
 
 TEST_CASE("validate: flat triangles are named, slivers pass")
 {
-    const std::vector<std::array<index, 3>> cells = {{0, 1, 2}, {0, 2, 3}};
+    const std::vector<std::array<taut::index, 3>> cells = {{0, 1, 2}, {0, 2, 3}};
     const auto with_height = [&](double h) {
         return mesh<triangle>({{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 1, 0}}, cells);
     };

@@ -126,7 +126,8 @@ TEST_CASE("robust start: a fixed boundary stays on the outline")
     CHECK(map.flips.flipped == 0);
     CHECK(map.distortion.measure < reference.distortion.measure);
     const auto loops = taut::boundary_loops(m);
-    for (const index v : loops[0]) CHECK(glm::distance(map.uv[std::size_t(v)], reference.uv[std::size_t(v)]) < 1e-12);
+    for (const taut::index v : loops[0])
+        CHECK(glm::distance(map.uv[std::size_t(v)], reference.uv[std::size_t(v)]) < 1e-12);
 }
 
 TEST_CASE("robust start: it ends early where it is told to")
@@ -179,13 +180,13 @@ TEST_CASE("coarse start: a fixed boundary stays on the outline")
     const auto m = taut::test::cap(40, 2);
     std::vector<char> keep(m.points().size(), 0);
     const auto loop = taut::boundary_loops(m)[0];
-    for (const index v : loop) keep[std::size_t(v)] = 1;
+    for (const taut::index v : loop) keep[std::size_t(v)] = 1;
     const auto map =
         coarse_start(m, taut::make_hierarchy(m, keep), {.vertices = 600, .coarse = {.fixed_boundary = true}});
     const auto reference = taut::barycentric_map(m);
     CHECK(map.flips.flipped == 0);
     CHECK(map.distortion.measure < reference.distortion.measure);
-    for (const index v : loop) CHECK(glm::distance(map.uv[std::size_t(v)], reference.uv[std::size_t(v)]) < 1e-9);
+    for (const taut::index v : loop) CHECK(glm::distance(map.uv[std::size_t(v)], reference.uv[std::size_t(v)]) < 1e-9);
 }
 
 TEST_CASE("coarse start: a hierarchy without the boundary that is to be fixed is refused")

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#include <taut/map/parameterization.hpp>
+#include <taut/map/parameterize.hpp>

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "precompiled.hpp"
+
+#include <taut/compute/detail/opencl.hpp>
