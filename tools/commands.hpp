@@ -16,6 +16,8 @@ using command = std::function<exit_code()>;
 
 /// Each adds one subcommand with its options and returns what it does. `launch` is when the program started.
 command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point launch);
+command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point launch);
+command add_check(CLI::App& program);
 command add_eval(CLI::App& program);
 command add_devices(CLI::App& program);
 

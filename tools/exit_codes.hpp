@@ -14,7 +14,8 @@ enum class exit_code : int
     unreadable_input = 3, ///< a file does not exist or cannot be understood
     unsuitable_input = 4, ///< a mesh or constraints that no map exists for: not a disk, contradicting pins, ...
     no_device = 5,        ///< no OpenCL device, or none that can do the work
-    no_valid_map = 6,     ///< the solver ended without a map free of flips; nothing was written
+    no_valid_map = 6,     ///< the solver ended without a map free of flips; nothing is written as one
+    infeasible = 7,       ///< it is proved that no valid map exists; nothing was written
     time_limit = 8,       ///< time ran out; the best valid map so far was written
     device_failure = 9,   ///< the device or its driver failed: build error, out of memory, lost device
     interrupted = 130     ///< Ctrl-C, 128 + SIGINT as shells report it; the best valid map so far was written
@@ -42,6 +43,8 @@ constexpr const char* describe(exit_code code)
         return "no suitable OpenCL device";
     case exit_code::no_valid_map:
         return "no valid map was found";
+    case exit_code::infeasible:
+        return "no valid map exists";
     case exit_code::time_limit:
         return "time limit reached, the best valid map was written";
     case exit_code::device_failure:

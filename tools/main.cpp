@@ -52,6 +52,14 @@ int guarded(const command& run)
     {
         return fail(exit_code::no_valid_map, "no valid map", e.what());
     }
+    catch (const interrupted_run& e)
+    {
+        return fail(exit_code::interrupted, "interrupted", e.what());
+    }
+    catch (const infeasible_problem& e)
+    {
+        return fail(exit_code::infeasible, "infeasible", e.what());
+    }
     catch (const parameter_error& e)
     {
         return fail(exit_code::usage, e.what());
@@ -70,11 +78,8 @@ int guarded(const command& run)
     }
     catch (const mesh_error& e)
     {
-        // A face that names a vertex which is not there, or a NaN, is a broken file rather than a difficult surface.
-        const bool broken = e.fault() == mesh_fault::index_out_of_range || e.fault() == mesh_fault::non_finite;
         const bool holes = e.fault() == mesh_fault::several_boundaries;
-        return fail(broken ? exit_code::unreadable_input : exit_code::unsuitable_input, e.what(),
-                    holes ? "or take it as it is with --holes" : "");
+        return fail(code_of(e.fault()), e.what(), holes ? "or take it as it is with --holes" : "");
     }
     catch (const error& e) // unsuitable_input, texcoord_error and what the library may add
     {
@@ -99,10 +104,12 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     program.set_version_flag("--version", "taut " TAUT_VERSION_STRING);
     program.require_subcommand(1);
     program.footer("exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
-                   "  6 no valid map; 8 time limit, with a valid map written; 9 device failure; 130 interrupted,\n"
+                   "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure; "
+                   "130 interrupted,\n"
                    "  with a valid map written");
 
-    std::vector<command> commands{add_unwrap(program, launch), add_eval(program), add_devices(program)};
+    std::vector<command> commands{add_unwrap(program, launch), add_untangle(program, launch), add_check(program),
+                                  add_eval(program), add_devices(program)};
     try
     {
         program.parse(argc, argv);

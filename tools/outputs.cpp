@@ -45,7 +45,7 @@ void outputs::add(const std::string& option, const fs::path& path, std::vector<s
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) refuse("is a folder; name a file");
     if (is_special(path)) return;
-    if (std::find(extensions.begin(), extensions.end(), extension(path)) == extensions.end())
+    if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension(path)) == extensions.end())
     {
         std::string list;
         for (const auto& e : extensions) list += (list.empty() ? "" : " or ") + e;
@@ -75,6 +75,12 @@ std::string extension(const fs::path& path)
     std::string text = path.extension().string();
     for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
     return text;
+}
+
+bool names_a_file(const fs::path& path)
+{
+    std::error_code ignored;
+    return !fs::exists(path, ignored) || fs::is_regular_file(path, ignored);
 }
 
 void write_text(const fs::path& path, std::string_view text)

@@ -44,6 +44,7 @@ struct progress_report
     int most_steps = 0;          ///< limit of the phase; 0 if there is none, which leaves out the bar itself
     double energy = std::numeric_limits<double>::quiet_NaN();   ///< left out while not finite
     double gradient = std::numeric_limits<double>::quiet_NaN(); ///< relative norm, for programs only
+    double inverted = std::numeric_limits<double>::quiet_NaN(); ///< elements; left out while not finite
     double length = std::numeric_limits<double>::quiet_NaN();   ///< of the last step, for programs only
     double seconds = 0;                                         ///< since the start of the run
 };
@@ -97,6 +98,7 @@ public:
         }
         line += report.phase;
         if (report.step > 0 || report.most_steps > 0) line += "  step " + std::to_string(report.step);
+        if (std::isfinite(report.inverted)) line += "  inverted " + io::detail::format_number(report.inverted, 9);
         if (std::isfinite(report.energy)) line += "  energy " + io::detail::format_number(report.energy);
         return line + "  " + io::detail::format_number(std::round(report.seconds * 100) / 100, 6) + " s";
     }
@@ -119,6 +121,7 @@ public:
         };
         return line + "\",\"iteration\":" + std::to_string(report.step) + ",\"energy\":" + number(report.energy) +
                ",\"gradient\":" + number(report.gradient) + ",\"step\":" + number(report.length) +
+               (std::isfinite(report.inverted) ? ",\"inverted\":" + number(report.inverted) : "") +
                ",\"seconds\":" + number(report.seconds) + "}";
     }
 

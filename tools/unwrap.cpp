@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,13 +13,17 @@
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_obj.hpp>
 #include <taut/map/parameterize.hpp>
+#include <taut/map/untangle/make_untangle_problem.hpp>
 
 #include "commands.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "open_queue.hpp"
 #include "outputs.hpp"
 #include "png.hpp"
 #include "progress.hpp"
+#include "run_clock.hpp"
+#include "shared_options.hpp"
 #include "unwrap_options.hpp"
 #include "unwrap_report.hpp"
 
@@ -30,22 +33,14 @@ namespace taut::tools
 namespace
 {
 
-/// The queue on the device that was asked for. A wish for double or mixed precision needs a device with double.
 queue open_queue(const unwrap_options& options, std::vector<std::string>& notes)
 {
-    // TAUT_DEVICE is how the library takes a wish; --device is the same thing, said louder.
-    if (!options.device.empty()) ::setenv("TAUT_DEVICE", options.device.c_str(), 1);
     const bool need = options.precision == precision::full || options.precision == precision::mixed;
-    queue q(choose_device({.fp64 = need}));
+    queue q =
+        tools::open_queue(options.device, need); // a wish for double or mixed precision needs a device with double
     if (options.precision == precision::automatic && !q.device().has_fp64())
         notes.push_back("the device has no double precision: calculated in float");
     return q;
-}
-
-/// --quiet hides what nobody asked for; a --progress that is named stays.
-progress_mode progress_of(const unwrap_options& options)
-{
-    return options.quiet && options.progress == "auto" ? progress_mode::none : *parse_progress_mode(options.progress);
 }
 
 /// One run of `taut unwrap`, phase by phase.
@@ -53,7 +48,7 @@ class unwrap_run
 {
 public:
     unwrap_run(const unwrap_options& options, std::chrono::steady_clock::time_point launch)
-        : options_(options), launch_(launch), progress_(progress_of(options), std::cerr)
+        : options_(options), clock_(launch), progress_(progress_of(options.progress, options.quiet), std::cerr)
     {
     }
 
@@ -61,8 +56,9 @@ public:
     {
         check(options_);
         tell("read");
-        report_.seconds.read = timed([&] { file_ = io::read_surface_file(options_.input); });
+        report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input); });
         report_.notes = file_->notes;
+        read_pins();
         parameterize();
         write();
         progress_.finish();
@@ -71,21 +67,22 @@ public:
     }
 
 private:
-    double now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - launch_).count(); }
+    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
 
-    template <class F>
-    double timed(F&& f)
+    void read_pins()
     {
-        const double begin = now();
-        f();
-        return now() - begin;
+        if (options_.pins.empty()) return;
+        const index count = file_->surface.vertex_count();
+        pins_ = constraints<triangle>(file_->surface);
+        add_pins(pins_, io::read_pins<2>(options_.pins, count));
+        report_.pins = pins_.pins().size();
+        report_.springs = pins_.springs().size();
     }
-
-    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = now()}); }
 
     void parameterize()
     {
         auto params = to_params(options_);
+        params.constraints = pins_;
         if (options_.start == start_kind::uv) params.initial = start_from_file();
         params.observer = [this](const solve::progress& p)
         {
@@ -96,33 +93,58 @@ private:
                                   .energy = p.value,
                                   .gradient = p.gradient,
                                   .length = p.step,
-                                  .seconds = now()});
+                                  .seconds = clock_.now()});
             return !interrupt_.requested();
         };
         tell("device");
         std::optional<queue> q;
-        report_.seconds.queue = timed([&] { q = open_queue(options_, report_.notes); });
+        report_.seconds.queue = clock_.timed([&] { q = open_queue(options_, report_.notes); });
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         // The limit is one for the whole run: what reading took is gone.
         if (std::isfinite(options_.time_limit))
-            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - now()));
+            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
         tell("start");
         auto result = taut::parameterize(*q, file_->surface, params);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
-        if (!result)
-            throw no_valid_map(report_.map.reason + (options_.start == start_kind::uv
-                                                         ? "; --start tutte makes a map without flips"
-                                                         : "; --start mean-value or --spacing uniform may succeed"));
+        if (!result) refuse(result);
         uv_ = std::move(result.uv);
         tell("measure");
-        report_.seconds.quality = timed([&] { report_.assess(options_, params, file_->surface, uv_); });
+        report_.seconds.quality = clock_.timed([&] { report_.assess(options_, params, file_->surface, uv_); });
         // The certificate of exactly what is written, taken by other code than the solver's.
         if (report_.after.quality.flips.flipped > 0)
             throw no_valid_map("the map has " + std::to_string(report_.after.quality.flips.flipped) +
                                " flipped triangles; --precision double may succeed");
+    }
+
+    /// Never a folded map under the name that was asked for: the best one goes beside it.
+    [[noreturn]] void refuse(const map_result& result) const
+    {
+        const auto& map = report_.map;
+        if (map.outcome == outcome::infeasible) throw infeasible_problem(map.reason);
+        if (map.outcome != outcome::gave_up)
+            throw no_valid_map(map.reason + (options_.start == start_kind::uv
+                                                 ? "; --start tutte makes a map without flips"
+                                                 : "; --start mean-value or --spacing uniform may succeed"));
+        std::string ids;
+        for (std::size_t k = 0; k < std::min<std::size_t>(map.ids.size(), 8); ++k)
+            ids += (k == 0 ? " (" : ", ") + std::to_string(map.ids[k]);
+        if (map.ids.size() > 8) ids += ", ..";
+        if (!map.ids.empty()) ids += ')';
+        const std::string best = options_.output + ".invalid";
+        try
+        {
+            io::write_obj(best, file_->surface, result.uv, file_->extras);
+        }
+        catch (const io::io_error& e)
+        {
+            throw output_error(e.what());
+        }
+        const std::string what = map.reason + ids + "; the best map is in " + best;
+        if (interrupt_.requested()) throw interrupted_run(what);
+        throw no_valid_map(what + "; move the pins less far, or make some of them springs");
     }
 
     std::vector<vec2> start_from_file() const
@@ -138,8 +160,8 @@ private:
         tell("write");
         try
         {
-            report_.seconds.write = timed([&] { write_files(); });
-            report_.seconds.total = now();
+            report_.seconds.write = clock_.timed([&] { write_files(); });
+            report_.seconds.total = clock_.now();
             if (!options_.stats.empty())
                 write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
         }
@@ -151,7 +173,7 @@ private:
         {
             throw output_error(e.what());
         }
-        report_.seconds.total = now();
+        report_.seconds.total = clock_.now();
     }
 
     void write_files()
@@ -164,10 +186,12 @@ private:
             const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
             const auto loops = boundary_loops(surface);
             const io::layout_style style{.title = title, .energy = report_.energy, .note = report_.summary()};
+            const auto overlay = constraints_overlay();
             if (extension(options_.picture) == ".svg")
-                write_text(options_.picture, io::layout_svg(uv_, surface.cells(), distortion, loops, style));
+                write_text(options_.picture, io::layout_svg(uv_, surface.cells(), distortion, loops, style, overlay));
             else
-                write_png(options_.picture, io::layout_picture(uv_, surface.cells(), distortion, loops, style));
+                write_png(options_.picture,
+                          io::layout_picture(uv_, surface.cells(), distortion, loops, style, overlay));
         }
         if (!options_.render.empty())
         {
@@ -176,13 +200,24 @@ private:
         }
     }
 
+    io::layout_overlay constraints_overlay() const
+    {
+        io::layout_overlay overlay;
+        for (const auto& [v, pin] : pins_.pins())
+            overlay.pins.push_back({uv_[static_cast<std::size_t>(v)], pin.value, true, pin.held});
+        for (const auto& s : pins_.springs())
+            overlay.pins.push_back({uv_[static_cast<std::size_t>(s.vertex)], s.target, false});
+        return overlay;
+    }
+
     static constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace; // file names need not be UTF-8
 
     unwrap_options options_;
-    std::chrono::steady_clock::time_point launch_;
+    run_clock clock_;
     interrupt_guard interrupt_;
     progress progress_;
     std::optional<io::surface_file> file_;
+    constraints<triangle> pins_;
     std::vector<vec2> uv_;
     unwrap_report report_;
 };

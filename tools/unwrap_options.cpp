@@ -10,6 +10,7 @@
 #include "choices.hpp"
 #include "failure.hpp"
 #include "outputs.hpp"
+#include "shared_options.hpp"
 
 namespace taut::tools
 {
@@ -46,18 +47,11 @@ void declare_map(CLI::App& app, unwrap_options& o)
                                   {"uniform", boundary_spacing::uniform},
                                   {"centripetal", boundary_spacing::centripetal}},
                                  "Gaps on the circle or square: as edge lengths, equal, as their roots");
+    app.add_option("--pins", o.pins,
+                   "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
+                   "file; without a weight exactly, with one as a spring; an empty u or v is free")
+        ->type_name("FILE.csv");
     app.add_flag("--holes", o.holes, "Take surfaces with holes; the longest boundary is the outer one");
-}
-
-/// A check whose message is a sentence; CLI11's own writes the range out to the last digit.
-CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
-{
-    return {[=](const std::string& text)
-            {
-                double x = 0;
-                return CLI::detail::lexical_cast(text, x) && holds(x) ? std::string() : text + ' ' + otherwise;
-            },
-            ""};
 }
 
 void declare_solver(CLI::App& app, unwrap_options& o)
@@ -78,18 +72,14 @@ void declare_solver(CLI::App& app, unwrap_options& o)
         ->type_name("T")
         ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
         ->capture_default_str();
-    app.add_option("--time-limit", o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)")
-        ->type_name("S")
-        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
+    add_time_limit(app, o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)");
     add_choice<taut::precision>(app, "--precision", o.precision,
                                 {{"auto", precision::automatic},
                                  {"double", precision::full},
                                  {"float", precision::single},
                                  {"mixed", precision::mixed}},
                                 "Arithmetic of the optimisation; the check for flips is exact in any case");
-    app.add_option("--device", o.device, "Number or part of the name of an OpenCL device, see `taut devices`")
-        ->type_name("D")
-        ->envname("TAUT_DEVICE");
+    add_device(app, o.device);
 }
 
 void declare_reports(CLI::App& app, unwrap_options& o)
@@ -102,9 +92,7 @@ void declare_reports(CLI::App& app, unwrap_options& o)
         {"-y", vec3(0, -1, 0)}, {"+z", vec3(0, 0, 1)}, {"-z", vec3(0, 0, -1)}};
     add_choice<std::optional<vec3>>(app, "--up", o.up, axes, "What is up in the render");
     add_choice<std::optional<vec3>>(app, "--front", o.front, axes, "Which side the render shows first");
-    add_choice<std::string>(app, "--progress", o.progress, {{"auto", "auto"}, {"json", "json"}, {"none", "none"}},
-                            "On standard error: a bar if it is a terminal, a JSON object a line, nothing");
-    app.add_flag("--quiet", o.quiet, "Print errors only, and what --progress asks for by name");
+    add_progress(app, o.progress, o.quiet);
 }
 
 } // namespace
@@ -133,6 +121,7 @@ void check(const unwrap_options& o)
     files.add("--stats", o.stats, {".json"});
     files.add("--picture", o.picture, {".png", ".svg"});
     files.add("--render", o.render, {".png"});
+    if (!o.pins.empty()) files.protect(o.pins);
     files.protect(o.input); // -o may name the input: it is replaced as a whole, at the end
     files.add("-o", o.output, {".obj"});
 }

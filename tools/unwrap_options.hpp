@@ -49,7 +49,7 @@ enum class energy_kind
 /// What the user asked `taut unwrap` for.
 struct unwrap_options
 {
-    std::string input, output, stats, picture, render, device, progress;
+    std::string input, output, pins, stats, picture, render, device, progress;
     energy_kind energy{};
     boundary_kind boundary{};
     energy::weighting weights{};

@@ -3,8 +3,7 @@
 
 #include <iostream>
 
-#include <sys/resource.h>
-
+#include "run_clock.hpp"
 #include "text_table.hpp"
 
 namespace taut::tools
@@ -12,14 +11,6 @@ namespace taut::tools
 
 namespace
 {
-
-/// Largest resident size of this process so far. A CPU device's buffers are part of it, a GPU's are not.
-std::uint64_t peak_memory()
-{
-    rusage usage{};
-    if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts KiB
-}
 
 means mean_energy(const any_energy& energy, const mesh<triangle>& surface, const ideal_elements<triangle>& ideal,
                   std::span<const vec2> uv)
@@ -112,6 +103,13 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                       {"boundary", boundary_name(o.boundary)},
                       {"solver", to_string(o.solver)},
                       {"start", describe_start(o)}};
+    json["constraints"] = {{"pins", r.pins}, {"springs", r.springs}};
+    json["untangling"] = nlohmann::ordered_json::array();
+    for (const auto& stage : r.map.untangling)
+        json["untangling"].push_back({{"stage", stage.name},
+                                      {"iterations", stage.iterations},
+                                      {"inverted", stage.inverted},
+                                      {"seconds", stage.seconds}});
     json["stop"] = identifier(r.map.solve.stop);
     json["iterations"] = r.map.solve.iterations;
     json["hessian_products"] = r.map.solve.products;
@@ -125,7 +123,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["max_det"] = finite(flips.max_det);
     json["seconds"] = {{"read", r.seconds.read},       {"device", r.seconds.queue + r.map.seconds.device},
                        {"setup", r.map.seconds.setup}, {"hierarchy", r.map.seconds.hierarchy},
-                       {"start", r.map.seconds.start}, {"untangle", 0.0}, // barycentric starts have nothing to untangle
+                       {"start", r.map.seconds.start}, {"untangle", r.map.seconds.untangle},
                        {"solve", r.map.seconds.solve}, {"quality", r.seconds.quality},
                        {"write", r.seconds.write},     {"total", r.seconds.total}};
     json["levels"] = nlohmann::ordered_json::array();
@@ -136,6 +134,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                                   {"energy_start", finite(l.solve.value_start)},
                                   {"energy", finite(l.solve.value)},
                                   {"seconds", l.solve.seconds}});
+    json["capping"] = r.map.solve.capping;
     json["launches"] = r.map.counters.launches;
     json["waits"] = r.map.counters.waits;
     json["peak_memory_bytes"] = peak_memory();
@@ -155,6 +154,9 @@ void print(const unwrap_report& r, const unwrap_options& o)
     lines.add("device", r.device_label + ", " + to_string(r.map.precision));
     lines.add("start", describe_start(o) + ": E " + number(r.energy_before) + ", " +
                            count(r.map.start.flips.flipped, "flip", "flips"));
+    if (r.pins + r.springs > 0)
+        lines.add("constraints",
+                  count(r.pins, "vertex pinned", "vertices pinned") + ", " + count(r.springs, "spring", "springs"));
     lines.add("energy",
               to_string(o.energy) + ' ' + number(r.energy_before) + " -> " + number(r.energy, 6) +
                   (o.weights == energy::weighting::measure ? " by area, mean " + number(r.energy_end.uniform, 6)
@@ -167,8 +169,9 @@ void print(const unwrap_report& r, const unwrap_options& o)
     lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
                           duration(r.seconds.queue + r.map.seconds.device) + ", setup " +
                           duration(r.map.seconds.setup) + ", hierarchy " + duration(r.map.seconds.hierarchy) +
-                          ", start " + duration(r.map.seconds.start) + ", solve " + duration(r.map.seconds.solve) +
-                          ", write " + duration(r.seconds.write));
+                          ", start " + duration(r.map.seconds.start) +
+                          (r.map.untangling.empty() ? "" : ", untangle " + duration(r.map.seconds.untangle)) +
+                          ", solve " + duration(r.map.seconds.solve) + ", write " + duration(r.seconds.write));
     lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
     std::string files = o.output;
     for (const auto& file : {o.picture, o.render, o.stats})

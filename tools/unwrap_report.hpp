@@ -27,6 +27,7 @@ struct unwrap_report
     exit_code code = exit_code::valid;
     std::string device, device_label;
     std::vector<std::string> notes;
+    std::size_t pins = 0, springs = 0; ///< vertices that have one
     map_report map;
     means energy_end;                     ///< of the energy that was minimised, in double on the host
     double energy_before = 0, energy = 0; ///< at the start and at the end, by the chosen weights

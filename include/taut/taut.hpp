@@ -23,10 +23,16 @@
 
 #include <taut/solve/minimize.hpp>
 
+#include <taut/io/pins.hpp>
+#include <taut/io/prob.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/write_map.hpp>
 #include <taut/io/write_obj.hpp>
 
 #include <taut/map/check_gradient.hpp>
+#include <taut/map/constraints.hpp>
 #include <taut/map/crossings.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/map/quality.hpp>
+#include <taut/map/untangle/make_untangle_problem.hpp>
+#include <taut/map/untangle/untangle.hpp>

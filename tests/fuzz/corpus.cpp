@@ -2,10 +2,11 @@
 #include <iostream>
 #include <string>
 
+#include <support/problem_texts.hpp>
 #include <support/surface_texts.hpp>
 #include <support/temporary_folder.hpp>
 
-/// Writes the files that a fuzzer starts from: corpus <folder>, which gets the folders obj, off and ply.
+/// Writes the files that a fuzzer starts from: corpus <folder>, which gets the folders obj, off, ply and prob.
 int main(int argc, char** argv)
 {
     if (argc != 2)
@@ -24,4 +25,7 @@ int main(int argc, char** argv)
     write("obj", taut::test::obj_texts());
     write("off", taut::test::off_texts());
     write("ply", taut::test::ply_texts());
+    auto problems = taut::test::problem_texts();
+    for (const auto& pins : taut::test::pin_texts()) problems.push_back(pins);
+    write("prob", problems);
 }

@@ -133,11 +133,92 @@ valid_map()
     says values '^flipped=0$'
 }
 
+# strip N [KIND]: a problem of 4 N triangles, a strip of height 2 whose boundary is pinned. KIND: valid, collapsed (the
+# free vertices in one point), mirrored (so is the boundary), twisted (pinned like an eight), pinched (a pinned triangle
+# that is flipped), free (nothing pinned)
+strip()
+{
+    awk -v n="$1" -v kind="${2:-valid}" '
+        function vertex(i, j) { return j * (n + 1) + i }
+        BEGIN {
+            nv = 3 * (n + 1)
+            print nv, 2
+            for (j = 0; j < 3; ++j) for (i = 0; i <= n; ++i) print i, j
+            print nv, 2
+            for (j = 0; j < 3; ++j)
+                for (i = 0; i <= n; ++i)
+                {
+                    x = i; y = j
+                    if (kind == "collapsed" && j == 1 && i > 0 && i < n) { x = n / 2; y = 1.9 }
+                    if (kind == "mirrored") x = -x
+                    if (kind == "twisted" && i >= n / 2) y = 2 - j
+                    if (kind == "pinched" && i == 0 && j == 0) { x = 2; y = 3 }
+                    printf "%.17g %.17g\n", x, y
+                }
+            print 4 * n, 3
+            for (j = 0; j < 2; ++j)
+                for (i = 0; i < n; ++i)
+                {
+                    print vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)
+                    print vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)
+                }
+            list = ""; k = 0
+            if (kind != "free")
+                for (j = 0; j < 3; ++j)
+                    for (i = 0; i <= n; ++i)
+                        if (j != 1 || i == 0 || i == n) { list = list vertex(i, j) "\n"; ++k }
+            printf "%d\n%s", k, list
+        }'
+}
+
+# star N: a problem of a square of 2 N^2 triangles whose boundary is pinned to a star with four deep notches.
+star()
+{
+    awk -v n="$1" '
+        function vertex(i, j) { return j * (n + 1) + i }
+        # The place along the boundary, counter-clockwise from the lower left corner; -1 inside.
+        function along(i, j) { return j == 0 ? i : i == n ? n + j : j == n ? 3 * n - i : i == 0 ? 4 * n - j : -1 }
+        BEGIN {
+            nv = (n + 1) * (n + 1)
+            print nv, 2
+            for (j = 0; j <= n; ++j) for (i = 0; i <= n; ++i) print i, j
+            print nv, 2
+            for (j = 0; j <= n; ++j)
+                for (i = 0; i <= n; ++i)
+                {
+                    k = along(i, j)
+                    a = 8 * atan2(1, 1) * k / (4 * n)
+                    r = k < 0 ? 0 : 1 + 0.8 * cos(4 * a)
+                    printf "%.17g %.17g\n", r * cos(a), r * sin(a)
+                }
+            print 2 * n * n, 3
+            for (j = 0; j < n; ++j)
+                for (i = 0; i < n; ++i)
+                {
+                    print vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)
+                    print vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)
+                }
+            print 4 * n
+            for (j = 0; j <= n; ++j) for (i = 0; i <= n; ++i) if (along(i, j) >= 0) print vertex(i, j)
+        }'
+}
+
+# keeps_pins PROBLEM MAP: the map has the fixed vertices where the problem has them.
+keeps_pins()
+{
+    awk 'NR == FNR { x[FNR - 1] = $1 + 0; y[FNR - 1] = $2 + 0; next }
+         FNR == 1 { n = $1 }
+         FNR > n + 2 && FNR <= 2 * n + 2 { u[FNR - n - 3] = $1 + 0; v[FNR - n - 3] = $2 + 0 }
+         FNR == 2 * n + 3 { cells = $1 }
+         FNR > 2 * n + 4 + cells && (x[$1] != u[$1] || y[$1] != v[$1]) { bad = 1 }
+         END { exit bad }' "$2" "$1" || fail "$2 moves a pin of $1"
+}
+
 test_usage()
 {
     grid 4 >in.obj
     expect 0 --help
-    says out 'unwrap' 'eval' 'devices' 'exit codes: 0 valid map; 2 usage'
+    says out 'unwrap' 'untangle' 'check' 'eval' 'devices' 'exit codes: 0 valid map; 2 usage'
     expect 0 unwrap --help
     says out '--energy isometric\|shape\|area' '--time-limit' '130 interrupted'
     expect 0 --version
@@ -442,9 +523,14 @@ test_starts()
     rm out.obj
 
     grid 6 folded >folded.obj
-    expect 6 unwrap folded.obj -o out.obj --start uv
-    error_says 'no valid map' '12 flipped of 72' '--start tutte'
-    absent out.obj
+    expect 0 unwrap folded.obj -o out.obj --start uv
+    says err '12 triangles of the start were flipped'
+    valid_map out.obj
+    rm out.obj
+    # Where time is up before it is injective, a start that is makes up for it.
+    expect 8 unwrap folded.obj -o late.obj --start uv --time-limit 1e-6
+    says err 'another start was made'
+    valid_map late.obj
     grid 6 >bare.obj
     expect 4 unwrap bare.obj -o out.obj --start uv
     error_says 'no texture coordinates'
@@ -494,6 +580,26 @@ stopped()
     valid_map out.obj
 }
 
+# run_until PATTERN ARGUMENTS...: runs the program with --progress json, and interrupts it once its progress says PATTERN.
+run_until()
+{
+    pattern=$1
+    shift
+    "$taut" "$@" --progress json >out 2>err &
+    program=$!
+    waited=0
+    until grep -Eq "$pattern" err; do
+        sleep 0.1
+        waited=$((waited + 1))
+        [ "$waited" -lt 3000 ] || { kill -9 "$program"; fail "no iteration in 5 minutes"; }
+        kill -0 "$program" 2>/dev/null || fail "ended before Ctrl-C"
+    done
+    kill -INT "$program"
+    wait "$program"
+    code=$?
+    [ "$code" = 130 ] || fail "exit code $code instead of 130 after Ctrl-C"
+}
+
 test_stops()
 {
     grid 150 >in.obj
@@ -505,22 +611,196 @@ test_stops()
     done
 
     # Ctrl-C in the middle of a run that would last for hours.
-    "$taut" unwrap in.obj -o out.obj --stats stats.json --tolerance 0 --iterations 1000000000 --solver gd \
-        --progress json >out 2>err &
-    program=$!
-    waited=0
-    until grep -q '"phase":"optimize","iteration":[1-9]' err; do
-        sleep 0.1
-        waited=$((waited + 1))
-        [ "$waited" -lt 3000 ] || { kill -9 "$program"; fail "no iteration in 5 minutes"; }
-        kill -0 "$program" 2>/dev/null || fail "ended before Ctrl-C"
-    done
-    kill -INT "$program"
-    wait "$program"
-    code=$?
-    [ "$code" = 130 ] || fail "exit code $code instead of 130 after Ctrl-C"
+    run_until '"phase":"optimize","iteration":[1-9]' unwrap in.obj -o out.obj --stats stats.json --tolerance 0 \
+        --iterations 1000000000 --solver gd
     says out '^stop .*interrupted'
     stopped user
+
+    # Of a problem that is interrupted, what is left has the name only if it is valid.
+    star 200 >large.prob
+    run_until '"phase":"untangle","iteration":[1-9]' untangle large.prob -o map.txt --stats stats.json
+    if [ -e map.txt ]; then written=map.txt inverted=0; else written=map.txt.invalid inverted='[1-9].*'; fi
+    keys stats.json inverted
+    says values "^inverted=$inverted\$"
+    keeps_pins large.prob $written
+}
+
+test_check()
+{
+    grid 4 >in.obj
+    expect 0 check in.obj
+    says out '^input .*surface, 25 vertices, 32 triangles' '^result +nothing wrong'
+    silent err
+    expect 0 check in.obj --json
+    cp out check.json
+    keys check.json schema kind vertices cells exit_code findings
+    says values '^exit_code=0$' '^findings=\[\]$'
+
+    # All that is wrong, not only the first.
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 7 0 0\nv 9 9 9\nf 1 2 3\nf 4 5 6\n' >many.obj
+    expect 4 check many.obj
+    says out '^error +1 triangle \(1\) flat' '^error +2 components' '^error +1 vertex \(6\) without' '^result +[3-9] errors'
+    expect 4 check many.obj --json
+    cp out check.json
+    keys check.json findings.0.fault findings.0.ids findings.0.message findings.1.severity findings.2.about
+    says values '^findings.0.fault=degenerate_cell$' '^findings.1.severity=error$' '^findings.2.about=mesh$'
+    ring >ring.obj
+    expect 4 check ring.obj
+    says out 'boundary loops' '--holes'
+
+    expect 3 check nothing.obj
+    says out '^error +nothing.obj: No such file'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n' >word.obj
+    expect 3 check word.obj --json
+    cp out check.json
+    keys check.json findings.0.message
+    says values 'line 3'
+    expect 2 check
+
+    # Pins of a surface.
+    printf 'vertex,u,v,weight\n0,0,0\n4,1,0,\n12,0.4,0.6,10\n' >pins.csv
+    expect 0 check in.obj --pins pins.csv
+    says out '^pins +2 pinned vertices, 1 spring$'
+    printf '0,0,0\n24,1,zero\n' >word.csv
+    expect 3 check in.obj --pins word.csv
+    says out 'word.csv, line 2: expected a coordinate'
+    printf '0,0,0\n25,1,1\n' >range.csv
+    expect 3 check in.obj --pins range.csv
+    says out 'range.csv, line 2: vertex 25 of 25'
+    printf '0,0,0\n1,1,0\n6,1,-1\n' >flip.csv # a triangle of the grid
+    expect 7 check in.obj --pins flip.csv
+    says out 'all vertices pinned, flipped or flat' '^result +1 error: no valid map exists'
+
+    # Problems, with all proofs.
+    for kind in valid collapsed free; do
+        strip 8 $kind >$kind.prob
+        expect 0 check $kind.prob
+        says out 'problem of triangles, 27 vertices, 32 triangles' '^result +nothing wrong'
+    done
+    for kind in mirrored twisted pinched; do
+        strip 8 $kind >$kind.prob
+        expect 7 check $kind.prob
+        says out '^error ' '^result .*no valid map exists'
+    done
+    strip 8 pinched >pinched.prob
+    expect 7 check pinched.prob --json
+    cp out check.json
+    keys check.json findings.0.about findings.0.fault findings.0.ids inverted
+    says values '^findings.0.about=feasibility$'
+    printf '10,4,1\n' >pins.csv
+    expect 0 check valid.prob --pins pins.csv
+    says out '21 pinned vertices'
+    printf '0,4,1\n' >pins.csv
+    expect 4 check valid.prob --pins pins.csv
+    says out 'vertex 0' 'two different positions'
+    sed '$d' valid.prob >short.prob
+    expect 3 check short.prob
+    says out 'short.prob, line .*ends before fixed vertex'
+}
+
+test_pins()
+{
+    grid 4 >in.obj
+    # The corner of the grid held exactly, one coordinate of another, a spring; the file keeps 17 digits of both.
+    printf 'vertex,u,v,weight\n0,0.1,0.3,\n24,1.7,,\n12,0.9,0.8,10\n' >pins.csv
+    expect 0 unwrap in.obj -o out.obj --pins pins.csv --stats stats.json --picture out.svg
+    says out 'constraints +2 vertices pinned, 1 spring'
+    keys stats.json constraints.pins constraints.springs seconds.untangle flipped
+    says values '^constraints.pins=2$' '^constraints.springs=1$' '^flipped=0$'
+    grep '^vt' out.obj | sed -n 1p | grep -qx 'vt 0.1 0.3' || fail "vertex 0 is not where it is pinned"
+    grep '^vt' out.obj | sed -n 25p | grep -q '^vt 1.7 ' || fail "vertex 24 has not the u that is held"
+    grep -q 'spring' out.svg || fail "the picture has no legend for springs"
+
+    printf '0,0,0\n1,1,0\n6,1,-1\n' >flip.csv # a triangle of the grid
+    expect 7 unwrap in.obj -o no.obj --pins flip.csv
+    says err 'infeasible' 'all vertices pinned, flipped or flat'
+    [ ! -e no.obj ] || fail "a map was written for an infeasible problem"
+    printf '0,0,0\n0,1,0\n' >twice.csv
+    expect 3 unwrap in.obj -o no.obj --pins twice.csv
+    says err 'twice.csv, line 2: vertex 0'
+    expect 3 unwrap in.obj -o no.obj --pins missing.csv
+    expect 2 unwrap in.obj -o pins.csv --pins pins.csv
+}
+
+test_untangle()
+{
+    strip 8 collapsed >in.prob
+    cp in.prob copy.prob
+    expect 0 untangle in.prob -o out.txt --stats stats.json --picture out.png
+    says out '^problem .*27 vertices, 32 triangles, 20 vertices pinned' '^inverted +[1-9][0-9]* -> 0 of 32' \
+        '^outcome +injective' '^wrote +out.txt'
+    silent err
+    [ "$(wc -l <out.txt)" = 27 ] || fail "not one line a vertex"
+    keeps_pins in.prob out.txt
+    absent out.txt.invalid
+    keys stats.json schema outcome inverted min_relative_det stage stages.0.name seconds.solve seconds.total device
+    says values '^outcome=injective$' '^inverted=0$'
+    [ "$(od -An -tx1 -N8 out.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "out.png is no PNG"
+
+    # The map, as the initial map of the same problem, is valid: nothing is left to do.
+    awk 'NR == FNR { map[FNR] = $0; next } FNR == 1 { n = $1 } FNR > n + 2 && FNR <= 2 * n + 2 { $0 = map[FNR - n - 2] } 1' \
+        out.txt in.prob >again.prob
+    expect 0 check again.prob
+    says out '^map +0 of 32'
+    expect 0 untangle again.prob -o again.txt --quiet --picture again.svg
+    silent out
+    silent err
+    says again.svg '<svg ' 'before' 'after' '>pin</text>'
+    keeps_pins in.prob again.txt
+    cmp -s in.prob copy.prob || fail "the input was changed"
+
+    # Proofs come before anything is solved, and need no device.
+    echo precious >kept.txt
+    for kind in mirrored twisted pinched; do
+        strip 8 $kind >$kind.prob
+        expect 7 untangle $kind.prob -o kept.txt --stats stats.json --device 'no such device'
+        error_says 'infeasible'
+        keys stats.json outcome reason ids.0 output
+        says values '^outcome=infeasible$'
+    done
+    [ "$(cat kept.txt)" = precious ] || fail "a failed run touched its output"
+
+    # A map with flips never gets the name that was asked for.
+    star 40 >large.prob
+    expect 6 untangle large.prob -o late.txt --time-limit 1e-6 --stats stats.json
+    error_says 'no valid map' 'late.txt.invalid'
+    absent late.txt
+    keeps_pins large.prob late.txt.invalid
+    keys stats.json outcome ids.0
+    says values '^outcome=gave_up$'
+
+    expect 0 untangle in.prob -o out.txt --progress json
+    says err '"phase":"read"' '"phase":"untangle"' '"phase":"write"'
+
+    # A tetrahedron of four, whose inner vertex starts outside.
+    {
+        printf '5 3\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n1 1 1\n5 3\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n3 3 3\n'
+        printf '4 4\n4 1 2 3\n0 4 2 3\n0 1 4 3\n0 1 2 4\n4\n0\n1\n2\n3\n'
+    } >volume.prob
+    expect 0 check volume.prob
+    says out 'problem of tetrahedra, 5 vertices, 4 tetrahedra' '^map +1 of 4 inverted'
+    expect 0 untangle volume.prob -o volume.txt --stats stats.json
+    keys stats.json element outcome
+    says values '^element=tetrahedron$' '^outcome=injective$'
+    expect 2 untangle volume.prob -o volume.txt --picture volume.png
+    error_says '--picture' 'tetrahedra'
+
+    expect 2 untangle in.prob
+    error_says '--output is required'
+    expect 2 untangle in.prob -o missing/out.txt
+    error_says 'no folder missing'
+    expect 2 untangle in.prob -o in.prob
+    error_says 'overwrite the input'
+    expect 2 untangle in.prob -o out.txt --picture out.jpg
+    error_says '.png or .svg'
+    expect 2 untangle in.prob -o out.txt --time-limit 0
+    error_says '--time-limit'
+    expect 3 untangle nothing.prob -o out.txt
+    error_says 'nothing.prob'
+    printf '3 2\n0 0\n1 0\n0 one\n' >word.prob
+    expect 3 untangle word.prob -o out.txt
+    error_says 'line 4'
+    expect 5 untangle in.prob -o out.txt --device 'no such device'
 }
 
 "test_$case_name"

@@ -5,4 +5,5 @@
 #include <taut/io/picture/layout_picture.hpp>
 #include <taut/io/picture/layout_svg.hpp>
 #include <taut/io/picture/render_picture.hpp>
+#include <taut/io/picture/side_by_side_svg.hpp>
 #include <taut/io/picture/symmetric_distortion.hpp>

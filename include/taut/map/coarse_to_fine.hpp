@@ -21,6 +21,10 @@ struct coarse_to_fine_params
     /// `base` is set to the energy at rest: surfaces that are nearly developable are worth the digits above it.
     solve::stopping_params stopping = {
         .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .decrease_count = 1, .max_iterations = 100};
+    /// Levels with at most so many vertices wait for this many small decreases in a row instead: iterations are cheap
+    /// there, and extreme shapes (long tubes) pause on their way.
+    std::size_t small_vertices = 4000;
+    int small_decrease_count = 3;
 };
 
 /// Nested iteration: a start map on a coarse level, minimised, and then for each finer level its vertices reinserted
@@ -79,7 +83,9 @@ private:
     {
         typename level_solver<P, R>::level level(solver_, l, uv);
         if (relax) level.relax();
-        auto r = level.minimize({.method = solve::method::newton, .stopping = params_.stopping}, ask);
+        auto stopping = params_.stopping;
+        if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;
+        auto r = level.minimize({.method = solve::method::newton, .stopping = stopping}, ask);
         r.history.clear();
         reports_.push_back({.level = l, .vertices = levels_.vertices(l), .solve = std::move(r)});
         return level.download();

@@ -45,11 +45,12 @@ public:
     class level
     {
     public:
-        /// uv: the map to start from, coordinates of the level's vertices.
-        level(level_solver& owner, std::size_t l, const std::vector<vec2>& uv)
+        /// uv: the map to start from, coordinates of the level's vertices. constraints: in the level's numbers.
+        level(level_solver& owner, std::size_t l, const std::vector<vec2>& uv,
+              const point_constraints<2>& constraints = {})
             : layout_(owner.levels_.make_layout(l)),
               problem_(owner.queue_, layout_, owner.energy_, owner.weights_, owner.kernels_, owner.levels_.cells(l),
-                       owner.levels_.transfers(l), owner.levels_.fixed(l)),
+                       owner.levels_.transfers(l), owner.levels_.fixed(l), constraints),
               x_(problem_.make_point())
         {
             problem_.upload(uv, x_);

@@ -9,6 +9,7 @@
 #include <taut/map/level_report.hpp>
 #include <taut/map/precision.hpp>
 #include <taut/map/start_map.hpp>
+#include <taut/map/untangle/untangle_result.hpp>
 
 namespace taut
 {
@@ -16,8 +17,10 @@ namespace taut
 /// What became of a map. Only `valid` comes with a map whose every element keeps its orientation, in exact arithmetic.
 enum class outcome
 {
-    valid,         ///< the map is certified; map_report::solve says why the optimisation ended
-    no_valid_start ///< no injective start was found; map_report::reason and ids say where
+    valid,          ///< the map is certified; map_report::solve says why the optimisation ended
+    no_valid_start, ///< no injective start was found; map_report::reason and ids say where
+    infeasible,     ///< no map obeys the pins without flips; reason and ids are the proof
+    gave_up ///< untangling did not succeed; the map has the fewest flipped elements that were seen, ids are theirs
 };
 
 /// Wall-clock seconds of the phases of one run.
@@ -27,6 +30,7 @@ struct map_seconds
     double setup = 0;     ///< validation, ordering, ideal elements, matrices and lists of the mesh itself, transfers
     double hierarchy = 0; ///< coarser levels of the mesh
     double start = 0;     ///< start map; of a coarse start all that happens on coarser levels
+    double untangle = 0;  ///< making the start injective under the constraints
     double solve = 0;     ///< minimisation on the mesh itself
 };
 
@@ -35,12 +39,13 @@ struct map_report
 {
     taut::outcome outcome = outcome::no_valid_start;
     std::string reason;                          ///< why there is no valid map; empty if there is one
-    std::vector<index> ids;                      ///< flipped elements of a start that could not be used, the first few
+    std::vector<index> ids;                      ///< what the reason is about, see outcome
     std::vector<std::string> notes;              ///< what the library decided on its own
     taut::precision precision = precision::full; ///< that the map was calculated in
     start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
     std::vector<level_report> levels; ///< coarser levels, in their order in time
-    certificate flips;                ///< of the map that is returned, exact
+    std::vector<untangle_stage_report> untangling; ///< what it took to make the start injective
+    certificate flips;                             ///< of the map that is returned, exact
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run

@@ -58,29 +58,36 @@ public:
     /// none for a mesh too small to be thinned. fixed: one flag a vertex, or none.
     newton_problem(queue q, std::shared_ptr<const taut::layout<Element>> mesh_layout, const any_energy& energy,
                    energy::weighting weights, std::shared_ptr<const kernels> traced, const cells_type& cells,
-                   const std::vector<transfer_weights>& transfers, std::span<const char> fixed)
+                   const std::vector<transfer_weights>& transfers, std::span<const char> fixed,
+                   const point_constraints<D>& constraints = {})
         : newton_problem(q, mesh_layout, energy, weights, std::move(traced), cells,
                          incidence_of_cells(cells, static_cast<std::size_t>(mesh_layout->vertex_count)), transfers,
-                         fixed)
+                         fixed, constraints)
     {
     }
 
     void linearize(const point& x, bool exact)
     {
-        this->launch_hessian(kernels_->second.projected, x, hessian_);
+        element_hessians(kernels_->second.projected, x);
         assemble_(hessian_, cycle_.matrix());
         cycle_.refresh();
         exact_ = exact;
         if (!exact) return;
         if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
-        this->launch_hessian(kernels_->second.indefinite, x, hessian_);
+        element_hessians(kernels_->second.indefinite, x);
         assemble_(hessian_, *indefinite_);
     }
-    void hessian_product(const vector& v, vector& out) const
+    void hessian_product(const vector& v, vector& out)
     {
         (exact_ ? *indefinite_ : cycle_.matrix()).multiply(v, out);
+        this->terms().mask(out);
     }
-    void precondition(const vector& v, vector& out) { cycle_.apply(v, out); }
+    /// The V-cycle between two projections where coordinates are held: symmetric and positive on what is left.
+    void precondition(const vector& v, vector& out)
+    {
+        cycle_.apply(v, out);
+        this->terms().mask(out);
+    }
 
     /// Moves the vertices of the worst elements alone; whether there were any.
     bool relax(point& x) { return relaxation_(x).vertices > 0; }
@@ -103,9 +110,9 @@ private:
     newton_problem(queue& q, const std::shared_ptr<const taut::layout<Element>>& mesh_layout, const any_energy& energy,
                    energy::weighting weights, std::shared_ptr<const kernels> traced, const cells_type& cells,
                    const cell_incidence& around, const std::vector<transfer_weights>& transfers,
-                   std::span<const char> fixed)
+                   std::span<const char> fixed, const point_constraints<D>& constraints)
         : base(q, mesh_layout, energy, weights,
-               std::shared_ptr<const element_kernels<Element, P, R>>(traced, &traced->first)),
+               std::shared_ptr<const element_kernels<Element, P, R>>(traced, &traced->first), constraints),
           kernels_(std::move(traced)),
           hessian_(q, hessian_slots<D>::count * mesh_layout->cell_stride),
           cycle_(block_matrix<R>(q, pattern_of_cells(cells, around, lane_form::for_device(q.device()).slice), D),
@@ -113,8 +120,15 @@ private:
           assemble_(cycle_.matrix(), cells, around, mesh_layout->cell_stride, fixed),
           relaxation_(q, mesh_layout,
                       std::shared_ptr<const relaxation_kernels<Element, P, R>>(kernels_, &kernels_->relaxation),
-                      this->arrays())
+                      this->arrays(), constraints.touched(static_cast<std::size_t>(mesh_layout->vertex_count)))
     {
+    }
+
+    template <class Kernel>
+    void element_hessians(const Kernel& kernel, const point& x)
+    {
+        this->launch_hessian(kernel, x, hessian_);
+        this->terms().add_hessian(hessian_, [](index j, index k) { return hessian_slots<D>::at(j, k, j, k); });
     }
 
     std::shared_ptr<const kernels> kernels_;

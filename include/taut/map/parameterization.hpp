@@ -9,10 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include <taut/map/branch_points.hpp>
 #include <taut/map/coarse_to_fine.hpp>
+#include <taut/map/held_coordinates.hpp>
 #include <taut/map/parameterization_start.hpp>
 #include <taut/map/separate.hpp>
 #include <taut/map/stopwatch.hpp>
+#include <taut/map/untangle/untangle.hpp>
 
 namespace taut
 {
@@ -36,11 +39,11 @@ public:
         const auto sides = facets(mesh_);
         validate(mesh_, sides, {.one_boundary = !params_.holes});
         ideal_.emplace(mesh_);
-        fix_boundary(sides);
+        held_.emplace(mesh_, sides, params_, unit_);
         report().seconds.setup += watch_.lap();
         if (params_.uses_levels())
         {
-            levels_.emplace(mesh_, pinned_);
+            levels_.emplace(mesh_, held_->pinned());
             report().seconds.hierarchy = watch_.lap();
         }
         coarse_ = starts_coarse();
@@ -64,7 +67,7 @@ private:
 
     bool starts_coarse() const
     {
-        if (!levels_ || !params_.initial.empty()) return false;
+        if (!levels_ || !params_.initial.empty() || held_->constrained()) return false;
         return params_.first == start_method::coarse || params_.first == start_method::automatic;
     }
 
@@ -79,30 +82,96 @@ private:
         return !stopped_;
     }
 
-    void fix_boundary(const facet_table& sides)
-    {
-        if (params_.boundary == boundary_mode::free) return;
-        const auto loops = boundary_loops(mesh_, sides);
-        pinned_.assign(mesh_.points().size(), false);
-        for (const index v : loops[longest_loop(mesh_.points(), loops)]) pinned_[static_cast<std::size_t>(v)] = true;
-    }
-
     void make_start(const facet_table& sides)
     {
         auto p = params_;
         p.start.proceed = [this] { return proceed(); };
         auto& start = report().start;
-        start = parameterization_start(mesh_, *ideal_, sides, p, unit_, report().notes);
+        // Where the constraints leave the boundary free, the best map without them is nearest to the best with them.
+        const bool draft = held_->constrained() && params_.initial.empty() && params_.boundary == boundary_mode::free &&
+                           !held_->outline_pinned(mesh_, sides);
+        if (!draft || !start_without_constraints())
+            start = parameterization_start(mesh_, *ideal_, sides, p, unit_, report().notes);
+        if (held_->constrained())
+        {
+            held_->impose(start.uv);
+            start.assess(mesh_, *ideal_);
+        }
         report().seconds.start += watch_.lap();
+        if (start.flips.flipped > 0 && (held_->constrained() || !params_.initial.empty()))
+            if (!untangle_start(sides))
+                start = parameterization_start(mesh_, *ideal_, sides, without_initial(p), unit_, report().notes);
         // Sums far from the origin cost digits, most of all in float.
-        if (!params_.initial.empty()) centre_ = bounding_square(start.uv).centre;
+        if (held_->constrained() || !params_.initial.empty()) centre_ = bounding_square(start.uv).centre;
         if (start.flips.flipped == 0) return;
-        report().ids = start.flips.ids;
-        report().reason = "the start map has " + std::to_string(start.flips.flipped) + " flipped of " +
-                          std::to_string(start.flips.elements) + " triangles, first " +
-                          std::to_string(report().ids.front());
         report().flips = start.flips;
         result_.uv = start.uv;
+        if (report().reason.empty()) refuse("the start map");
+    }
+
+    /// Whether there is one.
+    bool start_without_constraints()
+    {
+        auto p = params_;
+        p.constraints = {};
+        p.solve.stopping.gradient_tolerance = std::max(1e-3, p.solve.stopping.gradient_tolerance);
+        p.time_limit = left();
+        p.observer = [this](solve::progress now)
+        {
+            now.level = std::max(now.level, 1); // it is not the map that was asked for
+            now.seconds = watch_.total();
+            return ask(now);
+        };
+        auto free = parameterization(queue_, mesh_, p).run();
+        if (free) report().start.uv = std::move(free.uv);
+        return static_cast<bool>(free);
+    }
+
+    static parameterize_params without_initial(parameterize_params p)
+    {
+        p.initial.clear();
+        return p;
+    }
+
+    /// Makes the start injective if it can, and says why not if it cannot. False if nothing binds a start that did not
+    /// come out well, so that another one is better.
+    bool untangle_start(const facet_table& sides)
+    {
+        auto& start = report().start;
+        auto how = params_.untangling;
+        how.time_limit = left();
+        how.observer = [this](const solve::progress&) { return proceed(); };
+        auto found = untangle(queue_, held_->problem(mesh_, start.uv), how);
+        report().untangling = std::move(found.stages);
+        const std::string before = std::to_string(start.flips.flipped) + " triangles of the start were flipped; ";
+        const std::size_t branches = found ? branch_points(mesh_, found.map, boundary_flags(sides)).size() : 0;
+        const bool bound = held_->constrained() || params_.boundary == boundary_mode::fixed;
+        if (!bound && (!found || branches > 0))
+        {
+            report().notes.push_back(before + "another start was made");
+            report().seconds.untangle += watch_.lap();
+            return false;
+        }
+        report().notes.push_back(before + (found ? "it was untangled" : "untangling failed"));
+        if (branches > 0)
+            report().notes.push_back("the start winds more than once around " + std::to_string(branches) + " vertices");
+        start.uv = std::move(found.map);
+        start.assess(mesh_, *ideal_);
+        report().seconds.untangle += watch_.lap();
+        if (found) return true;
+        const bool proved = found.outcome == untangle_outcome::infeasible;
+        report().outcome = proved ? outcome::infeasible : outcome::gave_up;
+        report().reason = std::move(found.reason);
+        report().ids = std::move(found.ids);
+        return true;
+    }
+
+    std::vector<bool> boundary_flags(const facet_table& sides) const
+    {
+        std::vector<bool> flags(mesh_.points().size(), false);
+        for (const auto& loop : boundary_loops(mesh_, sides))
+            for (const index v : loop) flags[static_cast<std::size_t>(v)] = true;
+        return flags;
     }
 
     void optimize(const facet_table& sides)
@@ -132,13 +201,15 @@ private:
         if (report().flips.flipped == 0)
             report().outcome = outcome::valid;
         else
-            refuse();
+            refuse("the map that was found");
     }
 
-    void refuse()
+    void refuse(const std::string& map)
     {
         report().ids = report().flips.ids;
-        report().reason = "the map that was found has " + std::to_string(report().flips.flipped) + " flipped triangles";
+        report().reason = map + " has " + std::to_string(report().flips.flipped) + " flipped of " +
+                          std::to_string(report().flips.elements) + " triangles, first " +
+                          std::to_string(report().ids.empty() ? -1 : report().ids.front());
     }
 
     /// Solves in a precision, and in double where that did not do.
@@ -189,8 +260,8 @@ private:
     template <class P, class R>
     bool solve_alone()
     {
-        const auto local = std::make_shared<const layout<triangle>>(mesh_, pinned_);
-        problem<triangle, P, R> f(queue_, local, params_.energy, params_.weights);
+        const auto local = std::make_shared<const layout<triangle>>(mesh_, held_->pinned());
+        problem<triangle, P, R> f(queue_, local, params_.energy, params_.weights, held_->beyond_pins(centre_));
         auto x = f.make_point();
         f.upload(centred(report().start.uv), x);
         report().seconds.setup += watch_.lap();
@@ -213,7 +284,8 @@ private:
         report().seconds.device += watch_.lap();
         if (!arrival_ && !coarse_) arrival_ = numbers.apply(centred(report().start.uv));
         if (!arrival_ && !descend(solver)) return false;
-        typename level_solver<P, R>::level finest(solver, 0, *arrival_);
+        typename level_solver<P, R>::level finest(solver, 0, *arrival_,
+                                                  held_->beyond_pins(centre_).renumbered(numbers));
         report().seconds.setup += watch_.lap();
         if (coarse_) finest.relax();
         report().solve = finest.minimize(limited(), observer_on(0));
@@ -260,9 +332,14 @@ private:
     solve::params limited() const
     {
         auto p = params_.solve;
-        p.stopping.time_limit = params_.time_limit - std::chrono::duration<double>(watch_.total());
-        p.stopping.time_limit = std::max(p.stopping.time_limit, std::chrono::duration<double>(1e-9));
+        p.stopping.time_limit = std::max(left(), std::chrono::duration<double>(1e-9));
         return p;
+    }
+
+    std::chrono::duration<double> left() const
+    {
+        return std::max(params_.time_limit - std::chrono::duration<double>(watch_.total()),
+                        std::chrono::duration<double>(0));
     }
 
     std::vector<vec2> centred(std::vector<vec2> uv) const
@@ -274,12 +351,10 @@ private:
     /// Undoes what the solver was free to change without anyone asking for it. start: in the user's order.
     void restore(const std::vector<vec2>& start)
     {
-        if (params_.boundary == boundary_mode::free && is_scale_invariant(params_.energy))
+        if (params_.boundary == boundary_mode::free && !held_->constrained() && is_scale_invariant(params_.energy))
             keep_total_area(mesh_, *ideal_, result_.uv);
         for (vec2& p : result_.uv) p += centre_;
-        // The device may hold positions in float; pinned vertices are the start's, bit for bit.
-        for (std::size_t v = 0; v < pinned_.size(); ++v)
-            if (pinned_[v]) result_.uv[v] = start[v];
+        held_->restore(result_.uv, start); // the device may hold positions in float
     }
 
     void subtract_counters()
@@ -301,7 +376,7 @@ private:
     queue_counters counters_;
     stopwatch watch_;
     std::optional<ideal_elements<triangle>> ideal_;
-    std::vector<bool> pinned_; ///< of the mesh; empty if nothing is
+    std::optional<held_coordinates> held_;
     std::optional<mesh_levels> levels_;
     bool certified_ = false;
     bool stopped_ = false;                     ///< by the observer

@@ -12,8 +12,9 @@
 namespace taut::detail
 {
 
-/// The user's coordinates as a start: brought to the surface's size where the boundary is free, turned over where they
-/// are mirrored as a whole. unit: from the user's lengths to those of m. Throws parameter_error for a wrong number.
+/// The user's coordinates as a start: brought to the surface's size where the boundary is free and nothing is
+/// constrained, turned over where they are mirrored as a whole. unit: from the user's lengths to those of m. Throws
+/// parameter_error for a wrong number.
 inline start_map given_start(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
                              const parameterize_params& params, double unit, std::vector<std::string>& notes)
 {
@@ -22,7 +23,7 @@ inline start_map given_start(const mesh<triangle>& m, const ideal_elements<trian
                                              std::to_string(m.points().size()) + " vertices");
     start_map start;
     start.uv = params.initial;
-    if (params.boundary == boundary_mode::free)
+    if (params.boundary == boundary_mode::free && params.constraints.empty())
         bring_to_size(start.uv, std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0));
     else
         for (vec2& p : start.uv) p *= unit;

@@ -8,7 +8,9 @@
 #include <taut/energy/isometric.hpp>
 #include <taut/map/any_energy.hpp>
 #include <taut/map/barycentric_map.hpp>
+#include <taut/map/constraints.hpp>
 #include <taut/map/precision.hpp>
+#include <taut/map/untangle/untangle_params.hpp>
 #include <taut/solve/minimize.hpp>
 
 namespace taut
@@ -41,8 +43,11 @@ struct parameterize_params
 
     boundary_mode boundary = boundary_mode::free;
 
-    /// Start: these coordinates, one a vertex, if there are any; with a free boundary their place and scale do not
-    /// matter. A start that is mirrored as a whole is turned over.
+    /// Pins, which hold bit for bit, and springs. The start is brought near them and untangled.
+    taut::constraints<triangle> constraints = {};
+
+    /// Start: these coordinates, one a vertex, if there are any; with a free boundary and no constraints their
+    /// place and scale do not matter. A start that is mirrored as a whole is turned over, others with flips untangled.
     std::vector<vec2> initial = {};
 
     /// Otherwise the start is made so. A coarse start takes `boundary` from the barycentric parameters and goes over to
@@ -58,6 +63,9 @@ struct parameterize_params
     /// Whether lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.
     /// Newton's method always is.
     bool multigrid = false;
+
+    /// How a start with flips is untangled. Its time limit and observer are overruled by those below.
+    untangle_params untangling = {};
 
     /// Method, line search, stopping. `solve.stopping.time_limit` is overruled by time_limit below.
     solve::params solve = {};
@@ -82,6 +90,7 @@ struct parameterize_params
         if (precision != precision::automatic && precision != precision::full && precision != precision::mixed &&
             precision != precision::single)
             throw parameter_error("precision", "must be automatic, full, mixed or single");
+        untangling.validate();
         solve.validate();
     }
 

@@ -9,6 +9,7 @@
 #include <taut/compute/gather.hpp>
 #include <taut/compute/vector_space.hpp>
 #include <taut/map/characteristic_gradient.hpp>
+#include <taut/map/constraint_terms.hpp>
 #include <taut/map/element_arrays.hpp>
 #include <taut/map/element_kernels.hpp>
 
@@ -17,10 +18,10 @@ namespace taut
 
 /// The distortion of a map of a mesh as an objective for the solvers (solve/objective.hpp), evaluated on a device:
 ///
-///     f(x) = sum over cells of w_c E(S_c(x)) / sum of w_c
+///     f(x) = sum over cells of w_c E(S_c(x)) / sum of w_c + sum over springs of k_v |x_v - t_v|^2
 ///
 /// with w_c = 1 or the rest measure. A point holds the coordinates of all vertices in layout order, D x vertex_stride,
-/// in P; vectors have the same shape in R and are zero on pinned vertices, so that those never move.
+/// in P; vectors have the same shape in R and are zero on what is pinned or held, so that it never moves.
 /// Kernels per evaluation: elements, gather (paper Fig. 8), one reduction; one host wait.
 template <class Element, class P, class R>
 class problem
@@ -33,15 +34,17 @@ public:
 
     using kernels = element_kernels<Element, P, R>;
 
+    /// constraints: besides the pins of the layout, in the user's numbers.
     problem(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
-            energy::weighting weights)
-        : problem(q, std::move(mesh_layout), energy, weights, std::make_shared<const kernels>(q, energy))
+            energy::weighting weights, const point_constraints<D>& constraints = {})
+        : problem(q, std::move(mesh_layout), energy, weights, std::make_shared<const kernels>(q, energy), constraints)
     {
     }
 
     /// With kernels of the same energy that another problem has traced already.
     problem(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
-            energy::weighting weights, std::shared_ptr<const kernels> traced)
+            energy::weighting weights, std::shared_ptr<const kernels> traced,
+            const point_constraints<D>& constraints = {})
         : queue_(std::move(q)),
           layout_(std::move(mesh_layout)),
           space_(queue_, D * layout_->vertex_stride),
@@ -53,6 +56,7 @@ public:
           limit_(queue_, std::vector<R>(1, R(1))),
           corner_gradients_(queue_, (D + 1) * D * layout_->cell_stride),
           gather_(make_gather()),
+          terms_(queue_, *layout_, constraints),
           gradient_scale_(characteristic_gradient(*layout_, energy, weights))
     {
     }
@@ -71,6 +75,7 @@ public:
     {
         kernels_->value(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
                         energies_, cell_stride(), vertex_stride());
+        terms_.add_energy(x, energies_);
         return summed();
     }
 
@@ -85,7 +90,10 @@ public:
     {
         kernels_->gradient(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
                            energies_, corner_gradients_, cell_stride(), vertex_stride());
+        terms_.add_energy(x, energies_);
+        terms_.add_gradient(x, corner_gradients_);
         gather_(corner_gradients_, g.data());
+        terms_.mask(g);
     }
 
     /// f at x + a[i] d, four step lengths a launch, one wait in all.
@@ -167,6 +175,8 @@ protected:
 
     const std::shared_ptr<const element_arrays<Element, R>>& arrays() const { return arrays_; }
 
+    constraint_terms<Element, P, R>& terms() { return terms_; }
+
     /// Launches a kernel of element_hessian_kernels.
     template <class Kernel>
     void launch_hessian(const Kernel& kernel, const point& x, buffer<R>& hessian)
@@ -214,6 +224,7 @@ private:
             kernels_->along(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
                             d.data(), unit, energies_, cell_stride(), vertex_stride(), step(0), step(1), step(2),
                             step(3));
+            terms_.add_energies(x, d, unit, std::array{step(0), step(1), step(2), step(3)}, energies_);
             // Commands run in order: the next launch overwrites the energies after they are summed.
             results.push_back(
                 reductions_.sum(energies_, {.count = std::min<std::size_t>(kernels::trials, a.size() - first),
@@ -253,6 +264,7 @@ private:
     buffer<R> one_, limit_; ///< units of step lengths
     buffer<P> corner_gradients_;
     gather<P, R> gather_;
+    constraint_terms<Element, P, R> terms_;
     double gradient_scale_;
 };
 

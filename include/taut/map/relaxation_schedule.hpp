@@ -34,9 +34,13 @@ template <class Element>
 class relaxation_scheduler
 {
 public:
-    explicit relaxation_scheduler(const layout<Element>& mesh_layout)
+    /// still: one flag a vertex in the user's numbers, or none; these stay out like those that are pinned.
+    explicit relaxation_scheduler(const layout<Element>& mesh_layout, const std::vector<bool>& still = {})
         : colour_(static_cast<std::size_t>(mesh_layout.free_count), unlisted)
     {
+        if (still.empty()) return;
+        for (std::size_t v = 0; v < colour_.size(); ++v)
+            if (still[at(mesh_layout.order.vertices.new_to_old[v])]) colour_[v] = barred;
     }
 
     /// Greedy colours in the order of the vertices.
@@ -50,7 +54,7 @@ public:
     }
 
 private:
-    static constexpr index unlisted = -1, listed = -2;
+    static constexpr index unlisted = -1, listed = -2, barred = -3;
     static std::size_t at(index i) { return static_cast<std::size_t>(i); }
 
     std::vector<index> free_vertices(const layout<Element>& mesh_layout, std::span<const index> cells)

@@ -62,14 +62,16 @@ public:
     {
     }
 
-    /// With kernels that other meshes use, too, and arrays that other evaluations of this mesh read.
+    /// With kernels that other meshes use, too, and arrays that other evaluations of this mesh read. still: one flag a
+    /// vertex in the user's numbers, or none; these are not moved, as more is asked of them than the energy knows.
     vertex_relaxation(queue q, std::shared_ptr<const layout<Element>> mesh_layout,
-                      std::shared_ptr<const kernels> shared_kernels, std::shared_ptr<const arrays> shared_arrays)
+                      std::shared_ptr<const kernels> shared_kernels, std::shared_ptr<const arrays> shared_arrays,
+                      const std::vector<bool>& still = {})
         : queue_(std::move(q)),
           layout_(std::move(mesh_layout)),
           kernels_(std::move(shared_kernels)),
           arrays_(std::move(shared_arrays)),
-          scheduler_(*layout_),
+          scheduler_(*layout_, still),
           reductions_(queue_),
           densities_(queue_, layout_->cell_stride)
     {

@@ -28,6 +28,22 @@ std::vector<std::array<index, Element::dimension>> boundary_facets(const mesh<El
     return boundary_facets(m, facets(m));
 }
 
+namespace detail
+{
+
+/// The boundary side that starts where a boundary side of triangles ends: turns about that vertex until an edge has no
+/// twin. `f` has no clash.
+inline index next_boundary_side(const facet_table& f, index side)
+{
+    const auto after = [](index s) { return s % 3 == 2 ? s - 2 : s + 1; };
+    side = after(side);
+    while (f.twin[static_cast<std::size_t>(side)] != facet_table::boundary)
+        side = after(f.twin[static_cast<std::size_t>(side)]);
+    return side;
+}
+
+} // namespace detail
+
 /// The boundary loops as vertex cycles, each with the surface to its left, starting at its smallest vertex; in the
 /// order of those. Empty for a closed surface. Around a vertex where two parts of the surface touch, each part has its
 /// own loop.
@@ -41,7 +57,6 @@ inline std::vector<std::vector<index>> boundary_loops(const mesh<triangle>& m, c
         throw mesh_error(mesh_fault::inconsistent_orientation, {f.clash[0][0] / 3, f.clash[0][1] / 3},
                          "boundary_loops: neighbours are oriented differently; call validate() first");
 
-    const auto after = [](index side) { return side % 3 == 2 ? side - 2 : side + 1; };
     std::vector<char> seen(f.twin.size(), 0);
     std::vector<std::vector<index>> loops;
     for (std::size_t start = 0; start < f.twin.size(); ++start)
@@ -52,10 +67,7 @@ inline std::vector<std::vector<index>> boundary_loops(const mesh<triangle>& m, c
         do {
             seen[static_cast<std::size_t>(side)] = 1;
             loop.push_back(side_vertices(m, side)[0]);
-            // The next boundary edge leaves the end of this one: turn about that vertex until an edge has no twin.
-            side = after(side);
-            while (f.twin[static_cast<std::size_t>(side)] != facet_table::boundary)
-                side = after(f.twin[static_cast<std::size_t>(side)]);
+            side = detail::next_boundary_side(f, side);
         } while (side != static_cast<index>(start));
         std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
         loops.push_back(std::move(loop));

@@ -34,6 +34,49 @@ enum class mesh_fault
     handles                   ///< no ids
 };
 
+/// A word for programs.
+constexpr const char* to_string(mesh_fault fault)
+{
+    switch (fault)
+    {
+    case mesh_fault::empty:
+        return "empty";
+    case mesh_fault::too_large:
+        return "too_large";
+    case mesh_fault::index_out_of_range:
+        return "index_out_of_range";
+    case mesh_fault::non_finite:
+        return "non_finite";
+    case mesh_fault::repeated_vertex:
+        return "repeated_vertex";
+    case mesh_fault::degenerate_cell:
+        return "degenerate_cell";
+    case mesh_fault::inverted_cell:
+        return "inverted_cell";
+    case mesh_fault::duplicate_cell:
+        return "duplicate_cell";
+    case mesh_fault::inconsistent_orientation:
+        return "inconsistent_orientation";
+    case mesh_fault::not_orientable:
+        return "not_orientable";
+    case mesh_fault::non_manifold_facet:
+        return "non_manifold_facet";
+    case mesh_fault::non_manifold_vertex:
+        return "non_manifold_vertex";
+    case mesh_fault::unreferenced_vertex:
+        return "unreferenced_vertex";
+    case mesh_fault::several_components:
+        return "several_components";
+    case mesh_fault::closed_surface:
+        return "closed_surface";
+    case mesh_fault::several_boundaries:
+        return "several_boundaries";
+    case mesh_fault::handles:
+        return "handles";
+    }
+    return "unknown";
+}
+
 /// One fault with everything it concerns, and a sentence for people with the remedy.
 struct mesh_finding
 {

@@ -121,6 +121,8 @@ TEST_CASE_TEMPLATE("multigrid: the cycle is symmetric and positive", T, float, d
         for (const bool pinned : {true, false})
             for (const int D : {2, 3})
             {
+                // Where kernels are interpreted, each value of each of the three is seen once.
+                if (test::sized(0, 1) == 1 && (pinned != (D == 2) || pinned != (form.slice == 16))) continue;
                 CAPTURE(D);
                 CAPTURE(pinned);
                 auto mg = elastic<T>(q, m, D, pinned, form);

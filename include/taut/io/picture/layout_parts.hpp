@@ -7,6 +7,7 @@
 #include <taut/io/picture/colormap.hpp>
 #include <taut/io/picture/format.hpp>
 #include <taut/io/picture/layout_frame.hpp>
+#include <taut/io/picture/layout_overlay.hpp>
 
 /// What a UV layout consists of, worked out once for the pixels and the SVG, which only paint it.
 namespace taut::io::detail

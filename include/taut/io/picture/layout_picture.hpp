@@ -56,8 +56,34 @@ inline void draw_flips(canvas& paper, const layout_frame& frame, std::span<const
     }
 }
 
+inline void draw_mark(canvas& paper, const pin_mark& mark, double unit)
+{
+    switch (mark.form)
+    {
+    case pin_mark::disc:
+        paper.line(mark.at, mark.at, 2 * mark.radius, pin_color);
+        break;
+    case pin_mark::rail:
+        paper.line(mark.low, mark.high, 0.8 * mark.radius, pin_color);
+        break;
+    case pin_mark::ring:
+        paper.line(mark.at, mark.at, 2 * mark.radius, {255, 255, 255});
+        paper.ring(mark.at, mark.radius, std::max(1.6 * unit, 1.0), pin_color);
+        break;
+    }
+}
+
+/// Lines of displacement first, so that none runs over a pin.
+inline void draw_overlay(canvas& paper, const layout_frame& frame, const layout_overlay& overlay)
+{
+    const auto marks = pin_marks(overlay, frame, frame.unit);
+    for (const auto& mark : marks)
+        if (mark.moved) paper.line(mark.from, mark.at, std::max(1.4 * frame.unit, 1.0), pin_color, 0.7);
+    for (const auto& mark : marks) draw_mark(paper, mark, frame.unit);
+}
+
 inline void draw_legend(canvas& paper, const layout_frame& frame, const face_survey& faces,
-                        const distortion_scale& scale, const layout_style& style)
+                        const distortion_scale& scale, const layout_style& style, const layout_overlay& overlay)
 {
     const double u = frame.unit;
     const vec2 low = frame.bar_low, high = frame.bar_high;
@@ -84,6 +110,13 @@ inline void draw_legend(canvas& paper, const layout_frame& frame, const face_sur
         draw_text(paper, {high.x + 14 * u, y}, text, {.size = 17 * u, .color = ink});
         y += 28 * u;
     }
+    for (const auto& [hard, text] : pin_legend(overlay))
+    {
+        const vec2 at((low.x + high.x) / 2, y - 6 * u);
+        draw_mark(paper, {hard ? pin_mark::disc : pin_mark::ring, at, at, at, at, false, 6 * u}, u);
+        draw_text(paper, {high.x + 14 * u, y}, text, {.size = 17 * u, .color = ink});
+        y += 28 * u;
+    }
 }
 
 } // namespace detail
@@ -94,15 +127,16 @@ inline void draw_legend(canvas& paper, const layout_frame& frame, const face_sur
 /// uv: position of each vertex; v points up. cells: corners of each face. distortion: one number a face (see
 /// symmetric_distortion), or empty to draw plain faces. boundary_loops: closed vertex loops (see boundary_loops).
 /// A face is flipped when its determinant in uv, in double precision, is not positive. What is not finite is left out
-/// and counted in the caption; no input of the right shape is an error.
-/// Errors: parameter_error for a wrong number of distortions or a style outside its limits.
+/// and counted in the caption; no input of the right shape is an error. overlay: constraints, drawn on top: pins
+/// filled, springs hollow, each at its target with a line from where its vertex is. Errors: parameter_error for a wrong
+/// number of distortions or a style outside its limits.
 inline image layout_picture(std::span<const vec2> uv, std::span<const std::array<index, 3>> cells,
                             std::span<const double> distortion, const std::vector<std::vector<index>>& boundary_loops,
-                            const layout_style& style = {})
+                            const layout_style& style = {}, const layout_overlay& overlay = {})
 {
     const face_survey faces = survey_faces(uv, cells, distortion);
     const distortion_scale scale(style.lowest, style.highest);
-    const layout_frame frame(uv, style);
+    const layout_frame frame(detail::with_targets(uv, overlay), style);
     canvas paper(style.width, style.height, style.samples, {255, 255, 255});
 
     detail::draw_faces(paper, frame, uv, cells, distortion, scale);
@@ -114,13 +148,15 @@ inline image layout_picture(std::span<const vec2> uv, std::span<const std::array
                        detail::edge_ink, 0.35);
     detail::draw_boundary(paper, frame, uv, boundary_loops);
     detail::draw_flips(paper, frame, uv, cells, faces, style.most_rings);
+    detail::draw_overlay(paper, frame, overlay);
 
     const double u = frame.unit;
     draw_text(paper, vec2(36, 48) * u, style.title, {.size = 28 * u, .weight = 0.1, .color = detail::ink});
     draw_text(paper, vec2(36, 80) * u, detail::layout_caption(faces, style),
               {.size = 17 * u, .color = detail::soft_ink});
     draw_text(paper, vec2(36, 106) * u, style.note, {.size = 17 * u, .color = detail::soft_ink});
-    if (!distortion.empty() || !faces.flipped.empty()) detail::draw_legend(paper, frame, faces, scale, style);
+    if (!distortion.empty() || !faces.flipped.empty() || !overlay.pins.empty())
+        detail::draw_legend(paper, frame, faces, scale, style, overlay);
     return paper.resolve();
 }
 

@@ -98,8 +98,51 @@ inline void svg_edges(svg_writer& svg, const layout_frame& frame, std::span<cons
     svg.end_path();
 }
 
+inline void svg_mark(svg_writer& svg, const pin_mark& mark, double unit)
+{
+    const std::string color = svg_writer::hex(pin_color);
+    const auto circle = [&](const std::string& paint)
+    {
+        svg.raw("<circle cx=\"" + svg_writer::pixels(mark.at.x) + "\" cy=\"" + svg_writer::pixels(mark.at.y) +
+                "\" r=\"" + svg_writer::pixels(mark.radius) + "\" " + paint + "/>\n");
+    };
+    switch (mark.form)
+    {
+    case pin_mark::disc:
+        circle("fill=\"" + color + "\"");
+        break;
+    case pin_mark::rail:
+        svg.begin_path("fill=\"none\" stroke=\"" + color + "\" stroke-width=\"" + svg_writer::pixels(8 * mark.radius) +
+                       "\" stroke-linecap=\"round\"");
+        svg.move(mark.low);
+        svg.line(mark.high);
+        svg.end_path();
+        break;
+    case pin_mark::ring:
+        circle("fill=\"#ffffff\" stroke=\"" + color + "\" stroke-width=\"" + svg_writer::pixels(1.6 * unit) + "\"");
+        break;
+    }
+}
+
+/// Lines of displacement first, so that none runs over a pin.
+inline void svg_overlay(svg_writer& svg, const layout_frame& frame, const layout_overlay& overlay)
+{
+    const auto marks = pin_marks(overlay, frame, frame.unit);
+    if (marks.empty()) return;
+    svg.begin_path("fill=\"none\" stroke-opacity=\".7\" stroke=\"" + svg_writer::hex(pin_color) + "\" stroke-width=\"" +
+                   svg_writer::pixels(14 * frame.unit) + "\"");
+    for (const auto& mark : marks)
+        if (mark.moved)
+        {
+            svg.move(mark.from);
+            svg.line(mark.at);
+        }
+    svg.end_path();
+    for (const auto& mark : marks) svg_mark(svg, mark, frame.unit);
+}
+
 inline void svg_legend(svg_writer& svg, const layout_frame& frame, const face_survey& faces,
-                       const distortion_scale& scale, const layout_style& style)
+                       const distortion_scale& scale, const layout_style& style, const layout_overlay& overlay)
 {
     constexpr int stops = 16;
     const double u = frame.unit;
@@ -127,6 +170,13 @@ inline void svg_legend(svg_writer& svg, const layout_frame& frame, const face_su
         svg.words({high.x + 14 * u, y}, text, 17 * u, ink);
         y += 28 * u;
     }
+    for (const auto& [hard, text] : pin_legend(overlay))
+    {
+        const vec2 at((low.x + high.x) / 2, y - 6 * u);
+        svg_mark(svg, {hard ? pin_mark::disc : pin_mark::ring, at, at, at, at, false, 6 * u}, u);
+        svg.words({high.x + 14 * u, y}, text, 17 * u, ink);
+        y += 28 * u;
+    }
 }
 
 } // namespace detail
@@ -137,25 +187,27 @@ inline void svg_legend(svg_writer& svg, const layout_frame& frame, const face_su
 /// Arguments and errors as there; style.samples has no meaning here.
 inline std::string layout_svg(std::span<const vec2> uv, std::span<const std::array<index, 3>> cells,
                               std::span<const double> distortion, const std::vector<std::vector<index>>& boundary_loops,
-                              const layout_style& style = {})
+                              const layout_style& style = {}, const layout_overlay& overlay = {})
 {
     if (style.width < 1) throw parameter_error("width", "must be positive");
     if (style.height < 1) throw parameter_error("height", "must be positive");
     const face_survey faces = survey_faces(uv, cells, distortion);
     const distortion_scale scale(style.lowest, style.highest);
-    const layout_frame frame(uv, style);
+    const layout_frame frame(detail::with_targets(uv, overlay), style);
     detail::svg_writer svg(style.width, style.height);
 
     detail::svg_faces(svg, frame, uv, cells, distortion, scale);
     if (cells.size() < style.most_edges) detail::svg_edges(svg, frame, uv, cells);
     detail::svg_boundary(svg, frame, uv, boundary_loops);
     detail::svg_flips(svg, frame, uv, cells, faces, style.most_rings);
+    detail::svg_overlay(svg, frame, overlay);
 
     const double u = frame.unit;
     svg.words(vec2(36, 48) * u, style.title, 28 * u, detail::ink, true);
     svg.words(vec2(36, 80) * u, detail::layout_caption(faces, style), 17 * u, detail::soft_ink);
     svg.words(vec2(36, 106) * u, style.note, 17 * u, detail::soft_ink);
-    if (!distortion.empty() || !faces.flipped.empty()) detail::svg_legend(svg, frame, faces, scale, style);
+    if (!distortion.empty() || !faces.flipped.empty() || !overlay.pins.empty())
+        detail::svg_legend(svg, frame, faces, scale, style, overlay);
     return svg.finish();
 }
 

@@ -83,6 +83,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t panel = 4; // pivots that are eliminated together
+
     static std::size_t u(index i) { return static_cast<std::size_t>(i); }
 
     /// Rows of the upper triangle of a front. Of a pivot: its D, then L^T.
@@ -164,19 +166,59 @@ private:
 
     static void eliminate(dense& front, std::size_t pivots, double relative_shift)
     {
-        const std::size_t n = front.width;
-        for (std::size_t k = 0; k < pivots; ++k)
+        for (std::size_t first = 0; first < pivots; first += panel)
         {
-            double* pivot = front.row(k);
-            pivot[k] *= 1 + relative_shift;
-            const bool usable = pivot[k] > 0; // a direction without any stiffness is left out
-            for (std::size_t i = k + 1; i < n; ++i)
+            const std::size_t last = std::min(first + panel, pivots);
+            for (std::size_t k = first; k < last; ++k)
             {
-                const double factor = usable ? pivot[i] / pivot[k] : 0.0;
-                double* row = front.row(i);
-                for (std::size_t j = i; j < n; ++j) row[j] -= factor * pivot[j];
+                double* pivot = front.row(k);
+                pivot[k] *= 1 + relative_shift;
+                if (!(pivot[k] > 0)) // a direction without any stiffness is left out
+                    std::fill(pivot + k, pivot + front.width, 0.0);
+                for (std::size_t i = k + 1; i < last; ++i)
+                {
+                    const double factor = pivot[k] > 0 ? pivot[i] / pivot[k] : 0.0;
+                    double* row = front.row(i);
+                    for (std::size_t j = i; j < front.width; ++j) row[j] -= factor * pivot[j];
+                }
             }
-            for (std::size_t i = k + 1; i < n; ++i) pivot[i] = usable ? pivot[i] / pivot[k] : 0.0;
+            take_out(front, first, last);
+            for (std::size_t k = first; k < last; ++k)
+            {
+                double* pivot = front.row(k);
+                const double scale = pivot[k] > 0 ? 1 / pivot[k] : 0.0;
+                for (std::size_t j = k + 1; j < front.width; ++j) pivot[j] *= scale;
+            }
+        }
+    }
+
+    /// Takes the pivots [first, last), at most a panel, out of the rows below them. All in one pass over a row, two
+    /// rows at a time: what is loaded is used as often as registers allow.
+    static void take_out(dense& front, std::size_t first, std::size_t last)
+    {
+        const std::size_t n = front.width, count = last - first;
+        std::array<const double*, panel> p{};
+        std::array<double, panel> scale{};
+        for (std::size_t k = 0; k < panel; ++k) // the last panel may be short: repeats a row with factor 0
+        {
+            p[k] = front.row(first + std::min(k, count - 1));
+            scale[k] = k < count && p[k][first + k] > 0 ? 1 / p[k][first + k] : 0.0;
+        }
+        const double *p0 = p[0], *p1 = p[1], *p2 = p[2], *p3 = p[3];
+        for (std::size_t i = last; i < n; i += 2)
+        {
+            const std::array<double, panel> f{p0[i] * scale[0], p1[i] * scale[1], p2[i] * scale[2], p3[i] * scale[3]};
+            double* row = front.row(i);
+            row[i] -= (f[0] * p0[i] + f[1] * p1[i]) + (f[2] * p2[i] + f[3] * p3[i]);
+            if (i + 1 == n) break;
+            const std::size_t l = i + 1;
+            const std::array<double, panel> g{p0[l] * scale[0], p1[l] * scale[1], p2[l] * scale[2], p3[l] * scale[3]};
+            double* next = front.row(l);
+            for (std::size_t j = l; j < n; ++j)
+            {
+                row[j] -= (f[0] * p0[j] + f[1] * p1[j]) + (f[2] * p2[j] + f[3] * p3[j]);
+                next[j] -= (g[0] * p0[j] + g[1] * p1[j]) + (g[2] * p2[j] + g[3] * p3[j]);
+            }
         }
     }
 

@@ -18,8 +18,8 @@ struct untangle_problem
 {
     static constexpr int D = Element::dimension;
 
-    mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
-    std::vector<vec<D>> initial; ///< one a vertex, in any state; a held coordinate is a hard constraint
+    mesh<Element> rest;             ///< the shape that the map distorts as little as possible; planar meshes have z = 0
+    std::vector<vec<D>> initial;    ///< one a vertex, in any state; a held coordinate is a hard constraint
     std::vector<std::uint8_t> held; ///< one a vertex: bit k says that coordinate k is held
 
     static constexpr std::uint8_t all = (1u << D) - 1; ///< of held: the vertex is pinned

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// The untangling stack over folders of .prob files: what each problem ended with, by which stage and how soon, and
+// totals by class and feasibility where the folder has an INDEX.tsv (name, dim, ..., class, feasibility by headings).
+//   taut_bench_untangle [--limit SECONDS] [--stages NAME,NAME] [--json FILE] [FOLDER|FILE...]
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <support/meshes.hpp>
+
+#include <taut/io/prob.hpp>
+#include <taut/map/untangle/make_untangle_problem.hpp>
+#include <taut/map/untangle/untangle.hpp>
+
+#include "measure.hpp"
+
+namespace
+{
+
+using namespace taut;
+namespace fs = std::filesystem;
+
+std::vector<std::string> split(const std::string& text, char separator)
+{
+    std::vector<std::string> parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+/// What an INDEX.tsv says of problems, by their names: class and feasibility.
+std::map<std::string, std::array<std::string, 2>> read_index(const fs::path& folder)
+{
+    std::map<std::string, std::array<std::string, 2>> result;
+    std::ifstream in(folder / "INDEX.tsv");
+    std::string line;
+    std::getline(in, line);
+    const auto headings = split(line, '\t');
+    const auto column = [&](const char* name)
+    { return static_cast<std::size_t>(std::find(headings.begin(), headings.end(), name) - headings.begin()); };
+    const std::size_t name = column("name"), kind = column("class"), feasible = column("feasibility");
+    while (std::getline(in, line))
+    {
+        const auto cells = split(line, '\t');
+        if (std::max({name, kind, feasible}) < cells.size()) result[cells[name]] = {cells[kind], cells[feasible]};
+    }
+    return result;
+}
+
+struct tally
+{
+    int problems = 0, injective = 0, infeasible = 0;
+    double seconds = 0;
+};
+
+/// Runs over problems and sums up.
+class untangle_bench
+{
+public:
+    untangle_bench(queue& q, untangle_params params) : queue_(q), params_(std::move(params))
+    {
+        std::printf("%-32s %7s %7s %6s %8s  %-10s %-9s %8s %9s  %s\n", "problem", "V", "F", "pinned", "inverted",
+                    "outcome", "stage", "seconds", "least det", "held");
+    }
+
+    template <class Element>
+    void measure(const std::string& name, const std::array<std::string, 2>& labels,
+                 const untangle_problem<Element>& problem)
+    {
+        constexpr int D = Element::dimension;
+        const auto start = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial));
+        const auto r = untangle(queue_, problem, params_);
+        const auto flips = certify<D>(problem.rest.cells(), std::span<const vec<D>>(r.map));
+        bool held = true;
+        int pinned = 0;
+        for (std::size_t v = 0; v < problem.held.size(); ++v)
+        {
+            pinned += problem.pinned(v);
+            for (int k = 0; k < D; ++k)
+                held = held &&
+                       (!problem.holds(v, k) || std::memcmp(&r.map[v][k], &problem.initial[v][k], sizeof(double)) == 0);
+        }
+        if (!held || (r && flips.flipped > 0)) throw std::runtime_error(name + ": a wrong answer");
+        std::printf("%-32s %7d %7d %6d %8zu  %-10s %-9s %8.2f %9.2g  %s\n", name.c_str(), problem.rest.vertex_count(),
+                    problem.rest.cell_count(), pinned, start.flipped, std::string(to_string(r.outcome)).c_str(),
+                    r ? r.stage.c_str() : std::to_string(flips.flipped).c_str(), r.seconds, r.least_relative_det,
+                    held ? "exact" : "MOVED");
+        std::fflush(stdout);
+        auto stages = nlohmann::ordered_json::array();
+        for (const auto& s : r.stages)
+        {
+            stage_seconds_[s.name] += s.seconds;
+            stages.push_back(
+                {{"name", s.name}, {"iterations", s.iterations}, {"seconds", s.seconds}, {"inverted", s.inverted}});
+        }
+        if (r) ++stage_solved_[r.stage];
+        for (auto* t : {&classes_[labels[0] + ", " + labels[1]], &all_})
+        {
+            ++t->problems;
+            t->injective += r.outcome == untangle_outcome::injective;
+            t->infeasible += r.outcome == untangle_outcome::infeasible;
+            t->seconds += r.seconds;
+        }
+        results.push_back({{"problem", name},
+                           {"class", labels[0]},
+                           {"feasibility", labels[1]},
+                           {"vertices", problem.rest.vertex_count()},
+                           {"elements", problem.rest.cell_count()},
+                           {"pinned", pinned},
+                           {"inverted_at_start", start.flipped},
+                           {"outcome", to_string(r.outcome)},
+                           {"stage", r.stage},
+                           {"inverted", flips.flipped},
+                           {"least_relative_det", r.least_relative_det},
+                           {"seconds", r.seconds},
+                           {"reason", r.reason},
+                           {"stages", std::move(stages)}});
+    }
+
+    void print_totals() const
+    {
+        std::printf("\n%-44s %8s %9s %10s %8s\n", "class, feasibility", "problems", "injective", "infeasible",
+                    "seconds");
+        for (const auto& [name, t] : classes_) print(name, t);
+        print("all", all_);
+        std::printf("\n%-12s %8s %8s\n", "stage", "solved", "seconds");
+        for (const auto& [name, seconds] : stage_seconds_)
+        {
+            const auto solved = stage_solved_.find(name);
+            std::printf("%-12s %8d %8.2f\n", name.c_str(), solved == stage_solved_.end() ? 0 : solved->second, seconds);
+        }
+    }
+
+    nlohmann::ordered_json results = nlohmann::ordered_json::array();
+
+private:
+    static void print(const std::string& name, const tally& t)
+    {
+        std::printf("%-44s %8d %9d %10d %8.2f\n", name.c_str(), t.problems, t.injective, t.infeasible, t.seconds);
+    }
+
+    queue& queue_;
+    untangle_params params_;
+    std::map<std::string, tally> classes_;
+    std::map<std::string, double> stage_seconds_;
+    std::map<std::string, int> stage_solved_;
+    tally all_;
+};
+
+/// A square whose inner vertices lie in one point.
+untangle_problem<triangle> collapsed_square(int n)
+{
+    auto m = test::grid(n, n);
+    std::vector<vec2> x;
+    std::vector<std::uint8_t> held;
+    for (const vec3& p : m.points())
+    {
+        const bool rim = p.x == 0 || p.y == 0 || p.x == 1 || p.y == 1;
+        x.push_back(rim ? vec2(p.x, p.y) : vec2(0.3, 0.4));
+        held.push_back(rim ? 3 : 0);
+    }
+    return {std::move(m), std::move(x), std::move(held)};
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try
+{
+    const bench::options options(argc, argv, {"--limit", "--stages"});
+    untangle_params params;
+    params.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")));
+    params.stages = split(options.value("--stages", ""), ',');
+    queue q;
+    auto report = bench::circumstances(q);
+    report["limit"] = params.time_limit.count();
+    std::printf("taut %s %s on %s\n\n", TAUT_VERSION_STRING, TAUT_BENCH_COMMIT, q.device().name().c_str());
+    untangle_bench bench(q, params);
+    std::vector<fs::path> files;
+    for (const fs::path path : options.paths)
+        if (fs::is_directory(path))
+        {
+            for (const auto& entry : fs::directory_iterator(path))
+                if (entry.path().extension() == ".prob") files.push_back(entry.path());
+        }
+        else
+            files.push_back(path);
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files)
+    {
+        const auto index = read_index(file.parent_path());
+        const auto name = file.stem().string();
+        const auto known = index.find(name);
+        const std::array<std::string, 2> labels =
+            known == index.end() ? std::array<std::string, 2>{"-", "-"} : known->second;
+        std::visit([&](auto problem) { bench.measure(name, labels, make_untangle_problem(std::move(problem))); },
+                   io::read_any_prob(file));
+    }
+    if (files.empty()) bench.measure("generated", {"-", "-"}, collapsed_square(options.quick ? 8 : 60));
+    bench.print_totals();
+    report["results"] = bench.results;
+    options.write(report);
+    return 0;
+}
+catch (const std::exception& e)
+{
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+}

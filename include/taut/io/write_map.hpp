@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <charconv>
+#include <filesystem>
+#include <iterator>
+#include <span>
+#include <string>
+
+#include <taut/core/types.hpp>
+#include <taut/io/atomic_file.hpp>
+
+namespace taut::io
+{
+
+/// Writes a map as text: a line a vertex, its coordinates with 17 significant digits, which read back bit for bit. The
+/// file appears complete or not at all. Throws io_error.
+template <int D>
+void write_map(const std::filesystem::path& path, std::span<const vec<D>> x)
+{
+    atomic_file file(path);
+    std::string text;
+    for (const vec<D>& p : x)
+    {
+        for (int k = 0; k < D; ++k)
+        {
+            char digits[32];
+            const auto end = std::to_chars(digits, std::end(digits), p[k], std::chars_format::general, 17).ptr;
+            if (k > 0) text += ' ';
+            text.append(digits, end);
+        }
+        text += '\n';
+        if (text.size() < 1 << 16) continue;
+        file.write(text);
+        text.clear();
+    }
+    file.write(text);
+    file.commit();
+}
+
+} // namespace taut::io

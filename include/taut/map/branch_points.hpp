@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include <taut/mesh/mesh.hpp>
+
+namespace taut
+{
+
+/// Vertices inside the surface around which a map without flipped triangles winds more than once: the angles of their
+/// triangles add up to 4 pi or more, not 2 pi. No triangle is flipped there, but neighbourhoods overlap. A map of a
+/// disk onto a simple outline has none.
+///
+/// uv: one point a vertex; boundary: one flag a vertex.
+inline std::vector<index> branch_points(const mesh<triangle>& m, std::span<const vec2> uv,
+                                        const std::vector<bool>& boundary)
+{
+    std::vector<double> angle(uv.size(), 0.0);
+    for (const auto& t : m.cells())
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const auto at = [&](std::size_t i) { return uv[static_cast<std::size_t>(t[(k + i) % 3])]; };
+            const vec2 a = at(1) - at(0), b = at(2) - at(0);
+            angle[static_cast<std::size_t>(t[k])] += std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
+        }
+    std::vector<index> found;
+    for (std::size_t v = 0; v < uv.size(); ++v)
+        if (!boundary[v] && angle[v] > 3 * std::numbers::pi) found.push_back(static_cast<index>(v));
+    return found;
+}
+
+} // namespace taut

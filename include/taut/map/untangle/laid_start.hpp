@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <taut/map/barycentric_map.hpp>
+#include <taut/map/untangle/target_shapes.hpp>
+#include <taut/map/untangle/untangle_problem.hpp>
+
+namespace taut::detail
+{
+
+/// An injective map of the surface itself, without regard to what is held: the surface if it is plane, else a
+/// barycentric map. Nothing if the surface has none.
+inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
+{
+    const auto& points = m.points();
+    if (std::all_of(points.begin(), points.end(), [](const vec3& p) { return p.z == 0; }))
+    {
+        std::vector<vec2> x;
+        for (const vec3& p : points) x.emplace_back(p.x, p.y);
+        return x;
+    }
+    try
+    {
+        return barycentric_map(m, {.stretch_rounds = 3}).uv;
+    }
+    catch (const error&) // closed, not a disk, degenerate: what a surface needs for a map is no matter here
+    {
+        return std::nullopt;
+    }
+}
+
+/// That map, moved by the similarity that brings pinned vertices nearest to their places in x (least squares). With
+/// fewer than two it gets the measure expected. Held coordinates are not put to their places.
+inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem,
+                                                   const std::vector<vec2>& x)
+{
+    auto laid = unheld_map(problem.rest);
+    if (!laid) return std::nullopt;
+    vec2 from(0.0), to(0.0);
+    double count = 0;
+    for (std::size_t v = 0; v < x.size(); ++v)
+        if (problem.pinned(v))
+        {
+            from += (*laid)[v];
+            to += x[v];
+            ++count;
+        }
+    from /= std::max(count, 1.0);
+    to /= std::max(count, 1.0);
+    // Complex numbers: turn = sum conj(p) q / sum |p|^2 about the centroids.
+    vec2 turn(0.0);
+    double spread = 0;
+    for (std::size_t v = 0; v < x.size(); ++v)
+        if (problem.pinned(v))
+        {
+            const vec2 p = (*laid)[v] - from, q = x[v] - to;
+            turn += vec2(glm::dot(p, q), p.x * q.y - p.y * q.x);
+            spread += glm::dot(p, p);
+        }
+    turn = spread > 0 ? turn / spread : vec2(0.0);
+    if (!(glm::length(turn) > 0))
+    {
+        double area = 0;
+        for (const auto& t : problem.rest.cells())
+        {
+            const auto at = [&](std::size_t k) { return (*laid)[static_cast<std::size_t>(t[k])]; };
+            area += triangle::measure_factor * triangle::determinant({at(0), at(1), at(2)});
+        }
+        if (!(area > 0)) return std::nullopt;
+        turn = vec2(std::sqrt(expected_measure(problem, x) / area), 0.0);
+    }
+    for (vec2& p : *laid)
+    {
+        const vec2 q = p - from;
+        p = to + vec2(turn.x * q.x - turn.y * q.y, turn.y * q.x + turn.x * q.y);
+    }
+    return laid;
+}
+
+} // namespace taut::detail

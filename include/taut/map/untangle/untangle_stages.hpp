@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <taut/core/error.hpp>
+#include <taut/map/untangle/harmonic_stage.hpp>
+#include <taut/map/untangle/lbfgs_stage.hpp>
+#include <taut/map/untangle/newton_stage.hpp>
+#include <taut/map/untangle/pull_stage.hpp>
+
+namespace taut
+{
+
+template <class Element>
+using untangle_stages = std::vector<std::unique_ptr<untangle_stage<Element>>>;
+
+/// The stages of the plane that need no device, in their default order:
+///
+/// harmonic  the harmonic map alone
+/// newton    from the harmonic map, towards the shapes at rest
+/// regular   from the harmonic map, towards regular triangles
+/// best      from the best map so far, towards the shapes at rest
+/// laid      from an injective map that ignores what is held, towards the shapes at rest
+/// pull      from an injective map, whose elements stay positive while springs pull it to what is held
+/// shape     from the harmonic map, shape only
+/// lbfgs     as newton, without second derivatives
+inline untangle_stages<triangle> host_stages()
+{
+    using enum untangle_start;
+    using enum untangle_shapes;
+    untangle_stages<triangle> stages;
+    stages.push_back(std::make_unique<harmonic_stage<triangle>>());
+    const auto add = [&](newton_stage_params p) { stages.push_back(std::make_unique<newton_stage>(std::move(p))); };
+    add({"newton", harmonic, rest, 1});
+    add({"regular", harmonic, regular, 1});
+    add({"best", best, rest, 1});
+    add({"laid", laid, rest, 1});
+    stages.push_back(std::make_unique<pull_stage>());
+    add({"shape", harmonic, rest, 0});
+    stages.push_back(std::make_unique<lbfgs_stage<triangle>>());
+    return stages;
+}
+
+/// The stages in space that need no device.
+inline untangle_stages<tetrahedron> solid_host_stages()
+{
+    untangle_stages<tetrahedron> stages;
+    stages.push_back(std::make_unique<harmonic_stage<tetrahedron>>());
+    stages.push_back(std::make_unique<lbfgs_stage<tetrahedron>>());
+    return stages;
+}
+
+/// Those of the stages that have these names, in the order of the names; all of them if there is no name.
+/// Throws parameter_error for a name that no stage has.
+template <class Element>
+untangle_stages<Element> chosen(untangle_stages<Element> all, std::span<const std::string> names)
+{
+    if (names.empty()) return all;
+    untangle_stages<Element> result;
+    for (const std::string& name : names)
+    {
+        auto found = all.end();
+        for (auto s = all.begin(); s != all.end(); ++s)
+            if (*s && (*s)->name() == name) found = s;
+        if (found == all.end())
+        {
+            std::string known;
+            for (const auto& s : all)
+                if (s) known += (known.empty() ? "" : ", ") + std::string(s->name());
+            throw parameter_error("stages",
+                                  "no stage is called '" + name + "' or it is named twice; left are " + known);
+        }
+        result.push_back(std::move(*found));
+    }
+    return result;
+}
+
+} // namespace taut

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <taut/io/read_surface.hpp>
+#include <taut/map/certify.hpp>
+#include <taut/map/untangle/infeasible.hpp>
+#include <taut/map/untangle/make_untangle_problem.hpp>
+#include <taut/mesh/validate.hpp>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "outputs.hpp"
+#include "text_table.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct check_options
+{
+    std::string input, pins;
+    bool json = false;
+};
+
+/// One thing that is wrong, or at least worth knowing.
+struct finding
+{
+    bool wrong = true;
+    std::string about; ///< "file", "mesh", "pins" or "feasibility"
+    std::string fault; ///< a word for programs
+    std::vector<index> ids;
+    std::string message;
+};
+
+/// Everything that `taut check` has to say.
+struct check_report
+{
+    std::string kind; ///< of the input: "surface", "problem of triangles", ...
+    std::size_t vertices = 0, cells = 0;
+    std::string cells_name = triangle::names;
+    std::size_t pins = 0, springs = 0;
+    std::size_t inverted = 0; ///< cells of a problem's initial map
+    bool has_map = false;
+    std::vector<finding> findings;
+    exit_code code = exit_code::valid;
+
+    /// The code is that of the most basic fault: unreadable, then unsuitable, then infeasible.
+    void add(finding f, exit_code meaning)
+    {
+        if (f.wrong && (code == exit_code::valid || to_int(meaning) < to_int(code))) code = meaning;
+        findings.push_back(std::move(f));
+    }
+};
+
+void report_mesh(check_report& report, const mesh_finding& f, bool wrong)
+{
+    const bool holes = f.fault == mesh_fault::several_boundaries;
+    report.add({wrong, "mesh", to_string(f.fault), f.ids, f.message + (holes ? ", or `taut unwrap --holes`" : "")},
+               code_of(f.fault));
+}
+
+template <class Element>
+void report_pins(check_report& report, const constraint_error& e, const io::pin<Element::dimension>* pin = nullptr)
+{
+    const std::string where = pin ? "the pin of vertex " + std::to_string(pin->vertex) + ": " : "";
+    report.add({true, "pins", to_string(e.fault()), e.ids(), where + e.what()}, exit_code::unsuitable_input);
+}
+
+/// Adds the pins of the file one by one, so that each fault is found.
+template <class Element>
+void read_constraints(check_report& report, const std::string& path, constraints<Element>& pins, index vertices)
+{
+    if (path.empty()) return;
+    for (const auto& pin : io::read_pins<Element::dimension>(path, vertices)) try
+        {
+            add_pins(pins, {pin});
+        }
+        catch (const constraint_error& e)
+        {
+            report_pins<Element>(report, e, &pin);
+        }
+}
+
+template <class Element>
+void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element::dimension>> initial,
+           const constraints<Element>& pins)
+{
+    report.pins = pins.pins().size();
+    report.springs = pins.springs().size();
+    if (pins.pins().empty()) return;
+    const auto found = find_infeasibility(make_untangle_problem(m, std::move(initial), pins));
+    for (const auto& f : found.proofs)
+        report.add({true, "feasibility", to_string(f.kind), f.ids, f.message}, exit_code::infeasible);
+    for (const auto& f : found.warnings)
+        report.add({false, "feasibility", to_string(f.kind), f.ids, f.message}, exit_code::valid);
+}
+
+void check_surface(check_report& report, const check_options& options)
+{
+    report.kind = "surface";
+    const auto file = io::read_surface_file(options.input);
+    const auto& m = file.surface;
+    report.vertices = m.points().size();
+    report.cells = m.cells().size();
+    for (const auto& note : file.notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
+    for (const auto& f : taut::check(m)) report_mesh(report, f, true);
+    auto pins = taut::constraints(m);
+    read_constraints(report, options.pins, pins, m.vertex_count());
+    judge(report, m, std::vector<vec2>(m.points().size(), vec2(0.0)), pins);
+}
+
+template <class Element>
+void check_problem(check_report& report, const check_options& options, io::prob_file<Element> file)
+{
+    constexpr int D = Element::dimension;
+    report.kind = std::string("problem of ") + Element::names;
+    report.cells_name = Element::names;
+    auto fixed = std::move(file.fixed);
+    std::sort(fixed.begin(), fixed.end());
+    fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+    auto problem = make_untangle_problem(std::move(file));
+    report.vertices = problem.rest.points().size();
+    report.cells = problem.rest.cells().size();
+    report.has_map = true;
+    report.inverted = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial)).flipped;
+    // Untangling minds the shape of each cell alone; what else a surface may be is no obstacle.
+    const mesh_requirements need{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
+    for (const auto& f : taut::check(problem.rest, need))
+        report_mesh(report, f, f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell);
+    auto pins = taut::constraints(problem.rest);
+    pins.fix(fixed, problem.initial);
+    read_constraints(report, options.pins, pins, problem.rest.vertex_count());
+    judge(report, problem.rest, problem.initial, pins);
+}
+
+/// Looks at the files; what cannot be read is a finding, too.
+check_report examine(const check_options& options)
+{
+    check_report report;
+    try
+    {
+        if (extension(options.input) == ".prob")
+            std::visit([&](auto&& file) { check_problem(report, options, std::move(file)); },
+                       io::read_any_prob(options.input));
+        else
+            check_surface(report, options);
+    }
+    catch (const io::io_error& e)
+    {
+        report.add({true, "file", "unreadable", {}, e.what()}, exit_code::unreadable_input);
+    }
+    catch (const mesh_error& e)
+    {
+        report_mesh(report, {e.fault(), e.ids(), e.what()}, true);
+    }
+    return report;
+}
+
+nlohmann::ordered_json to_json(const check_report& r, const check_options& options)
+{
+    nlohmann::ordered_json json;
+    json["schema"] = "taut.check/1";
+    json["input"] = options.input;
+    json["pins_file"] = options.pins.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(options.pins);
+    json["kind"] = r.kind;
+    json["vertices"] = r.vertices;
+    json["cells"] = r.cells;
+    json["pins"] = r.pins;
+    json["springs"] = r.springs;
+    json["inverted"] = r.has_map ? nlohmann::ordered_json(r.inverted) : nlohmann::ordered_json(nullptr);
+    json["exit_code"] = to_int(r.code);
+    json["findings"] = nlohmann::ordered_json::array();
+    for (const auto& f : r.findings)
+        json["findings"].push_back({{"severity", f.wrong ? "error" : "warning"},
+                                    {"about", f.about},
+                                    {"fault", f.fault},
+                                    {"ids", f.ids},
+                                    {"message", f.message}});
+    return json;
+}
+
+void print(const check_report& r, const check_options& options)
+{
+    labelled_lines lines;
+    if (r.vertices > 0)
+        lines.add("input", options.input + ": " + r.kind + ", " + count(r.vertices, "vertex", "vertices") + ", " +
+                               count(r.cells) + ' ' + r.cells_name);
+    if (r.has_map) lines.add("map", count(r.inverted) + " of " + count(r.cells) + " inverted at the start");
+    if (r.pins + r.springs > 0)
+        lines.add("pins", count(r.pins, "pinned vertex", "pinned vertices") +
+                              (r.springs > 0 ? ", " + count(r.springs, "spring", "springs") : ""));
+    std::size_t wrong = 0;
+    for (const auto& f : r.findings)
+    {
+        lines.add(f.wrong ? "error" : "warning", f.message);
+        wrong += f.wrong ? 1 : 0;
+    }
+    lines.add("result", wrong == 0 ? "nothing wrong" : count(wrong, "error", "errors") + ": " + describe(r.code));
+    std::cout << lines;
+}
+
+exit_code run(const check_options& options)
+{
+    const auto report = examine(options);
+    if (options.json)
+        std::cout << to_json(report, options).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+                  << '\n';
+    else
+        print(report, options);
+    return report.code;
+}
+
+} // namespace
+
+command add_check(CLI::App& program)
+{
+    const auto options = std::make_shared<check_options>();
+    auto& app =
+        *program.add_subcommand("check", "Say what is wrong with a surface, a problem or pins, without solving");
+    app.add_option("IN", options->input, "Surface (OBJ, OFF, PLY) as `unwrap` takes it, or problem (.prob)")
+        ->required()
+        ->type_name("FILE");
+    app.add_option("--pins", options->pins, "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
+        ->type_name("FILE.csv");
+    app.add_flag("--json", options->json, "Print JSON");
+    return [options] { return run(*options); };
+}
+
+} // namespace taut::tools

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include <sys/resource.h>
+
+namespace taut::tools
+{
+
+/// Wall-clock seconds since the program was started.
+class run_clock
+{
+public:
+    explicit run_clock(std::chrono::steady_clock::time_point launch) : launch_(launch) {}
+
+    double now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - launch_).count(); }
+
+    /// How long f takes.
+    template <class F>
+    double timed(F&& f) const
+    {
+        const double begin = now();
+        f();
+        return now() - begin;
+    }
+
+private:
+    std::chrono::steady_clock::time_point launch_;
+};
+
+/// Largest resident size of this process so far, in bytes. A CPU device's buffers are part of it, a GPU's are not.
+inline std::uint64_t peak_memory()
+{
+    rusage usage{};
+    if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts KiB
+}
+
+} // namespace taut::tools

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "shared_options.hpp"
+
+#include "choices.hpp"
+
+namespace taut::tools
+{
+
+CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
+{
+    return {[=](const std::string& text)
+            {
+                double x = 0;
+                return CLI::detail::lexical_cast(text, x) && holds(x) ? std::string() : text + ' ' + otherwise;
+            },
+            ""};
+}
+
+void add_device(CLI::App& app, std::string& device)
+{
+    app.add_option("--device", device, "Number or part of the name of an OpenCL device, see `taut devices`")
+        ->type_name("D")
+        ->envname("TAUT_DEVICE");
+}
+
+void add_time_limit(CLI::App& app, double& seconds, const std::string& help)
+{
+    app.add_option("--time-limit", seconds, help)
+        ->type_name("S")
+        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
+}
+
+void add_progress(CLI::App& app, std::string& progress, bool& quiet)
+{
+    add_choice<std::string>(app, "--progress", progress, {{"auto", "auto"}, {"json", "json"}, {"none", "none"}},
+                            "On standard error: a bar if it is a terminal, a JSON object a line, nothing");
+    app.add_flag("--quiet", quiet, "Print errors only, and what --progress asks for by name");
+}
+
+progress_mode progress_of(const std::string& progress, bool quiet)
+{
+    return quiet && progress == "auto" ? progress_mode::none : *parse_progress_mode(progress);
+}
+
+} // namespace taut::tools

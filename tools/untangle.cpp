@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <taut/io/picture/layout_picture.hpp>
+#include <taut/io/picture/layout_svg.hpp>
+#include <taut/io/picture/side_by_side_svg.hpp>
+#include <taut/io/picture/symmetric_distortion.hpp>
+#include <taut/io/write_map.hpp>
+#include <taut/map/untangle/infeasible.hpp>
+#include <taut/map/untangle/make_untangle_problem.hpp>
+#include <taut/map/untangle/untangle.hpp>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "open_queue.hpp"
+#include "outputs.hpp"
+#include "png.hpp"
+#include "progress.hpp"
+#include "run_clock.hpp"
+#include "shared_options.hpp"
+#include "text_table.hpp"
+#include "untangle_report.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// One picture of a map in the plane with its pins.
+struct layout_input
+{
+    std::span<const vec2> x;
+    io::layout_style style;
+};
+
+io::layout_overlay overlay_of(const untangle_problem<triangle>& p, std::span<const vec2> x)
+{
+    io::layout_overlay overlay;
+    for (std::size_t v = 0; v < x.size(); ++v)
+        if (p.held[v] != 0) overlay.pins.push_back({x[v], p.initial[v], true, p.held[v]});
+    return overlay;
+}
+
+/// The boundary edges as loops of their own: a mesh to untangle need not be a manifold.
+std::vector<std::vector<index>> outline_of(const mesh<triangle>& m)
+{
+    std::vector<std::vector<index>> edges;
+    for (const auto& [a, b] : boundary_facets(m)) edges.push_back({a, b});
+    return edges;
+}
+
+void draw(const std::string& path, const untangle_problem<triangle>& p, const std::vector<layout_input>& maps)
+{
+    constexpr int gap = 24;
+    const auto& cells = p.rest.cells();
+    const auto outline = outline_of(p.rest);
+    std::vector<std::string> texts;
+    std::vector<io::image> images;
+    for (const auto& [x, style] : maps)
+    {
+        const auto distortion = io::symmetric_distortion(p.rest.points(), cells, x);
+        const auto overlay = overlay_of(p, x);
+        if (extension(path) == ".svg")
+            texts.push_back(io::layout_svg(x, cells, distortion, outline, style, overlay));
+        else
+            images.push_back(io::layout_picture(x, cells, distortion, outline, style, overlay));
+    }
+    const io::layout_style size;
+    if (extension(path) == ".svg")
+        write_text(path, io::side_by_side_svg(texts, size.width, size.height, gap));
+    else
+        write_png(path, io::side_by_side(images, gap));
+}
+
+/// One run of `taut untangle`, phase by phase.
+template <class Element>
+class untangle_run
+{
+public:
+    static constexpr int D = Element::dimension;
+
+    untangle_run(const untangle_options& options, run_clock clock, progress& progress, untangle_report report)
+        : options_(options), clock_(clock), progress_(progress), report_(std::move(report))
+    {
+    }
+
+    exit_code operator()(io::prob_file<Element> file)
+    {
+        if (D == 3 && !options_.picture.empty())
+            throw usage_error("--picture draws maps to the plane, and this problem has tetrahedra; leave it out");
+        report_.element = Element::name;
+        report_.element_names = Element::names;
+        problem_.emplace(make_untangle_problem(std::move(file)));
+        report_.vertices = problem_->initial.size();
+        report_.elements = problem_->rest.cells().size();
+        report_.pinned =
+            static_cast<std::size_t>(std::count(problem_->held.begin(), problem_->held.end(), problem_->all));
+        report_.inverted_before = flips(problem_->initial);
+        if (!prove_infeasible()) solve();
+        write();
+        progress_.finish();
+        if (!options_.quiet) print(report_, options_);
+        if (report_.code == exit_code::infeasible) throw infeasible_problem(report_.reason);
+        if (report_.code == exit_code::no_valid_map)
+            throw no_valid_map(report_.reason +
+                               (report_.written.empty() ? "" : "; the best map is in " + report_.written));
+        return report_.code;
+    }
+
+private:
+    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
+
+    std::size_t flips(std::span<const vec<D>> x) const { return certify<D>(problem_->rest.cells(), x).flipped; }
+
+    /// Proofs need no device and no time, so they come first, and all of them are told.
+    bool prove_infeasible()
+    {
+        tell("check");
+        infeasibility found;
+        report_.seconds.check = clock_.timed([&] { found = find_infeasibility(*problem_); });
+        for (const auto& warning : found.warnings) report_.notes.push_back(warning.message);
+        if (!found) return false;
+        report_.code = exit_code::infeasible;
+        report_.outcome = "infeasible";
+        report_.inverted = report_.inverted_before;
+        report_.ids = found.proofs.front().ids;
+        for (const auto& proof : found.proofs) report_.reason += (report_.reason.empty() ? "" : "\n  ") + proof.message;
+        return true;
+    }
+
+    void solve()
+    {
+        tell("device");
+        std::optional<queue> q;
+        report_.seconds.device = clock_.timed([&] { q = open_queue(options_.device, false); });
+        report_.device = q->device().name();
+        report_.device_label = (std::ostringstream() << q->device()).str();
+
+        untangle_params params;
+        params.observer = [this](const solve::progress& p)
+        {
+            if (p.iterate)
+                progress_.update(
+                    {.phase = "untangle", .step = p.iteration, .inverted = p.value, .seconds = clock_.now()});
+            return !interrupt_.requested();
+        };
+        // The limit is one for the whole run: what reading took is gone.
+        if (std::isfinite(options_.time_limit))
+            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+        tell("untangle");
+        untangle_result<Element> result;
+        report_.seconds.solve = clock_.timed([&] { result = untangle(*q, *problem_, params); });
+        take(std::move(result));
+    }
+
+    void take(untangle_result<Element> result)
+    {
+        // The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.
+        report_.inverted = flips(result.map);
+        bool held = true;
+        for (std::size_t v = 0; v < problem_->held.size(); ++v)
+            for (int k = 0; k < D; ++k)
+                held = held && (!problem_->holds(v, k) || result.map[v][k] == problem_->initial[v][k]);
+        const bool valid = held && report_.inverted == 0;
+        report_.outcome = valid ? "injective" : interrupt_.requested() ? "interrupted" : "gave_up";
+        report_.code = interrupt_.requested() ? exit_code::interrupted
+                       : valid                ? exit_code::valid
+                                              : exit_code::no_valid_map;
+        report_.reason = valid ? "" : held ? result.reason : "a pin has moved";
+        report_.ids = std::move(result.ids);
+        report_.least_det = result.flips.min_det;
+        report_.least_relative_det = result.least_relative_det;
+        report_.stage = std::move(result.stage);
+        report_.stages = std::move(result.stages);
+        valid_ = valid;
+        map_ = std::move(result.map);
+    }
+
+    void write()
+    {
+        tell("write");
+        try
+        {
+            report_.seconds.write = clock_.timed([&] { write_files(); });
+            report_.seconds.total = clock_.now();
+            if (!options_.stats.empty())
+                write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+        }
+        catch (const io::io_error& e)
+        {
+            throw output_error(e.what());
+        }
+        catch (const picture_error& e)
+        {
+            throw output_error(e.what());
+        }
+        report_.seconds.total = clock_.now();
+    }
+
+    void write_files()
+    {
+        // A map with inverted elements never gets the name that was asked for.
+        if (!map_.empty() && (valid_ || names_a_file(options_.output)))
+        {
+            report_.written = valid_ ? options_.output : options_.output + ".invalid";
+            io::write_map<D>(report_.written, map_);
+        }
+        if constexpr (D == 2)
+            if (!options_.picture.empty()) draw_maps();
+    }
+
+    void draw_maps() requires(D == 2)
+    {
+        const std::string name = std::filesystem::path(options_.input).filename().string();
+        std::vector<layout_input> maps{
+            {problem_->initial, {.title = name + ": before", .note = count(report_.pinned) + " vertices pinned"}}};
+        if (!map_.empty())
+            maps.push_back(
+                {map_, {.title = "after", .note = report_.outcome + (valid_ ? " by " + report_.stage : "")}});
+        else
+            maps.back().style.note += ", infeasible";
+        draw(options_.picture, *problem_, maps);
+    }
+
+    static constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace; // file names need not be UTF-8
+
+    const untangle_options& options_;
+    run_clock clock_;
+    interrupt_guard interrupt_;
+    progress& progress_;
+    untangle_report report_;
+    std::optional<untangle_problem<Element>> problem_;
+    std::vector<vec<D>> map_;
+    bool valid_ = false;
+};
+
+exit_code run(const untangle_options& options, std::chrono::steady_clock::time_point launch)
+{
+    outputs files;
+    files.add("-o", options.output, {});
+    if (names_a_file(options.output)) files.add("-o", options.output + ".invalid", {});
+    files.add("--stats", options.stats, {".json"});
+    files.add("--picture", options.picture, {".png", ".svg"});
+    files.protect(options.input);
+
+    const run_clock clock(launch);
+    progress progress(progress_of(options.progress, options.quiet), std::cerr);
+    progress.update({.phase = "read", .seconds = clock.now()});
+    untangle_report report;
+    std::optional<decltype(io::read_any_prob({}))> file;
+    report.seconds.read = clock.timed([&] { file = io::read_any_prob(options.input); });
+    return std::visit(
+        [&]<class Element>(io::prob_file<Element>& problem)
+        { return untangle_run<Element>(options, clock, progress, std::move(report))(std::move(problem)); },
+        *file);
+}
+
+} // namespace
+
+command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<untangle_options>();
+    auto& app = *program.add_subcommand("untangle", "Make a map injective while some vertices stay where they are");
+    app.add_option("PROBLEM", options->input, "Problem: rest shape, initial map, cells and fixed vertices, as text")
+        ->required()
+        ->type_name("FILE.prob");
+    app.add_option("-o,--output", options->output, "Map to write: a vertex a line; OUT.invalid if it has flips left")
+        ->required()
+        ->type_name("OUT");
+    add_time_limit(app, options->time_limit, "Give up after S seconds");
+    add_device(app, options->device);
+    app.add_option("--stats", options->stats, "Write numbers as JSON")->type_name("FILE.json");
+    app.add_option("--picture", options->picture, "Draw the map before and after, with its pins")
+        ->type_name("FILE.png|.svg");
+    add_progress(app, options->progress, options->quiet);
+    return [options, launch] { return run(*options, launch); };
+}
+
+} // namespace taut::tools

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "untangle_report.hpp"
+
+#include <cmath>
+#include <iostream>
+
+#include "assessment.hpp"
+#include "run_clock.hpp"
+#include "text_table.hpp"
+
+namespace taut::tools
+{
+
+nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options& o)
+{
+    nlohmann::ordered_json json;
+    json["schema"] = "taut.untangle/1";
+    json["input"] = o.input;
+    json["output"] = r.written.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(r.written);
+    json["element"] = r.element;
+    json["vertices"] = r.vertices;
+    json["elements"] = r.elements;
+    json["pinned"] = r.pinned;
+    json["device"] = r.device;
+    json["outcome"] = r.outcome;
+    json["reason"] = r.reason;
+    json["ids"] = r.ids;
+    json["inverted_start"] = r.inverted_before;
+    json["inverted"] = r.inverted;
+    json["min_det"] = finite(r.least_det);
+    json["min_relative_det"] = finite(r.least_relative_det);
+    json["stage"] = r.stage;
+    json["stages"] = nlohmann::ordered_json::array();
+    for (const auto& s : r.stages)
+        json["stages"].push_back(
+            {{"name", s.name}, {"iterations", s.iterations}, {"seconds", s.seconds}, {"inverted", s.inverted}});
+    json["seconds"] = {{"read", r.seconds.read},   {"check", r.seconds.check}, {"device", r.seconds.device},
+                       {"solve", r.seconds.solve}, {"write", r.seconds.write}, {"total", r.seconds.total}};
+    json["peak_memory_bytes"] = peak_memory();
+    json["notes"] = r.notes;
+    return json;
+}
+
+void print(const untangle_report& r, const untangle_options& o)
+{
+    for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
+    labelled_lines lines;
+    lines.add("problem", o.input + ": " + count(r.vertices, "vertex", "vertices") + ", " + count(r.elements) + ' ' +
+                             r.element_names + ", " + count(r.pinned) + " vertices pinned");
+    if (!r.device_label.empty()) lines.add("device", r.device_label);
+    lines.add("inverted", count(r.inverted_before) + " -> " + count(r.inverted) + " of " + count(r.elements));
+    lines.add("outcome", r.outcome + (r.stage.empty() ? "" : ", by " + r.stage));
+    std::string stages;
+    for (const auto& s : r.stages)
+        stages += (stages.empty() ? "" : "; ") + s.name + ' ' +
+                  count(static_cast<std::uint64_t>(s.iterations), "iteration", "iterations") + ", " +
+                  duration(s.seconds) + ", " + count(s.inverted) + " left";
+    if (!stages.empty()) lines.add("stages", stages);
+    if (!std::isnan(r.least_det))
+        lines.add("least det", number(r.least_det) + ", relative to the mean " + number(r.least_relative_det));
+    lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", check " +
+                          duration(r.seconds.check) + ", device " + duration(r.seconds.device) + ", solve " +
+                          duration(r.seconds.solve) + ", write " + duration(r.seconds.write));
+    std::string files = r.written;
+    for (const auto& file : {o.picture, o.stats})
+        if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
+    if (!files.empty()) lines.add("wrote", files);
+    std::cout << lines;
+}
+
+} // namespace taut::tools

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <taut/map/untangle/untangle_result.hpp>
+
+#include "exit_codes.hpp"
+
+namespace taut::tools
+{
+
+/// What the user asked `taut untangle` for.
+struct untangle_options
+{
+    std::string input, output, stats, picture, device, progress;
+    double time_limit = std::numeric_limits<double>::infinity();
+    bool quiet = false;
+};
+
+/// Everything that a run of `taut untangle` has to say; the map itself aside, it knows no dimension.
+struct untangle_report
+{
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    exit_code code = exit_code::valid;
+    std::string outcome; ///< "injective", "infeasible", "gave_up" or "interrupted"
+    std::string reason;  ///< why there is no valid map
+    std::vector<index> ids;
+    std::string written; ///< the file with the map; empty: none
+    std::string device, device_label;
+    std::size_t vertices = 0, elements = 0, pinned = 0, inverted_before = 0, inverted = 0;
+    const char *element = "", *element_names = "";
+    double least_det = unknown, least_relative_det = unknown; ///< of the map; unknown where nothing was solved
+    std::string stage;
+    std::vector<untangle_stage_report> stages;
+    std::vector<std::string> notes;
+    struct
+    {
+        double read = 0, check = 0, device = 0, solve = 0, write = 0, total = 0;
+    } seconds;
+};
+
+nlohmann::ordered_json to_json(const untangle_report& report, const untangle_options& options);
+
+/// The table on standard output, and notes on standard error.
+void print(const untangle_report& report, const untangle_options& options);
+
+} // namespace taut::tools
