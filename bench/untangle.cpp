@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The untangling stack over folders of .prob files: what each problem ended with, by which stage and how soon, and
 // totals by class and feasibility where the folder has an INDEX.tsv (name, dim, ..., class, feasibility by headings).
-//   taut_bench_untangle [--limit SECONDS] [--stages NAME,NAME] [--json FILE] [FOLDER|FILE...]
+// With --optimize, the isometric energy of each map that was found is then minimised under the same pins.
+//   taut_bench_untangle [--limit SECONDS] [--stages NAME,NAME] [--optimize ITERATIONS] [--json FILE] [FOLDER|FILE...]
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -13,6 +14,7 @@
 #include <support/meshes.hpp>
 
 #include <taut/io/prob.hpp>
+#include <taut/map/parameterize.hpp>
 #include <taut/map/untangle/make_untangle_problem.hpp>
 #include <taut/map/untangle/untangle.hpp>
 
@@ -61,10 +63,12 @@ struct tally
 class untangle_bench
 {
 public:
-    untangle_bench(queue& q, untangle_params params) : queue_(q), params_(std::move(params))
+    /// steps: of the optimisation afterwards; 0: none
+    untangle_bench(queue& q, untangle_params params, int steps) : queue_(q), params_(std::move(params)), steps_(steps)
     {
-        std::printf("%-32s %7s %7s %6s %8s  %-10s %-9s %8s %9s  %s\n", "problem", "V", "F", "pinned", "inverted",
-                    "outcome", "stage", "seconds", "least det", "held");
+        std::printf("%-32s %7s %7s %6s %8s  %-10s %-9s %8s %9s  %s%s\n", "problem", "V", "F", "pinned", "inverted",
+                    "outcome", "stage", "seconds", "least det", "held",
+                    steps > 0 ? "   optimised: energy, gradient, iterations, seconds, stop" : "");
     }
 
     template <class Element>
@@ -85,10 +89,14 @@ public:
                        (!problem.holds(v, k) || std::memcmp(&r.map[v][k], &problem.initial[v][k], sizeof(double)) == 0);
         }
         if (!held || (r && flips.flipped > 0)) throw std::runtime_error(name + ": a wrong answer");
-        std::printf("%-32s %7d %7d %6d %8zu  %-10s %-9s %8.2f %9.2g  %s\n", name.c_str(), problem.rest.vertex_count(),
+        std::printf("%-32s %7d %7d %6d %8zu  %-10s %-9s %8.2f %9.2g  %s", name.c_str(), problem.rest.vertex_count(),
                     problem.rest.cell_count(), pinned, start.flipped, std::string(to_string(r.outcome)).c_str(),
                     r ? r.stage.c_str() : std::to_string(flips.flipped).c_str(), r.seconds, r.least_relative_det,
                     held ? "exact" : "MOVED");
+        nlohmann::ordered_json optimised;
+        if constexpr (D == 2)
+            if (r && steps_ > 0) optimised = optimise(name, problem, r.map);
+        std::printf("\n");
         std::fflush(stdout);
         auto stages = nlohmann::ordered_json::array();
         for (const auto& s : r.stages)
@@ -118,7 +126,8 @@ public:
                            {"least_relative_det", r.least_relative_det},
                            {"seconds", r.seconds},
                            {"reason", r.reason},
-                           {"stages", std::move(stages)}});
+                           {"stages", std::move(stages)},
+                           {"optimised", std::move(optimised)}});
     }
 
     void print_totals() const
@@ -138,6 +147,40 @@ public:
     nlohmann::ordered_json results = nlohmann::ordered_json::array();
 
 private:
+    /// Minimises the isometric energy under the pins of a problem, from an injective map.
+    nlohmann::ordered_json optimise(const std::string& name, const untangle_problem<triangle>& problem,
+                                    const std::vector<vec2>& start)
+    {
+        constraints<triangle> pins(problem.rest);
+        for (std::size_t v = 0; v < problem.held.size(); ++v)
+            for (int k = 0; k < 2; ++k)
+                if (problem.holds(v, k)) pins.pin(static_cast<taut::index>(v), k, problem.initial[v][k]);
+        map_result r;
+        const double seconds = bench::seconds(
+            [&]
+            {
+                r = parameterize(queue_, problem.rest,
+                                 {.constraints = pins,
+                                  .initial = start,
+                                  .holes = true,
+                                  .solve = {.stopping = {.max_iterations = steps_}}});
+            });
+        bool held = true;
+        for (const auto& [v, pin] : pins.pins())
+            for (int k = 0; k < 2; ++k)
+                held = held && ((pin.held >> k & 1u) == 0 || r.uv[static_cast<std::size_t>(v)][k] == pin.value[k]);
+        if (!held || (r && certify<2>(problem.rest.cells(), std::span<const vec2>(r.uv)).flipped > 0))
+            throw std::runtime_error(name + ": a wrong map");
+        const auto& s = r.report.solve;
+        if (r)
+            std::printf("   %9.4g %8.1e %5d %6.2f  %s", s.value, s.gradient_norm, s.iterations, seconds,
+                        std::string(to_string(s.stop)).c_str());
+        else
+            std::printf("   no map: %s", r.reason().c_str());
+        return {{"valid", static_cast<bool>(r)}, {"energy", s.value},  {"gradient", s.gradient_norm},
+                {"iterations", s.iterations},    {"seconds", seconds}, {"stop", to_string(s.stop)}};
+    }
+
     static void print(const std::string& name, const tally& t)
     {
         std::printf("%-44s %8d %9d %10d %8.2f\n", name.c_str(), t.problems, t.injective, t.infeasible, t.seconds);
@@ -145,6 +188,7 @@ private:
 
     queue& queue_;
     untangle_params params_;
+    int steps_;
     std::map<std::string, tally> classes_;
     std::map<std::string, double> stage_seconds_;
     std::map<std::string, int> stage_solved_;
@@ -171,7 +215,7 @@ untangle_problem<triangle> collapsed_square(int n)
 int main(int argc, char** argv)
 try
 {
-    const bench::options options(argc, argv, {"--limit", "--stages"});
+    const bench::options options(argc, argv, {"--limit", "--stages", "--optimize"});
     untangle_params params;
     params.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")));
     params.stages = split(options.value("--stages", ""), ',');
@@ -179,7 +223,7 @@ try
     auto report = bench::circumstances(q);
     report["limit"] = params.time_limit.count();
     std::printf("taut %s %s on %s\n\n", TAUT_VERSION_STRING, TAUT_BENCH_COMMIT, q.device().name().c_str());
-    untangle_bench bench(q, params);
+    untangle_bench bench(q, params, std::stoi(options.value("--optimize", options.quick ? "50" : "0")));
     std::vector<fs::path> files;
     for (const fs::path path : options.paths)
         if (fs::is_directory(path))

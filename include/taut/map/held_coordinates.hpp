@@ -59,7 +59,7 @@ public:
     {
         if (!constrained()) return;
         for (vec2& p : uv) p /= unit_;
-        if (free_boundary_) fit_similarity(uv, wanted_);
+        if (free_boundary_ && !obeys(uv)) fit_similarity(uv, wanted_);
         for (const auto& [v, pin] : wanted_.pins())
             for (int k = 0; k < 2; ++k)
                 if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k];
@@ -97,6 +97,15 @@ public:
     }
 
 private:
+    /// True if there are pins and all are where they should be; a similarity could only add rounding.
+    bool obeys(const std::vector<vec2>& uv) const
+    {
+        for (const auto& [v, pin] : wanted_.pins())
+            for (int k = 0; k < 2; ++k)
+                if ((pin.held >> k & 1u) != 0 && uv[static_cast<std::size_t>(v)][k] != pin.value[k]) return false;
+        return !wanted_.pins().empty();
+    }
+
     static constexpr std::uint8_t all = untangle_problem<triangle>::all;
 
     static void require(index v, std::size_t vertices)

@@ -5,13 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/map/barycentric_map.hpp>
-#if __has_include(<Eigen/SparseCore>) || __has_include(<eigen3/Eigen/SparseCore>)
-#include <taut/map/eigen_solver.hpp>
-#define TAUT_TEST_EIGEN
-#endif
-
 #include "support/meshes.hpp"
+#include <taut/map/barycentric_map.hpp>
 
 namespace
 {
@@ -173,22 +168,3 @@ TEST_CASE("barycentric system: a degenerate triangle has no mean value weights, 
                     taut::error);
     CHECK(taut::make_barycentric_system(points, cells, fixed, x, barycentric_weights::uniform).excess[0] == 3);
 }
-
-#ifdef TAUT_TEST_EIGEN
-TEST_CASE("eigen solver: agrees with the elimination")
-{
-    const auto m = taut::test::bumpy(20, 0.4, 9);
-    for (const auto weights : {barycentric_weights::uniform, barycentric_weights::mean_value})
-    {
-        const auto own = taut::barycentric_map(m, {.weights = weights});
-        const auto eigen = taut::barycentric_map(m, {.weights = weights}, taut::eigen_solver{});
-        CHECK(eigen.flips.flipped == 0);
-        double difference = 0;
-        for (std::size_t v = 0; v < own.uv.size(); ++v)
-            difference = std::max(difference, glm::distance(own.uv[v], eigen.uv[v]));
-        CHECK(difference < 1e-13);
-    }
-    CHECK(taut::eigen_solver{}(path({1, 1, 1})).size() == 2);
-    CHECK(taut::eigen_solver{}(barycentric_system{}).empty());
-}
-#endif
