@@ -102,7 +102,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                       {"weights", o.weights == energy::weighting::measure ? "area" : "uniform"},
                       {"boundary", boundary_name(o.boundary)},
                       {"solver", to_string(o.solver)},
-                      {"start", describe_start(o)}};
+                      {"start", r.pins + r.springs > 0 ? "brought to the constraints" : describe_start(o)}};
     json["constraints"] = {{"pins", r.pins}, {"springs", r.springs}};
     json["untangling"] = nlohmann::ordered_json::array();
     for (const auto& stage : r.map.untangling)
@@ -152,8 +152,8 @@ void print(const unwrap_report& r, const unwrap_options& o)
     lines.add("mesh", o.input + ": " + count(static_cast<std::uint64_t>(r.after.vertices), "vertex", "vertices") +
                           ", " + count(flips.elements, "triangle", "triangles"));
     lines.add("device", r.device_label + ", " + to_string(r.map.precision));
-    lines.add("start", describe_start(o) + ": E " + number(r.energy_before) + ", " +
-                           count(r.map.start.flips.flipped, "flip", "flips"));
+    lines.add("start", (r.pins + r.springs > 0 ? "brought to the constraints" : describe_start(o)) + ": E " +
+                           number(r.energy_before) + ", " + count(r.map.start.flips.flipped, "flip", "flips"));
     if (r.pins + r.springs > 0)
         lines.add("constraints",
                   count(r.pins, "vertex pinned", "vertices pinned") + ", " + count(r.springs, "spring", "springs"));
