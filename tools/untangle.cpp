@@ -32,6 +32,7 @@
 #include "shared_options.hpp"
 #include "text_table.hpp"
 #include "untangle_report.hpp"
+#include "writing.hpp"
 
 namespace taut::tools
 {
@@ -192,21 +193,14 @@ private:
     void write()
     {
         tell("write");
-        try
-        {
-            report_.seconds.write = clock_.timed([&] { write_files(); });
-            report_.seconds.total = clock_.now();
-            if (!options_.stats.empty())
-                write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
-        }
-        catch (const io::io_error& e)
-        {
-            throw output_error(e.what());
-        }
-        catch (const picture_error& e)
-        {
-            throw output_error(e.what());
-        }
+        writing(
+            [&]
+            {
+                report_.seconds.write = clock_.timed([&] { write_files(); });
+                report_.seconds.total = clock_.now();
+                if (!options_.stats.empty())
+                    write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+            });
         report_.seconds.total = clock_.now();
     }
 

@@ -26,6 +26,7 @@
 #include "shared_options.hpp"
 #include "unwrap_options.hpp"
 #include "unwrap_report.hpp"
+#include "writing.hpp"
 
 namespace taut::tools
 {
@@ -134,14 +135,7 @@ private:
         if (map.ids.size() > 8) ids += ", ..";
         if (!map.ids.empty()) ids += ')';
         const std::string best = options_.output + ".invalid";
-        try
-        {
-            io::write_obj(best, file_->surface, result.uv, file_->extras);
-        }
-        catch (const io::io_error& e)
-        {
-            throw output_error(e.what());
-        }
+        writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
         const std::string what = map.reason + ids + "; the best map is in " + best;
         if (interrupt_.requested()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
@@ -158,21 +152,14 @@ private:
     void write()
     {
         tell("write");
-        try
-        {
-            report_.seconds.write = clock_.timed([&] { write_files(); });
-            report_.seconds.total = clock_.now();
-            if (!options_.stats.empty())
-                write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
-        }
-        catch (const io::io_error& e)
-        {
-            throw output_error(e.what());
-        }
-        catch (const picture_error& e)
-        {
-            throw output_error(e.what());
-        }
+        writing(
+            [&]
+            {
+                report_.seconds.write = clock_.timed([&] { write_files(); });
+                report_.seconds.total = clock_.now();
+                if (!options_.stats.empty())
+                    write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+            });
         report_.seconds.total = clock_.now();
     }
 
