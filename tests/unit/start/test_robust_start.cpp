@@ -158,7 +158,7 @@ TEST_CASE("robust start: closed surfaces and parameters out of range are refused
 
 TEST_CASE("coarse start: fine surfaces are mapped through their hierarchy, the same on any number of threads")
 {
-    for (const auto& m : {taut::test::cap(36, 2.5), taut::test::bumpy(40, 0.4), taut::test::long_tube(14, 20)})
+    for (const auto& m : {taut::test::cap(60, 2.5), taut::test::bumpy(70, 0.4), taut::test::long_tube(14, 20)})
     {
         const auto h = taut::make_hierarchy(m);
         REQUIRE(h.levels.size() > 2);
