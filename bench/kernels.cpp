@@ -10,10 +10,12 @@
 #include <support/meshes.hpp>
 
 #include <taut/energy/isometric.hpp>
-#include <taut/map/problem.hpp>
+#include <taut/map/mesh_levels.hpp>
+#include <taut/map/newton_problem.hpp>
 
 #include "measure.hpp"
 #include "native.hpp"
+#include "stream.hpp"
 
 namespace
 {
@@ -129,7 +131,7 @@ private:
             corner.push_back(item % 3);
         }
         return gather<P, R>(queue_, a_.incidence.offsets, cell, corner,
-                         {.components = 2, .cell_stride = a_.cell_stride, .vertex_stride = a_.vertex_stride});
+                            {.components = 2, .cell_stride = a_.cell_stride, .vertex_stride = a_.vertex_stride});
     }
 
     queue queue_;
@@ -212,6 +214,11 @@ public:
             vectors<double>("double", 8 << 20);
             vectors<float>("float", 8 << 20);
         }
+
+        std::printf(
+            "\nNewton, mixed    ns a triangle (GB/s, part of the triad)\n"
+            "triangles        triad    product            smoothing step     Hessians      + refresh    V-cycle\n");
+        for (const auto& m : meshes) newton(m);
     }
 
 private:
@@ -258,6 +265,70 @@ private:
         std::printf("   x%.2f (least: %.2f / %.2f)\n", ratio, t[4].least * per_cell, t[5].least * per_cell);
         row["gradient_to_native"] = ratio;
         row["gradient_difference"] = error;
+        report_["results"].push_back(row);
+    }
+
+    /// What an iteration of Newton's method is made of. Bytes are those that must move, each number once.
+    void newton(const mesh<triangle>& m)
+    {
+        using problem = newton_problem<triangle, double, float>;
+        const mesh_levels levels(m);
+        const auto local = levels.make_layout(0);
+        const any_energy energy = energy::isometric{};
+        const auto kernels = std::make_shared<const problem::kernels>(queue_, energy);
+        problem f(queue_, local, energy, energy::weighting::measure, kernels, levels.cells(0), levels.transfers(0),
+                  levels.fixed(0));
+        auto x = f.make_point();
+        std::vector<vec2> uv;
+        for (const vec3& p : levels.points()) uv.emplace_back(p.x, p.y);
+        f.upload(uv, x);
+        auto g = f.space().make(), d = f.space().make(), y = f.space().make();
+        f.value_gradient(x, g);
+        f.linearize(x, false);
+        const auto& A = f.preconditioner().matrix();
+        const auto done = [&](auto&& work)
+        {
+            return [&, work]
+            {
+                work();
+                queue_.finish();
+            };
+        };
+        const element_arrays<triangle, float> arrays(queue_, *local, energy::weighting::measure);
+        buffer<float> hessian(queue_, hessian_slots<2>::count * local->cell_stride);
+        const auto number = [](std::size_t n) { return static_cast<taut::index>(n); };
+        const auto t = bench::interleaved(
+            repeats(m.cells().size()),
+            {done([&] { A.multiply(g, d); }), done([&] { A.smooth(g, d, d, 1, 0, 0.5, y); }),
+             done(
+                 [&]
+                 {
+                     kernels->second.projected({local->cell_stride, layout<triangle>::step}, arrays.corners,
+                                               arrays.inverse, arrays.measure, arrays.weight, x.data(), hessian,
+                                               number(local->cell_stride), number(local->vertex_stride));
+                 }),
+             done([&] { f.linearize(x, false); }), done([&] { f.precondition(g, d); })});
+        const double vector = 4.0 * static_cast<double>(g.size()), cells = static_cast<double>(m.cells().size());
+        const double moved[] = {static_cast<double>(A.product_bytes()),
+                                static_cast<double>(A.product_bytes()) + 2 * vector + vector, // inverses, right side
+                                cells * (3 + 3 + 1 + 1 + hessian_slots<2>::count) * 4 + 2 * vector};
+        const double triad = bench::device_triad(queue_);
+        const char* names[] = {"product", "smoothing", "hessians", "linearize", "cycle"};
+        nlohmann::ordered_json row = {
+            {"what", "newton"}, {"triangles", m.cells().size()}, {"triad_GBps", triad * 1e-9}};
+        std::printf("%-12zu %9.1f", m.cells().size(), triad * 1e-9);
+        for (std::size_t i = 0; i < t.size(); ++i)
+        {
+            const std::string name = names[i];
+            row[name + "_ns"] = t[i].median * 1e9 / cells;
+            std::printf("  %7.2f", t[i].median * 1e9 / cells);
+            if (i >= std::size(moved)) continue;
+            const double rate = moved[i] / t[i].median;
+            row[name + "_GBps"] = rate * 1e-9;
+            row[name + "_of_triad"] = rate / triad;
+            std::printf(" (%.1f, %.0f %%)", rate * 1e-9, 100 * rate / triad);
+        }
+        std::printf("\n");
         report_["results"].push_back(row);
     }
 

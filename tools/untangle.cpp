@@ -51,7 +51,7 @@ io::layout_overlay overlay_of(const untangle_problem<triangle>& p, std::span<con
 {
     io::layout_overlay overlay;
     for (std::size_t v = 0; v < x.size(); ++v)
-        if (p.held[v] != 0) overlay.pins.push_back({x[v], p.initial[v], true, p.held[v]});
+        if (p.held[v] != 0) overlay.pins.push_back({x[v], x[v], true, p.held[v]});
     return overlay;
 }
 

@@ -190,8 +190,9 @@ private:
     io::layout_overlay constraints_overlay() const
     {
         io::layout_overlay overlay;
+        auto origin = report_.map.pin_origins.begin();
         for (const auto& [v, pin] : pins_.pins())
-            overlay.pins.push_back({uv_[static_cast<std::size_t>(v)], pin.value, true, pin.held});
+            overlay.pins.push_back({*origin++, uv_[static_cast<std::size_t>(v)], true, pin.held});
         for (const auto& s : pins_.springs())
             overlay.pins.push_back({uv_[static_cast<std::size_t>(s.vertex)], s.target, false});
         return overlay;

@@ -133,10 +133,12 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                                   {"iterations", l.solve.iterations},
                                   {"energy_start", finite(l.solve.value_start)},
                                   {"energy", finite(l.solve.value)},
+                                  {"waits", l.solve.waits},
                                   {"seconds", l.solve.seconds}});
     json["capping"] = r.map.solve.capping;
     json["launches"] = r.map.counters.launches;
     json["waits"] = r.map.counters.waits;
+    json["waits_of_solve"] = r.map.solve.waits;
     json["peak_memory_bytes"] = peak_memory();
     json["quality"] = to_json(r.after);
     json["notes"] = r.notes;

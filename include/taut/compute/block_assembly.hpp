@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
 #include <taut/compute/block_sparse.hpp>
 #include <taut/compute/cell_pattern.hpp>
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include <taut/compute/block_sparse.hpp>
 #include <taut/compute/product_groups.hpp>
 

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <limits>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <taut/compute/block_pattern.hpp>
 

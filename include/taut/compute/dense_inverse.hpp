@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
 #include <taut/compute/block_sparse.hpp>
 
 namespace taut::detail

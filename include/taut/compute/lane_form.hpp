@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include <taut/compute/quirks.hpp>
 #include <taut/compute/range.hpp>
 #include <taut/core/types.hpp>

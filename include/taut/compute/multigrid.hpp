@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <taut/compute/block_transfer.hpp>
 #include <taut/compute/dense_inverse.hpp>

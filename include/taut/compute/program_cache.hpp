@@ -2,8 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include <taut/compute/detail/build_excerpt.hpp>
 #include <taut/compute/device.hpp>

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <limits>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <taut/compute/block_pattern.hpp>
 

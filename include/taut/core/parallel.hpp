@@ -24,7 +24,8 @@ template <class Body>
 void parallel_for(std::size_t n, Body&& body, unsigned threads = 0, std::size_t grain = 4096)
 {
     if (n == 0) return;
-    if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    static const unsigned at_once = std::max(1U, std::thread::hardware_concurrency()); // the answer is in a file
+    if (threads == 0) threads = at_once;
     const std::size_t team = std::min<std::size_t>(threads, n / std::max<std::size_t>(grain, 1));
     if (team <= 1)
     {

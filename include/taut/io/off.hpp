@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <taut/io/polygon_soup.hpp>
 #include <taut/io/scanner.hpp>

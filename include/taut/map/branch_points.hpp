@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <span>
 #include <vector>
 
-#include <taut/mesh/mesh.hpp>
+#include <taut/mesh/boundary.hpp>
 
 namespace taut
 {
@@ -15,10 +16,10 @@ namespace taut
 /// triangles add up to 4 pi or more, not 2 pi. No triangle is flipped there, but neighbourhoods overlap. A map of a
 /// disk onto a simple outline has none.
 ///
-/// uv: one point a vertex; boundary: one flag a vertex.
-inline std::vector<index> branch_points(const mesh<triangle>& m, std::span<const vec2> uv,
-                                        const std::vector<bool>& boundary)
+/// uv: one point a vertex; sides: facets(m).
+inline std::vector<index> branch_points(const mesh<triangle>& m, const facet_table& sides, std::span<const vec2> uv)
 {
+    const auto boundary = boundary_flags(uv.size(), boundary_loops(m, sides));
     std::vector<double> angle(uv.size(), 0.0);
     for (const auto& t : m.cells())
         for (std::size_t k = 0; k < 3; ++k)
@@ -29,7 +30,7 @@ inline std::vector<index> branch_points(const mesh<triangle>& m, std::span<const
         }
     std::vector<index> found;
     for (std::size_t v = 0; v < uv.size(); ++v)
-        if (!boundary[v] && angle[v] > 3 * std::numbers::pi) found.push_back(static_cast<index>(v));
+        if (boundary[v] == 0 && angle[v] > 3 * std::numbers::pi) found.push_back(static_cast<index>(v));
     return found;
 }
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <taut/map/any_energy.hpp>

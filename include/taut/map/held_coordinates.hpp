@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <taut/map/fit_similarity.hpp>
 #include <taut/map/parameterize_params.hpp>
 #include <taut/map/point_constraints.hpp>
+#include <taut/map/similarity.hpp>
 #include <taut/map/untangle/untangle_problem.hpp>
 #include <taut/mesh/boundary.hpp>
 
@@ -54,16 +57,47 @@ public:
         return true;
     }
 
-    /// Brings a map near the constraints if its boundary is free, and what they pin exactly there.
+    /// Moves a map by the similarity that brings it closest to what the constraints ask, if its boundary is free: to
+    /// two or more pinned vertices; else to these and the springs. One vertex shifts the map, none leaves it. Targets
+    /// that no similarity explains, and which would shrink the map to nothing, only turn and shift it.
+    void bring_near(std::vector<vec2>& uv) const
+    {
+        if (!free_boundary_ || obeys(uv)) return;
+        std::vector<anchor> anchors;
+        for (const auto& [v, p] : wanted_.pins())
+            if (p.held == all) anchors.push_back({uv[static_cast<std::size_t>(v)], p.value * unit_});
+        if (anchors.size() < 2)
+        {
+            double heaviest = 0;
+            for (const auto& s : wanted_.springs()) heaviest = std::max(heaviest, s.weight);
+            for (const auto& s : wanted_.springs())
+                if (s.weight > 0)
+                    anchors.push_back({uv[static_cast<std::size_t>(s.vertex)], s.target * unit_, s.weight / heaviest});
+        }
+        if (anchors.empty()) return;
+        auto [map, explained] = fit_similarity(anchors);
+        const double scale = std::abs(map.turn);
+        if (!(scale > 0) || !std::isfinite(scale))
+            map.turn = 1;
+        else if (explained <= 0.25)
+            map.turn /= scale;
+        for (vec2& p : uv) p = map(p);
+    }
+
+    /// Puts held coordinates where the constraints want them.
     void impose(std::vector<vec2>& uv) const
     {
-        if (!constrained()) return;
-        for (vec2& p : uv) p /= unit_;
-        if (free_boundary_ && !obeys(uv)) fit_similarity(uv, wanted_);
         for (const auto& [v, pin] : wanted_.pins())
             for (int k = 0; k < 2; ++k)
-                if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k];
-        for (vec2& p : uv) p *= unit_;
+                if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k] * unit_;
+    }
+
+    /// The points of a map at the vertices of constraints::pins(), in their order.
+    std::vector<vec2> pinned_points(const std::vector<vec2>& uv) const
+    {
+        std::vector<vec2> points;
+        for (const auto& [v, pin] : wanted_.pins()) points.push_back(uv[static_cast<std::size_t>(v)]);
+        return points;
     }
 
     /// Gives held coordinates the values that they have in another map, bit for bit.
@@ -102,7 +136,8 @@ private:
     {
         for (const auto& [v, pin] : wanted_.pins())
             for (int k = 0; k < 2; ++k)
-                if ((pin.held >> k & 1u) != 0 && uv[static_cast<std::size_t>(v)][k] != pin.value[k]) return false;
+                if ((pin.held >> k & 1u) != 0 && uv[static_cast<std::size_t>(v)][k] != pin.value[k] * unit_)
+                    return false;
         return !wanted_.pins().empty();
     }
 

@@ -44,11 +44,20 @@ struct map_report
     taut::precision precision = precision::full; ///< that the map was calculated in
     start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
     std::vector<level_report> levels; ///< coarser levels, in their order in time
+    std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
     std::vector<untangle_stage_report> untangling; ///< what it took to make the start injective
     certificate flips;                             ///< of the map that is returned, exact
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run
+
+    /// There is no valid map, as `map` has flips.
+    void refuse(const std::string& map, const certificate& found)
+    {
+        ids = found.ids;
+        reason = map + " has " + std::to_string(found.flipped) + " flipped of " + std::to_string(found.elements) +
+                 " triangles, first " + std::to_string(ids.empty() ? -1 : ids.front());
+    }
 };
 
 inline std::ostream& operator<<(std::ostream& out, const map_report& r)

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <taut/compute/block_assembly.hpp>
 #include <taut/compute/multigrid.hpp>
@@ -88,6 +93,9 @@ public:
         cycle_.apply(v, out);
         this->terms().mask(out);
     }
+
+    /// What precondition() applies, with its matrices, for measurements.
+    const multigrid<R>& preconditioner() const { return cycle_; }
 
     /// Moves the vertices of the worst elements alone; whether there were any.
     bool relax(point& x) { return relaxation_(x).vertices > 0; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include <taut/map/eigenvalue_clamp.hpp>
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include <taut/map/isotropic.hpp>
 #include <taut/map/symmetric_matrix.hpp>
 

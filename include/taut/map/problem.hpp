@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <taut/compute/gather.hpp>
@@ -85,6 +91,17 @@ public:
         return summed();
     }
 
+    /// The same; square = g'g.
+    double value_gradient(const point& x, vector& g, double& square)
+    {
+        gradient(x, g);
+        const auto sum = enqueue_sum();
+        const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
+        reductions_.fetch();
+        square = reductions_.value(norm);
+        return reductions_.value(sum);
+    }
+
     /// g = the gradient; nothing waits.
     void gradient(const point& x, vector& g)
     {
@@ -129,13 +146,21 @@ public:
     double capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
                          std::span<double> out)
     {
-        const auto least = enqueue_max_step(x, d);
-        reductions_.limit(least, fraction, 1, limit_);
-        const auto results = enqueue_values(x, d, limit_, a);
+        const auto capped = enqueue_capped_values(x, d, fraction, a);
         reductions_.fetch();
-        fold_values(results, out);
-        const double bound = fraction * reductions_.value(least);
-        return bound >= 1 ? 1 : bound;
+        return fold_capped_values(capped, fraction, out);
+    }
+
+    /// The same, and full = x + d with its gradient g; returns g'g second. Still one wait.
+    std::pair<double, double> capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
+                                            std::span<double> out, point& full, vector& g)
+    {
+        const auto capped = enqueue_capped_values(x, d, fraction, a);
+        step(x, 1, d, full);
+        gradient(full, g);
+        const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
+        reductions_.fetch();
+        return {fold_capped_values(capped, fraction, out), reductions_.value(norm)};
     }
 
     /// Launches every kernel once, so that what the driver compiles at the first launch is compiled: those of the
@@ -164,6 +189,8 @@ public:
     /// Norm of a gradient that is typical of the mesh: the same relative gradient then means the same on every mesh and
     /// scale. After Zhu, Bridson, Kaufman 2018 ("Blended cured quasi-Newton"), section 4.
     double gradient_scale(const point&) const { return gradient_scale_; }
+
+    std::uint64_t waits() const { return queue_.counters().waits; }
 
     /// Relative rounding error of a value: sums are in double, and the errors of many elements average out.
     double rounding() const { return std::is_same_v<R, double> ? 1e-14 : 1e-8; }
@@ -234,6 +261,26 @@ private:
         return results;
     }
 
+    struct capped_sums
+    {
+        reductions::result least;
+        sums values;
+    };
+
+    capped_sums enqueue_capped_values(const point& x, const vector& d, double fraction, std::span<const double> a)
+    {
+        const auto least = enqueue_max_step(x, d);
+        reductions_.limit(least, fraction, 1, limit_);
+        return {least, enqueue_values(x, d, limit_, a)};
+    }
+
+    double fold_capped_values(const capped_sums& r, double fraction, std::span<double> out) const
+    {
+        fold_values(r.values, out);
+        const double bound = fraction * reductions_.value(r.least);
+        return bound >= 1 ? 1 : bound;
+    }
+
     void fold_values(const sums& results, std::span<double> out) const
     {
         std::size_t i = 0;
@@ -247,9 +294,14 @@ private:
         return reductions_.minimum(energies_, static_cast<std::size_t>(layout_->cell_count));
     }
 
+    reductions::result enqueue_sum()
+    {
+        return reductions_.sum(energies_, {.length = static_cast<std::size_t>(layout_->cell_count)});
+    }
+
     double summed()
     {
-        const auto sum = reductions_.sum(energies_, {.length = static_cast<std::size_t>(layout_->cell_count)});
+        const auto sum = enqueue_sum();
         reductions_.fetch();
         return reductions_.value(sum);
     }

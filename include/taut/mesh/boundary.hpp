@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -79,6 +81,15 @@ inline std::vector<std::vector<index>> boundary_loops(const mesh<triangle>& m, c
 inline std::vector<std::vector<index>> boundary_loops(const mesh<triangle>& m)
 {
     return boundary_loops(m, facets(m));
+}
+
+/// Flags of the vertices on these loops.
+inline std::vector<char> boundary_flags(std::size_t vertices, std::span<const std::vector<index>> loops)
+{
+    std::vector<char> flags(vertices, 0);
+    for (const auto& loop : loops)
+        for (const index v : loop) flags[static_cast<std::size_t>(v)] = 1;
+    return flags;
 }
 
 } // namespace taut

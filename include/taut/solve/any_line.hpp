@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include <taut/solve/line_search.hpp>
 
 namespace taut::solve

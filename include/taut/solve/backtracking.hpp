@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include <taut/solve/bracket.hpp>
 #include <taut/solve/wolfe_conditions.hpp>
 

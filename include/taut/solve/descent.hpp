@@ -6,8 +6,10 @@
 #include <taut/solve/objective_line.hpp>
 #include <taut/solve/report.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace taut::solve

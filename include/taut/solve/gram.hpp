@@ -3,10 +3,14 @@
 
 #include <taut/solve/pair_memory.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace taut::solve
 {

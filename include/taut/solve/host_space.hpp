@@ -4,6 +4,7 @@
 #include <taut/solve/vector_space.hpp>
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace taut::solve

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include <taut/solve/backtracking.hpp>
 #include <taut/solve/brent.hpp>
 #include <taut/solve/secant.hpp>

@@ -10,9 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace taut::solve
 {
@@ -49,8 +53,9 @@ namespace detail
 /// | `d_`                | d_k                                                         |
 /// | `unit`              | the longest trial step: min(1, fraction of the first flip)  |
 ///
-/// Host waits of an iteration: the products of pcg and the trial steps, 2; one more for the gradient where the decrease
-/// is small enough to expect the end.
+/// Host waits of an iteration, 2: the products of pcg, mostly one look, and the trial steps. Where the decrease is
+/// small enough to expect the end, the norm of the gradient is wanted, too: it comes with the trial steps if the full
+/// step is taken, and else costs a third wait.
 template <objective Objective>
 class newton_loop
 {
@@ -68,8 +73,11 @@ public:
           test_(common.stopping, rounding_, patience),
           pcg_(f.space(), params.pcg),
           previous_(f.make_point()),
+          full_(f.make_point()),
           g_(f.space().make()),
-          d_(f.space().make())
+          d_(f.space().make()),
+          full_gradient_(f.space().make()),
+          waits_(waits(f))
     {
     }
 
@@ -85,11 +93,18 @@ public:
         report_.evaluations = monitor_.evaluations();
         report_.gradients = monitor_.gradients();
         report_.seconds = monitor_.seconds();
+        report_.waits = waits(f_) - waits_;
         return std::move(report_);
     }
 
 private:
     static constexpr int patience = 3; // gradients fall fast or not at all
+
+    static std::uint64_t waits(const Objective& f)
+    {
+        if constexpr (has_waits<Objective>) return f.waits();
+        return 0;
+    }
 
     static double rounding(Objective& f, const descent_params& common)
     {
@@ -99,9 +114,10 @@ private:
 
     std::optional<solve::stop> start()
     {
-        value_ = report_.value_start = report_.value = f_.value_gradient(x_, g_);
+        double square;
+        value_ = report_.value_start = report_.value = value_gradient(square);
         monitor_.count(1, 1);
-        const double norm = std::sqrt(f_.space().dot(g_, g_));
+        const double norm = std::sqrt(square);
         if (!std::isfinite(value_) || !std::isfinite(norm)) return solve::stop::not_finite_start;
         scale_ = norm;
         if constexpr (has_gradient_scale<Objective>) scale_ = f_.gradient_scale(x_);
@@ -181,6 +197,14 @@ private:
     double first_values(std::span<const double> a, std::span<double> values)
     {
         const double fraction = common_.line_search.barrier_fraction;
+        if constexpr (has_full_step<Objective>)
+            if (near_end_)
+            {
+                const auto [unit, square] = f_.capped_values(x_, d_, fraction, a, values, full_, full_gradient_);
+                monitor_.count(0, 1);
+                full_square_ = square;
+                return unit;
+            }
         if constexpr (has_capped_values<Objective>)
             return f_.capped_values(x_, d_, fraction, a, values);
         else
@@ -210,8 +234,12 @@ private:
     /// x_k -> x_{k+1}.
     std::optional<solve::stop> accept(const trial& t)
     {
-        f_.copy(x_, previous_);
-        f_.step(previous_, t.step, d_, x_);
+        const bool full = std::exchange(near_end_, false) && has_full_step<Objective> && t.step == 1;
+        std::swap(x_, previous_);
+        if (full)
+            std::swap(x_, full_);
+        else
+            f_.step(previous_, t.step, d_, x_);
         step_ = {.iteration = ++report_.iterations,
                  .value_before = std::exchange(value_, t.value),
                  .value = t.value,
@@ -219,26 +247,35 @@ private:
                  .length = t.step * std::sqrt(-model_.slope),
                  .capped = t.capped};
         taken_ = t.step;
-        if constexpr (has_relax<Objective>)
-            if (t.step < params_.relax_below && f_.relax(x_))
-            {
-                step_.value = value_ = f_.value(x_);
-                monitor_.count(1, 0);
-            }
-        gradient();
-        pending_ = true;
         constexpr double near_end = 1e-2;
-        if (step_.value_before - value_ > near_end * std::abs(value_)) return monitor_.reason();
-        return settle(f_.space().dot(g_, g_));
+        near_end_ = !(step_.value_before - value_ > near_end * std::abs(value_));
+        if (full)
+        {
+            std::swap(g_, full_gradient_);
+            return settle(full_square_);
+        }
+        bool relaxed = false;
+        if constexpr (has_relax<Objective>) relaxed = t.step < params_.relax_below && f_.relax(x_);
+        if constexpr (has_gradient<Objective>)
+            if (!relaxed && !near_end_)
+            {
+                f_.gradient(x_, g_);
+                monitor_.count(0, 1);
+                pending_ = true;
+                return monitor_.reason();
+            }
+        double square;
+        value_ = step_.value = value_gradient(square);
+        monitor_.count(1, 1);
+        return settle(square);
     }
 
-    void gradient()
+    double value_gradient(double& square)
     {
-        if constexpr (has_gradient<Objective>)
-            f_.gradient(x_, g_);
-        else
-            value_ = step_.value = f_.value_gradient(x_, g_);
-        monitor_.count(0, 1);
+        if constexpr (has_gradient_norm<Objective>) return f_.value_gradient(x_, g_, square);
+        const double value = f_.value_gradient(x_, g_);
+        square = f_.space().dot(g_, g_);
+        return value;
     }
 
     /// Books the last step, now that its gradient is known.
@@ -270,7 +307,8 @@ private:
                                    .step = taken_,
                                    .capped = step_.capped,
                                    .evaluations = monitor_.evaluations(),
-                                   .seconds = monitor_.seconds()});
+                                   .seconds = monitor_.seconds(),
+                                   .waits = waits(f_) - waits_});
     }
 
     Objective& f_;
@@ -281,12 +319,15 @@ private:
     monitor monitor_;
     stopping_test test_;
     solve::pcg<space_of<Objective>> pcg_;
-    point previous_;
-    vector g_, d_;
+    point previous_, full_; // full_: x_ + d_ and its gradient, in advance
+    vector g_, d_, full_gradient_;
     pcg_result model_;
     step_record step_;
     double value_ = 0, scale_ = 1, taken_ = 0;
-    bool pending_ = false; // the last step has no gradient norm yet
+    double full_square_ = 0;
+    bool near_end_ = true;  // the norm of the next gradient will be wanted
+    bool pending_ = false;  // the last step has no gradient norm yet
+    std::uint64_t waits_;   // before the start
     report report_;
 };
 

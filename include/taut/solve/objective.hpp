@@ -3,6 +3,7 @@
 
 #include <taut/solve/vector_space.hpp>
 
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -99,6 +100,27 @@ concept has_capped_values = objective<O> && requires(O& f, const typename O::poi
         } -> std::convertible_to<double>;
 };
 
+/// Optional: `capped_values(x, d, fraction, a, out, full, g)`, the same, and in the same wait full = x + d, g = its
+/// gradient and the norm of that squared, meant for steps that are expected to be taken in full.
+template <class O>
+concept has_full_step = has_capped_values<O> &&
+    requires(O& f, const typename O::point& x, const vector_of<O>& d, double u, std::span<const double> a,
+             std::span<double> out, typename O::point& full, vector_of<O>& g)
+{
+    {
+        f.capped_values(x, d, u, a, out, full, g)
+        } -> std::same_as<std::pair<double, double>>;
+};
+
+/// Optional: `value_gradient(x, g, square)`, also the norm of the gradient squared, in the same wait.
+template <class O>
+concept has_gradient_norm = objective<O> && requires(O& f, const typename O::point& x, vector_of<O>& g, double& square)
+{
+    {
+        f.value_gradient(x, g, square)
+        } -> std::convertible_to<double>;
+};
+
 /// What Newton's method needs: `linearize(x, exact)` fixes the point of all that follows; `hessian_product(v, out)`,
 /// out = A v, where A is the Hessian if `exact` and else a positive semi-definite stand-in; `precondition(v, out)`,
 /// out = M v with M an approximate inverse of the stand-in in either case.
@@ -135,6 +157,15 @@ concept has_rounding = objective<O> && requires(O& f)
     {
         f.rounding()
         } -> std::convertible_to<double>;
+};
+
+/// Optional: `waits()`, how often the host has waited for a device so far.
+template <class O>
+concept has_waits = objective<O> && requires(const O& f)
+{
+    {
+        f.waits()
+        } -> std::convertible_to<std::uint64_t>;
 };
 
 } // namespace taut::solve

@@ -6,7 +6,10 @@
 #include <taut/solve/objective.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace taut::solve

@@ -4,7 +4,9 @@
 #include <taut/core/error.hpp>
 #include <taut/solve/vector_space.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -14,12 +16,12 @@ namespace taut::solve
 /// How exactly a Newton system is solved.
 struct pcg_params
 {
-    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000; rounded up to whole blocks.
+    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000.
     int max_steps = 40;
 
-    /// Steps between two looks at the result; each look is a host wait. Range 1..4: beyond that the vectors of a block
-    /// are too nearly parallel for float.
-    int block = 2;
+    /// Steps between two looks at the result, at most; each look is a host wait. The first system is looked at after
+    /// two, each further one after as many as the one before was found to need. Range 1..8.
+    int block = 6;
 
     /// Go on while the last step brought more than this part of what the steps brought on average (Nash & Sofer 1990,
     /// "Assessing a search direction within a truncated-Newton method"); of later blocks, their mean step. Range (0,
@@ -29,7 +31,7 @@ struct pcg_params
     void validate() const
     {
         if (max_steps < 1 || max_steps > 1000) throw parameter_error("pcg.max_steps", "must be in 1..1000");
-        if (block < 1 || block > 4) throw parameter_error("pcg.block", "must be in 1..4");
+        if (block < 1 || block > 8) throw parameter_error("pcg.block", "must be in 1..8");
         if (!(gain > 0 && gain < 1)) throw parameter_error("pcg.gain", "must be in (0, 1)");
     }
 };
@@ -38,6 +40,7 @@ struct pcg_params
 struct pcg_result
 {
     int steps = 0;               ///< dimension of the space that was searched, up to a direction of negative curvature
+    int looks = 0;               ///< host waits
     double gradient_squared = 0; ///< |g|^2
     double slope = 0;            ///< g'd
     double decrease = 0;         ///< of the model g'd + d'A d / 2, at least 0
@@ -46,11 +49,13 @@ struct pcg_result
 /// The minimiser d of the model g'd + d'A d / 2 over the Krylov space of M A and M g, which is what k steps of
 /// preconditioned conjugate gradients from 0 reach (Nocedal & Wright, Algorithm 5.3). The s-step form (Chronopoulos &
 /// Gear 1989): a block of s vectors is made without any inner product, then all products come in one wait, and the
-/// small system of the model is solved on the host. A block is conjugate to all before it once it is to the last.
+/// small system of the model is solved on the host. A block is conjugate to all before it once it is to the last. The
+/// polynomials of the block are products of M A - theta (a Newton basis: Bai, Hu, Reichel 1994), as powers of M A would
+/// soon be parallel in float; theta runs over where a good M has the spectrum of M A.
 ///
 /// | here       | meaning                                             |
 /// |------------|-----------------------------------------------------|
-/// | `z_, w_`   | the new block M r, M A M r, ..., and A times it     |
+/// | `z_, w_`   | the new block M r, (M A - theta) M r, ..., A z      |
 /// | `p_, q_`   | the last block, conjugate, and A times it           |
 /// | `K_`       | p'A p                                               |
 /// | `B`        | p = z - p_last B                                    |
@@ -62,10 +67,8 @@ public:
     using vector = typename Space::vector;
 
     pcg(Space& space, const pcg_params& params)
-        : space_(space), params_(params), s_(static_cast<std::size_t>(params.block)), r_(space.make())
+        : space_(space), params_(params), size_(std::min<std::size_t>(2, most())), r_(space.make())
     {
-        for (auto* block : {&z_, &w_, &p_, &q_})
-            for (std::size_t k = 0; k < s_; ++k) block->push_back(space.make());
     }
 
     /// A(v, out) and M(v, out) are the products, M symmetric positive definite on the space of g.
@@ -73,12 +76,15 @@ public:
     pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d)
     {
         pcg_result result;
+        std::size_t needed = 0; // steps until the last one brought little
         space_.copy(g, r_);
         for (bool more = true; more && result.steps < params_.max_steps;)
         {
             const bool first = result.steps == 0;
-            make_block(A, M);
+            const std::size_t s = std::min(size_, static_cast<std::size_t>(params_.max_steps - result.steps));
+            make_block(s, A, M);
             const products in = multiply(first);
+            ++result.looks;
             if (first) result.gradient_squared = in.rr;
             const small B = first ? small() : conjugation(in.qz);
             const small K = curvature(in.zw, B);
@@ -86,7 +92,7 @@ public:
             // Step by step, so that the last one before a negative curvature counts.
             std::vector<double> c;
             double gained = 0, last = 0;
-            for (std::size_t k = 1; k <= s_; ++k)
+            for (std::size_t k = 1; k <= s; ++k)
             {
                 auto longer = minimiser(K, in.zr, k);
                 more = !longer.empty();
@@ -95,6 +101,7 @@ public:
                 for (std::size_t i = 0; i < k; ++i) decrease -= 0.5 * longer[i] * in.zr[i];
                 last = decrease - std::exchange(gained, decrease);
                 c = std::move(longer);
+                if (first && needed == 0 && !(last > params_.gain * decrease / double(k))) needed = k;
             }
             // Without curvature to go by: steepest descent in the metric of M.
             if (c.empty() && first)
@@ -107,10 +114,13 @@ public:
             add(c, B, d, first);
             result.steps += int(c.size());
             result.decrease += gained;
-            if (!first) last = gained / double(s_);
+            if (!first) last = gained / double(s);
             more = more && last > params_.gain * result.decrease / result.steps && result.steps < params_.max_steps;
             if (more) advance(c, B, K);
         }
+        // Who needed more than was expected will need yet more: systems are solved the better, the nearer the end.
+        if (needed == 0) needed = static_cast<std::size_t>(result.steps) + 1;
+        size_ = std::clamp(needed, std::min<std::size_t>(2, most()), most());
         result.slope = -2 * result.decrease; // d is the minimiser in its space
         return result;
     }
@@ -125,12 +135,22 @@ private:
         double rr = 0;
     };
 
+    std::size_t most() const { return static_cast<std::size_t>(params_.block); }
+
+    /// s vectors in z_ and w_.
     template <class Product, class Preconditioner>
-    void make_block(const Product& A, const Preconditioner& M)
+    void make_block(std::size_t s, const Product& A, const Preconditioner& M)
     {
-        for (std::size_t k = 0; k < s_; ++k)
+        constexpr double theta[] = {1.0, 0.3, 0.65, 0.85, 0.45, 0.95, 0.2};
+        for (auto* block : {&z_, &w_})
+        {
+            block->resize(std::min(block->size(), s));
+            while (block->size() < s) block->push_back(space_.make());
+        }
+        for (std::size_t k = 0; k < s; ++k)
         {
             M(k == 0 ? r_ : w_[k - 1], z_[k]);
+            if (k > 0) space_.axpby(-theta[k - 1], z_[k - 1], 1, z_[k]);
             A(z_[k], w_[k]);
         }
     }
@@ -146,16 +166,13 @@ private:
         std::vector<double> all(left.size() * right.size());
         space_.multi_dot(left, right, all);
         const auto at = [&](std::size_t i, std::size_t j) { return all[i * right.size() + j]; };
-        products in{small(s_, std::vector<double>(s_)), small(s_, std::vector<double>(s_)), std::vector<double>(s_),
-                    at(s_, s_)};
-        for (std::size_t i = 0; i < s_; ++i)
+        const std::size_t s = z_.size(), before = first ? 0 : q_.size();
+        products in{matrix(s, s), matrix(before, s), std::vector<double>(s), at(s, s)};
+        for (std::size_t i = 0; i < s; ++i)
         {
-            in.zr[i] = at(i, s_);
-            for (std::size_t j = 0; j < s_; ++j)
-            {
-                in.zw[i][j] = at(i, j);
-                if (!first) in.qz[j][i] = at(i, s_ + 1 + j);
-            }
+            in.zr[i] = at(i, s);
+            for (std::size_t j = 0; j < s; ++j) in.zw[i][j] = at(i, j);
+            for (std::size_t j = 0; j < before; ++j) in.qz[j][i] = at(i, s + 1 + j);
         }
         return in;
     }
@@ -163,12 +180,12 @@ private:
     /// B = K_last^-1 q_last'z, column by column.
     small conjugation(const small& qz) const
     {
-        small B(s_, std::vector<double>(s_, 0.0));
-        for (std::size_t j = 0; j < s_; ++j)
+        small B = matrix(q_.size(), z_.size());
+        for (std::size_t j = 0; j < z_.size(); ++j)
         {
-            std::vector<double> column(s_);
-            for (std::size_t i = 0; i < s_; ++i) column[i] = -qz[i][j];
-            const auto solved = minimiser(K_, column, s_);
+            std::vector<double> column(q_.size());
+            for (std::size_t i = 0; i < q_.size(); ++i) column[i] = -qz[i][j];
+            const auto solved = minimiser(K_, column, q_.size());
             for (std::size_t i = 0; i < solved.size(); ++i) B[i][j] = solved[i];
         }
         return B;
@@ -179,10 +196,10 @@ private:
     {
         small K = zw;
         if (B.empty()) return K;
-        for (std::size_t i = 0; i < s_; ++i)
-            for (std::size_t j = 0; j < s_; ++j)
-                for (std::size_t m = 0; m < s_; ++m)
-                    for (std::size_t n = 0; n < s_; ++n) K[i][j] -= B[m][i] * K_[m][n] * B[n][j];
+        for (std::size_t i = 0; i < K.size(); ++i)
+            for (std::size_t j = 0; j < K.size(); ++j)
+                for (std::size_t m = 0; m < B.size(); ++m)
+                    for (std::size_t n = 0; n < B.size(); ++n) K[i][j] -= B[m][i] * K_[m][n] * B[n][j];
         return K;
     }
 
@@ -197,7 +214,7 @@ private:
             factors.push_back(c[k]);
         }
         if (first) return space_.linear_combination(factors, terms, d);
-        for (std::size_t i = 0; i < s_; ++i)
+        for (std::size_t i = 0; i < B.size(); ++i)
         {
             double sum = 0;
             for (std::size_t k = 0; k < c.size(); ++k) sum -= B[i][k] * c[k];
@@ -210,13 +227,12 @@ private:
     /// Makes the block the last one, and the residual that of the new d.
     void advance(const std::vector<double>& c, const small& B, const small& K)
     {
-        if (!B.empty())
-            for (std::size_t k = 0; k < s_; ++k)
-                for (std::size_t i = 0; i < s_; ++i)
-                {
-                    space_.axpby(-B[i][k], p_[i], 1, z_[k]);
-                    space_.axpby(-B[i][k], q_[i], 1, w_[k]);
-                }
+        for (std::size_t i = 0; i < B.size(); ++i)
+            for (std::size_t k = 0; k < z_.size(); ++k)
+            {
+                space_.axpby(-B[i][k], p_[i], 1, z_[k]);
+                space_.axpby(-B[i][k], q_[i], 1, w_[k]);
+            }
         std::swap(p_, z_);
         std::swap(q_, w_);
         K_ = K;
@@ -252,6 +268,11 @@ private:
         return c;
     }
 
+    static small matrix(std::size_t rows, std::size_t columns)
+    {
+        return small(rows, std::vector<double>(columns, 0.0));
+    }
+
     static std::vector<const vector*> pointers(const std::vector<vector>& v)
     {
         std::vector<const vector*> all;
@@ -261,7 +282,7 @@ private:
 
     Space& space_;
     pcg_params params_;
-    std::size_t s_;
+    std::size_t size_; // of the next block
     vector r_;
     std::vector<vector> z_, w_, p_, q_;
     small K_;

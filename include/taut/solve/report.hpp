@@ -3,6 +3,7 @@
 
 #include <taut/solve/stop.hpp>
 
+#include <cstdint>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -15,12 +16,13 @@ namespace taut::solve
 struct history_entry
 {
     int iteration = 0;
-    double value = 0;    ///< f(x)
-    double gradient = 0; ///< relative norm of the gradient
-    double step = 0;     ///< a in x + a d: 1 is the full step of the method
-    bool capped = false; ///< the barrier cut the step
-    int evaluations = 0; ///< values computed so far
-    double seconds = 0;  ///< since the start of the run
+    double value = 0;        ///< f(x)
+    double gradient = 0;     ///< relative norm of the gradient
+    double step = 0;         ///< a in x + a d: 1 is the full step of the method
+    bool capped = false;     ///< the barrier cut the step
+    int evaluations = 0;     ///< values computed so far
+    double seconds = 0;      ///< since the start of the run
+    std::uint64_t waits = 0; ///< of the host for a device, since the start of the run (has_waits)
 };
 
 /// What a minimisation did. Values in the history never rise by more than the rounding error of a value.
@@ -37,6 +39,7 @@ struct report
     double value = 0;         ///< f at the end
     double gradient_norm = 0; ///< relative norm of the gradient at the end
     double seconds = 0;       ///< of the whole run
+    std::uint64_t waits = 0;  ///< of the host for a device (Newton's method, has_waits)
     std::vector<int> capping; ///< what the last step of Newton's method met first, if a barrier cut it (has_capping)
     std::vector<history_entry> history;
 };

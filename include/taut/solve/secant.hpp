@@ -4,6 +4,7 @@
 #include <taut/solve/wolfe_conditions.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace taut::solve

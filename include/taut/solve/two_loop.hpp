@@ -3,7 +3,10 @@
 
 #include <taut/solve/pair_memory.hpp>
 
+#include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace taut::solve
 {

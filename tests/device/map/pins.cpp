@@ -58,6 +58,7 @@ TEST_CASE("pins: interior vertices that are moved stay bit for bit, the map is c
         pins.pin(v, swirled(free.uv[static_cast<std::size_t>(v)], 0.5) + vec2(7.0, -3.0));
     const auto r = parameterize(q, m, {.constraints = pins});
     CAPTURE(r.reason());
+    CHECK(r.report.pin_origins.size() == pins.pins().size());
     CHECK(certified(m, r));
     check_pins(pins, r);
     CHECK(r.report.solve.stop == solve::stop::gradient);
@@ -203,6 +204,8 @@ TEST_CASE("start: flipped, collapsed and scrambled triangles are untangled, mirr
         const auto r = parameterize(q, m, {.initial = start});
         CAPTURE(r.reason());
         CHECK(certified(m, r));
+        // Where the start given is of no use, the one on coarser levels is taken, which has no uv of its own.
+        CHECK(r.report.start.uv.empty() == (kind == "scrambled"));
         CHECK(r.report.solve.value == doctest::Approx(good.report.solve.value).epsilon(1e-3));
     }
 }

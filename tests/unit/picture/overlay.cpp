@@ -67,7 +67,7 @@ TEST_CASE("overlay: without constraints the picture is the plain one")
 TEST_CASE("overlay: a coordinate held alone is a rail along the other one")
 {
     const grid_mesh m(4);
-    const layout_overlay overlay{{{{2, 2}, {2, 99}, true, 1}}}; // u is held; the other target has no meaning
+    const layout_overlay overlay{{{{2, 2}, {2, 2}, true, 1}}}; // u is held
     const io::image picture = io::layout_picture(m.uv, m.cells, {}, m.loops, small, overlay);
     const vec2 at = io::layout_frame(m.uv, small)({2, 2});
     CHECK(pixel(picture, at + vec2(0, 6)) == pin_color);

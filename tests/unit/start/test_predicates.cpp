@@ -84,7 +84,7 @@ TEST_CASE("predicates: orient2d agrees with integers on nearly collinear points 
 {
     std::mt19937_64 random(1);
     int decided_by_rounding = 0;
-    for (int n = 0; n < 20000; ++n)
+    for (int n = 0; n < 3000; ++n)
     {
         const auto [a, b, c] = nearly_collinear(random, 52);
         const int expected = oracle(a, b, c);
@@ -99,7 +99,7 @@ TEST_CASE("predicates: orient2d agrees with integers on nearly collinear points 
                            (double(b[1]) - double(a[1])) * (double(c[0]) - double(a[0]));
         if ((det > 0) - (det < 0) != expected) ++decided_by_rounding;
     }
-    CHECK(decided_by_rounding > 100); // the inputs are hard: plain arithmetic gets many of them wrong
+    CHECK(decided_by_rounding > 15); // the inputs are hard: plain arithmetic gets many of them wrong
 }
 
 TEST_CASE("predicates: orient2d sees a change of one unit in the last place of a far point")
@@ -121,7 +121,7 @@ TEST_CASE("predicates: orient3d agrees with integers on nearly coplanar points a
     std::mt19937_64 random(2);
     std::uniform_int_distribution<std::int64_t> coordinate(-(1LL << 37), 1LL << 37);
     std::uniform_int_distribution<std::int64_t> noise(-1, 1);
-    for (int n = 0; n < 20000; ++n)
+    for (int n = 0; n < 3000; ++n)
     {
         std::array<point3, 4> p;
         for (std::size_t k = 0; k < 3; ++k) p[k] = {coordinate(random), coordinate(random), coordinate(random)};

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 
 #include <doctest/doctest.h>
 #include <support/meshes.hpp>
+#include <support/untangle_checks.hpp>
 
 #include <taut/map/untangle/untangle_host.hpp>
 
@@ -14,6 +13,7 @@ namespace
 {
 
 using namespace taut;
+using test::check_typed;
 
 /// The plane mesh with its boundary pinned at place(p) and its other vertices there too.
 template <class Place>
@@ -38,31 +38,6 @@ void scramble(untangle_problem<triangle>& problem, unsigned seed, double size)
     std::uniform_real_distribution<double> at(-size, size);
     for (std::size_t v = 0; v < problem.initial.size(); ++v)
         if (!problem.held[v]) problem.initial[v] += vec2(at(random), at(random));
-}
-
-/// Bit for bit: -0.0 is not 0.0.
-template <class Element>
-bool holds(const untangle_problem<Element>& problem, const untangle_result<Element>& result)
-{
-    for (std::size_t v = 0; v < problem.held.size(); ++v)
-        for (int k = 0; k < Element::dimension; ++k)
-            if (problem.holds(v, k) && std::memcmp(&result.map[v][k], &problem.initial[v][k], sizeof(double)) != 0)
-                return false;
-    return result.map.size() == problem.initial.size();
-}
-
-/// What every outcome owes.
-template <class Element>
-void check_typed(const untangle_problem<Element>& problem, const untangle_result<Element>& result)
-{
-    CHECK(holds(problem, result));
-    const auto flips =
-        certify<Element::dimension>(problem.rest.cells(), std::span<const vec<Element::dimension>>(result.map));
-    CHECK(flips.flipped == result.flips.flipped);
-    CHECK((result.outcome == untangle_outcome::injective) == (flips.flipped == 0));
-    CHECK(static_cast<bool>(result) == result.reason.empty());
-    if (!result) CHECK_FALSE(result.ids.empty());
-    if (result) CHECK(result.least_relative_det > 0);
 }
 
 } // namespace
@@ -230,34 +205,4 @@ TEST_CASE("untangle: the scale of the map does not matter")
         check_typed(problem, result);
         CHECK(result.outcome == untangle_outcome::injective);
     }
-}
-
-TEST_CASE("untangle: whatever is held, the outcome is one of three and honest")
-{
-    std::mt19937 random(1);
-    std::array<int, 3> counts{};
-    for (int i = 0; i < 120; ++i)
-    {
-        CAPTURE(i);
-        std::uniform_int_distribution<int> size(1, 4), bits(0, 3);
-        std::uniform_real_distribution<double> at(-1, 1), chance(0, 1);
-        const auto m = test::grid(size(random), size(random));
-        untangle_problem<triangle> problem{m, {}, {}};
-        const double freedom = chance(random), noise = chance(random);
-        for (const vec3& p : m.points())
-        {
-            problem.initial.push_back(vec2(p.x, p.y) + noise * vec2(at(random), at(random)));
-            problem.held.push_back(chance(random) < freedom ? 0 : static_cast<std::uint8_t>(bits(random)));
-        }
-        if (i % 10 == 0)
-            for (vec2& p : problem.initial) p = vec2(0.0);
-        untangle_params params;
-        params.first_round = 30;
-        params.rounds = 1;
-        const auto result = untangle(problem, params);
-        check_typed(problem, result);
-        ++counts[static_cast<std::size_t>(result.outcome)];
-    }
-    CHECK(counts[0] > 30);
-    CHECK(counts[1] > 2);
 }

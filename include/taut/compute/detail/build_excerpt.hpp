@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cctype>
+#include <cstddef>
 #include <iomanip>
 #include <set>
 #include <sstream>

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <span>
 
 #include <taut/io/picture/color.hpp>
 #include <taut/io/picture/faces.hpp>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 
 #include <taut/core/error.hpp>
 #include <taut/io/picture/color.hpp>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 /// The letters of pictures: a stroke font of our own for printable ASCII.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <span>
 
 #include <taut/io/picture/faces.hpp>
 #include <taut/io/picture/layout_style.hpp>

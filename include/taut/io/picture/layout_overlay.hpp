@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -20,7 +21,7 @@ inline constexpr rgb pin_color{0, 94, 190};
 struct layout_pin
 {
     vec2 from;             ///< where the vertex starts or is; a line leads from here to the target
-    vec2 target;           ///< where it has to be, or should rather be
+    vec2 target;           ///< where it has to be, or should rather be; a coordinate that is free, as it is
     bool hard = true;      ///< a pin (filled), or a spring (hollow)
     std::uint8_t held = 3; ///< of a pin: 1: u alone, 2: v alone; drawn as a rail along the other axis
 };
@@ -64,10 +65,7 @@ std::vector<pin_mark> pin_marks(const layout_overlay& overlay, const Place& plac
         if (!drawable(p.from) || !drawable(p.target)) continue;
         pin_mark mark{};
         mark.form = !p.hard ? pin_mark::ring : p.held == 1 || p.held == 2 ? pin_mark::rail : pin_mark::disc;
-        // A coordinate that is free has no target but where the vertex is.
-        vec2 target = p.target;
-        if (mark.form == pin_mark::rail) (p.held == 1 ? target.y : target.x) = p.held == 1 ? p.from.y : p.from.x;
-        mark.at = place(target);
+        mark.at = place(p.target);
         mark.from = place(p.from);
         mark.radius = radius;
         const vec2 along = (p.held == 1 ? vec2(0, 2.5) : vec2(2.5, 0)) * radius;
@@ -96,7 +94,7 @@ inline std::vector<vec2> with_targets(std::span<const vec2> uv, const layout_ove
     std::vector<vec2> points(uv.begin(), uv.end());
     for (const auto& p : overlay.pins)
     {
-        if (p.held == 3 || !p.hard) points.push_back(p.target);
+        points.push_back(p.target);
         points.push_back(p.from);
     }
     return points;

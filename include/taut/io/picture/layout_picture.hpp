@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #include <taut/io/picture/layout_parts.hpp>
 #include <taut/io/picture/text.hpp>
 

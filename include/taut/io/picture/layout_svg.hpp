@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
 #include <taut/io/picture/layout_parts.hpp>
 #include <taut/io/picture/svg_writer.hpp>
 

@@ -2,6 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include <taut/io/picture/color.hpp>
 #include <taut/io/picture/format.hpp>

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 #include <taut/io/picture/canvas.hpp>
 #include <taut/io/picture/glyphs.hpp>

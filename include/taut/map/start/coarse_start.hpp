@@ -54,7 +54,7 @@ inline start_map coarse_start(const mesh<triangle>& m, const hierarchy& h, const
     if (map.holes > 0) map.outline = detail::longest_loop(points, loops); // the level may number them otherwise
     if (params.coarse.fixed_boundary)
     {
-        fixed = detail::boundary_flags(points.size(), loops);
+        fixed = boundary_flags(points.size(), loops);
         auto lost = std::count(fixed.begin(), fixed.end(), 1);
         for (const index v : h.levels[level].vertices) lost -= fixed[static_cast<std::size_t>(v)];
         if (lost != 0) throw parameter_error("h", "must keep the boundary, which is to be fixed");

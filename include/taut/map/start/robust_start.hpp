@@ -60,15 +60,6 @@ struct descent_plan
     barycentric_weights weights;
 };
 
-/// Flags of the vertices on the boundary.
-inline std::vector<char> boundary_flags(std::size_t vertices, std::span<const std::vector<index>> loops)
-{
-    std::vector<char> flags(vertices, 0);
-    for (const auto& loop : loops)
-        for (const index v : loop) flags[static_cast<std::size_t>(v)] = 1;
-    return flags;
-}
-
 /// Area of a level at rest.
 inline double surface_area(const hierarchy& h, std::size_t level, std::span<const vec3> points)
 {
@@ -161,7 +152,7 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
         throw mesh_error(mesh_fault::closed_surface, {}, "robust_start: the surface is closed; cut it open");
     const ideal_elements<triangle> ideal(scaled);
     std::vector<char> fixed;
-    if (params.fixed_boundary) fixed = detail::boundary_flags(m.points().size(), loops);
+    if (params.fixed_boundary) fixed = boundary_flags(m.points().size(), loops);
 
     constexpr detail::descent_plan plans[] = {{4, 8, barycentric_weights::uniform},
                                               {2, 20, barycentric_weights::mean_value},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <taut/map/barycentric_map.hpp>
+#include <taut/map/similarity.hpp>
 #include <taut/map/untangle/target_shapes.hpp>
 #include <taut/map/untangle/untangle_problem.hpp>
 
@@ -42,29 +43,11 @@ inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triang
 {
     auto laid = unheld_map(problem.rest);
     if (!laid) return std::nullopt;
-    vec2 from(0.0), to(0.0);
-    double count = 0;
+    std::vector<anchor> anchors;
     for (std::size_t v = 0; v < x.size(); ++v)
-        if (problem.pinned(v))
-        {
-            from += (*laid)[v];
-            to += x[v];
-            ++count;
-        }
-    from /= std::max(count, 1.0);
-    to /= std::max(count, 1.0);
-    // Complex numbers: turn = sum conj(p) q / sum |p|^2 about the centroids.
-    vec2 turn(0.0);
-    double spread = 0;
-    for (std::size_t v = 0; v < x.size(); ++v)
-        if (problem.pinned(v))
-        {
-            const vec2 p = (*laid)[v] - from, q = x[v] - to;
-            turn += vec2(glm::dot(p, q), p.x * q.y - p.y * q.x);
-            spread += glm::dot(p, p);
-        }
-    turn = spread > 0 ? turn / spread : vec2(0.0);
-    if (!(glm::length(turn) > 0))
+        if (problem.pinned(v)) anchors.push_back({(*laid)[v], x[v]});
+    similarity map = anchors.empty() ? similarity{.turn = 0} : fit_similarity(anchors).map;
+    if (!(std::abs(map.turn) > 0))
     {
         double area = 0;
         for (const auto& t : problem.rest.cells())
@@ -73,13 +56,9 @@ inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triang
             area += triangle::measure_factor * triangle::determinant({at(0), at(1), at(2)});
         }
         if (!(area > 0)) return std::nullopt;
-        turn = vec2(std::sqrt(expected_measure(problem, x) / area), 0.0);
+        map.turn = std::sqrt(expected_measure(problem, x) / area);
     }
-    for (vec2& p : *laid)
-    {
-        const vec2 q = p - from;
-        p = to + vec2(turn.x * q.x - turn.y * q.y, turn.y * q.x + turn.x * q.y);
-    }
+    for (vec2& p : *laid) p = map(p);
     return laid;
 }
 

@@ -2,14 +2,9 @@
 #pragma once
 
 #include <taut/compute/queue.hpp>
-#include <taut/map/separate.hpp>
 #include <taut/map/untangle/untangle_params.hpp>
 #include <taut/map/untangle/untangle_problem.hpp>
 #include <taut/map/untangle/untangle_result.hpp>
-
-#ifndef TAUT_SEPARATE
-#include <taut/map/untangle/untangle_on_device.hpp>
-#endif
 
 namespace taut
 {
@@ -23,9 +18,13 @@ namespace taut
 /// one comes last, as the stages of the host are surer and as quick on meshes of some ten thousand elements, and in
 /// space early; untangle_params::stages gives another order.
 /// Throws parameter_error for a problem or parameters that are not valid, device_error.
-TAUT_INLINE untangle_result<triangle> untangle(const queue& q, const untangle_problem<triangle>& problem,
-                                               const untangle_params& params = {});
-TAUT_INLINE untangle_result<tetrahedron> untangle(const queue& q, const untangle_problem<tetrahedron>& problem,
-                                                  const untangle_params& params = {});
+template <class Element>
+untangle_result<Element> untangle(const queue& q, const untangle_problem<Element>& problem,
+                                  const untangle_params& params = {});
 
 } // namespace taut
+
+// Where TAUT_SEPARATE is defined, another file of the project instantiates it.
+#ifndef TAUT_SEPARATE
+#include <taut/map/untangle/untangle_on_device.hpp>
+#endif

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -41,9 +42,8 @@ inline std::uint32_t make_key(index v, std::size_t valence, float size, std::uin
 
 /// Twice the area of the triangles around a vertex. (Not the lengths of its edges: needles must count as small, or
 /// they would be kept.)
-inline float star_size(const thinning_surface& m, index v)
+inline float star_size(const thinning_surface& m, index v, std::span<const index> ring)
 {
-    const auto ring = m.rings[v];
     const vec3 p = m.points[static_cast<std::size_t>(v)];
     const vec3 last = m.points[static_cast<std::size_t>(ring.back())] - p;
     vec3 before = m.open[static_cast<std::size_t>(v)] ? vec3(0.0) : last;

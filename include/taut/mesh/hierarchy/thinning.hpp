@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -37,7 +39,7 @@ public:
         }
         log_.rounds = {0};
         log_.rings.offsets = {0};
-        for_alive([&](index v) { size_[static_cast<std::size_t>(v)] = star_size(surface_, v); });
+        for_alive([&](index v) { size_[static_cast<std::size_t>(v)] = star_size(surface_, v, surface_.rings[v]); });
         double sum = 0;
         for (const index v : alive_) sum += static_cast<double>(size_[static_cast<std::size_t>(v)]);
         whole_ = sum;
@@ -298,7 +300,11 @@ private:
                     }
                     index* const start = out;
                     out = splice(surface_, round_, alive_[i], out);
-                    if (!std::equal(ring.begin(), ring.end(), start, out)) stubborn_[v] = 0;
+                    if (!std::equal(ring.begin(), ring.end(), start, out))
+                    {
+                        stubborn_[v] = 0;
+                        size_[v] = star_size(surface_, alive_[i], {start, out});
+                    }
                     spare_.ranges[v] = {static_cast<index>(first), static_cast<index>(out - start)};
                 }
                 rings.resize(static_cast<std::size_t>(out - rings.data()));
@@ -309,7 +315,6 @@ private:
             },
             threads_);
         std::swap(surface_.rings, spare_);
-        for_alive([&](index v) { size_[static_cast<std::size_t>(v)] = star_size(surface_, v); });
     }
 
     thinning_surface surface_;

@@ -3,8 +3,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include <taut/symbolic/detail/concat.hpp>
