@@ -110,8 +110,9 @@ public:
         hessian_product(v, w);
         precondition(v, w);
         const vector* const all[5] = {&v, &v, &v, &v, &v};
-        double products[15];
-        this->space().multi_dot(std::span(all, 3), std::span(all), products);
+        double products[20];
+        for (std::size_t rows = 1; rows <= 4; ++rows) // of the tiles of all products of a block
+            this->space().multi_dot(std::span(all, rows), std::span(all), products);
     }
 
 private:

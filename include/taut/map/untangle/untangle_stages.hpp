@@ -23,10 +23,10 @@ using untangle_stages = std::vector<std::unique_ptr<untangle_stage<Element>>>;
 ///
 /// harmonic  the harmonic map alone
 /// newton    from the harmonic map, towards the shapes at rest
+/// pull      from an injective map, whose elements stay positive while springs pull it to what is held
 /// regular   from the harmonic map, towards regular triangles
 /// best      from the best map so far, towards the shapes at rest
 /// laid      from an injective map that ignores what is held, towards the shapes at rest
-/// pull      from an injective map, whose elements stay positive while springs pull it to what is held
 /// shape     from the harmonic map, shape only
 /// lbfgs     as newton, without second derivatives
 inline untangle_stages<triangle> host_stages()
@@ -37,10 +37,10 @@ inline untangle_stages<triangle> host_stages()
     stages.push_back(std::make_unique<harmonic_stage<triangle>>());
     const auto add = [&](newton_stage_params p) { stages.push_back(std::make_unique<newton_stage>(std::move(p))); };
     add({"newton", harmonic, rest, 1});
+    stages.push_back(std::make_unique<pull_stage>());
     add({"regular", harmonic, regular, 1});
     add({"best", best, rest, 1});
     add({"laid", laid, rest, 1});
-    stages.push_back(std::make_unique<pull_stage>());
     add({"shape", harmonic, rest, 0});
     stages.push_back(std::make_unique<lbfgs_stage<triangle>>());
     return stages;
