@@ -5,9 +5,9 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <system_error>
 #include <thread>
-#include <vector>
+
+#include <taut/core/crew.hpp>
 
 namespace taut
 {
@@ -21,7 +21,7 @@ namespace taut
 /// The first exception of a body is rethrown here; pieces not yet begun are then left out. Programs that call it link
 /// with Threads::Threads.
 template <class Body>
-void parallel_for(std::size_t n, Body&& body, unsigned threads = 0, std::size_t grain = 4096)
+void parallel_for(std::size_t n, Body&& body, unsigned threads = 0, std::size_t grain = 1024)
 {
     if (n == 0) return;
     static const unsigned at_once = std::max(1U, std::thread::hardware_concurrency()); // the answer is in a file
@@ -38,7 +38,7 @@ void parallel_for(std::size_t n, Body&& body, unsigned threads = 0, std::size_t 
     std::atomic<std::size_t> next{0};
     std::atomic<bool> failed{false};
     std::exception_ptr failure;
-    const auto work = [&]
+    auto work = [&]
     {
         try
         {
@@ -50,18 +50,7 @@ void parallel_for(std::size_t n, Body&& body, unsigned threads = 0, std::size_t 
             if (!failed.exchange(true)) failure = std::current_exception();
         }
     };
-    std::vector<std::thread> helpers;
-    helpers.reserve(team - 1);
-    try
-    {
-        while (helpers.size() + 1 < team) helpers.emplace_back(work);
-    }
-    catch (const std::system_error&)
-    {
-        // No more threads to be had: those that run share the work.
-    }
-    work();
-    for (auto& t : helpers) t.join();
+    detail::crew::of_process().run(team - 1, work);
     if (failure) std::rethrow_exception(failure);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <stdexcept>
@@ -72,4 +73,52 @@ TEST_CASE("parallel_for: an exception arrives at the caller and ends the work")
         CHECK_THROWS_WITH_AS(run(), "broken", std::runtime_error);
         CHECK(pieces <= static_cast<int>(threads)); // each thread throws in its first piece at the latest
     }
+}
+
+TEST_CASE("parallel_for: from several threads at once")
+{
+    constexpr std::size_t n = 2000;
+    const auto squares = [](std::vector<int>& out)
+    {
+        parallel_for(
+            n,
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i)
+                    out[i] += static_cast<int>(i * i);
+            },
+            3, 1);
+    };
+    std::vector<int> expected(n);
+    for (std::size_t i = 0; i < n; ++i) expected[i] = static_cast<int>(i * i);
+
+    std::vector<std::vector<int>> results(4, std::vector<int>(n, 0));
+    std::vector<std::thread> callers;
+    for (auto& r : results)
+        callers.emplace_back(
+            [&]
+            {
+                for (int repeat = 0; repeat < 20; ++repeat)
+                {
+                    std::fill(r.begin(), r.end(), 0);
+                    squares(r);
+                }
+            });
+    for (auto& t : callers) t.join();
+    for (const auto& r : results) CHECK(r == expected);
+}
+
+TEST_CASE("parallel_for: a nested call uses what is free, and all of it is done")
+{
+    std::atomic<int> visits{0};
+    parallel_for(
+        8,
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t i = begin; i < end; ++i)
+                parallel_for(
+                    100, [&](std::size_t from, std::size_t to) { visits += static_cast<int>(to - from); }, 4, 1);
+        },
+        4, 1);
+    CHECK(visits == 800);
 }

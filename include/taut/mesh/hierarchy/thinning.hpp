@@ -205,7 +205,7 @@ private:
                     std::copy_n(star.corner.begin(), star.size, round_.corners.begin() + round_.first_corner[i]);
                 }
             },
-            threads_, 1024);
+            threads_, 128);
     }
 
     /// Where two collapses make the same edge, the one with the larger key is given up; so is one without a target.
@@ -223,7 +223,7 @@ private:
                     given_up_[i] = c.target < 0 || loses(surface_, round_, c, key_);
                 }
             },
-            threads_);
+            threads_, 128);
         for (std::size_t i = 0; i < given_up_.size(); ++i)
             if (given_up_[i]) give_up(i);
     }
