@@ -273,11 +273,11 @@ private:
     {
         using problem = newton_problem<triangle, double, float>;
         const mesh_levels levels(m);
-        const auto local = levels.make_layout(0);
         const any_energy energy = energy::isometric{};
         const auto kernels = std::make_shared<const problem::kernels>(queue_, energy);
-        problem f(queue_, local, energy, energy::weighting::measure, kernels, levels.cells(0), levels.transfers(0),
-                  levels.fixed(0));
+        const problem::plan host(levels, 0, lane_form::for_device(queue_.device()));
+        const auto local = host.layout;
+        problem f(queue_, host, energy, energy::weighting::measure, kernels);
         auto x = f.make_point();
         std::vector<vec2> uv;
         for (const vec3& p : levels.points()) uv.emplace_back(p.x, p.y);

@@ -24,6 +24,8 @@ struct block_pattern
     std::vector<index> columns;
 
     std::size_t rows() const { return count; }
+    /// Rows with their padding.
+    std::size_t stride() const { return (offsets.size() - 1) * static_cast<std::size_t>(slice); }
     std::size_t place(std::size_t r, std::size_t j) const
     {
         const auto C = static_cast<std::size_t>(slice);

@@ -27,9 +27,6 @@ inline index dense_team(const device& d)
     return quirks::wants_serial_items(d) ? 1 : 64;
 }
 
-/// The most coarse rows that an item on a CPU sums together in a product P' A P.
-inline constexpr std::size_t product_group = 64;
-
 /// A kernel of kernels/block_sparse.cl for D x D blocks of T.
 template <class T, class... Args>
 void load_block_kernel(typed_kernel<Args...>& kernel, queue& q, const char* name, int D, lane_form form)
@@ -39,7 +36,7 @@ void load_block_kernel(typed_kernel<Args...>& kernel, queue& q, const char* name
               std::string("-DREAL=") + cl_name<T>() + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
                   " -DD=" + std::to_string(D) + " -DC=" + std::to_string(form.slice) +
                   " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(dense_team(q.device())) +
-                  " -DGROUP=" + std::to_string(product_group) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f")};
+                  " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f")};
 }
 
 /// Lists on a device, from their pieces.

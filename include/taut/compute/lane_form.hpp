@@ -16,6 +16,9 @@ struct lane_form
     index slice = 16;
     index lanes = 16;
 
+    /// The most coarse rows that an item on a CPU sums together in a product P' A P.
+    static constexpr std::size_t product_rows = 64;
+
     /// Explicit vectors of 16 on CPUs, a row an item and a slice a warp on GPUs.
     static lane_form for_device(const device& d)
     {

@@ -2,32 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include <taut/compute/block_transfer.hpp>
 #include <taut/compute/dense_inverse.hpp>
+#include <taut/compute/multigrid_plan.hpp>
 
 namespace taut
 {
-
-struct multigrid_params
-{
-    double lambda_max = 3;          ///< bound on the spectrum of B^-1 A, B the block diagonal: corners of an element
-    double lambda_ratio = 10;       ///< the smoother damps the spectrum from lambda_max / lambda_ratio on
-    std::size_t dense_limit = 600;  ///< unknowns of a coarsest level that is solved directly
-    std::size_t dense_enough = 180; ///< unknowns of a level that makes coarser ones superfluous; at most dense_limit
-
-    /// Throws parameter_error with the name of a field outside its domain.
-    void validate() const
-    {
-        if (!(lambda_max > 0)) throw parameter_error("lambda_max", "must be positive");
-        if (!(lambda_ratio > 1)) throw parameter_error("lambda_ratio", "must be more than 1");
-        if (dense_enough > dense_limit) throw parameter_error("dense_enough", "must be at most dense_limit");
-    }
-};
 
 /// A symmetric geometric multigrid V-cycle as a preconditioner of a symmetric positive semi-definite block matrix: two
 /// steps of Chebyshev iteration on block-Jacobi before and after each coarse correction, Galerkin matrices, a dense
@@ -36,34 +19,25 @@ template <class T>
 class multigrid
 {
 public:
-    /// transfers[l]: from level l + 1 to level l, as far as levels are needed; none leaves the smoother and, if it is
-    /// small, the dense inverse. The arrays that they refer to may go afterwards. Throws parameter_error.
-    multigrid(block_matrix<T> finest, std::span<const transfer_weights> transfers, const multigrid_params& params = {})
+    /// Throws parameter_error.
+    multigrid(queue& q, multigrid_plan<T> plan)
     {
-        params.validate();
-        levels_.emplace_back(std::move(finest));
-        std::vector<index> active(levels_[0].A.rows()); // rows of the coarsest level that are not fixed
-        std::iota(active.begin(), active.end(), 0);
-        for (const auto& P : transfers)
+        for (std::size_t l = 0; l < plan.patterns.size(); ++l)
         {
-            const auto& fine = levels_.back().A;
-            if (active.size() * static_cast<std::size_t>(fine.block_size()) <= params.dense_enough) break;
-            const transposed_weights t(P);
-            level coarse(block_matrix<T>(fine.queue(), pattern_of_product(fine.pattern(), P, t), fine.block_size(),
-                                         fine.form()));
-            coarse.b = coarse.A.vector();
-            coarse.x = coarse.A.vector();
-            transfers_.emplace_back(fine, P, t, coarse.A);
-            levels_.back().A.forget_pattern();
-            levels_.push_back(std::move(coarse));
-            active.clear();
-            for (std::size_t J = 0; J < P.coarse; ++J)
-                if (!t[J].empty()) active.push_back(static_cast<index>(J));
+            levels_.emplace_back(block_matrix<T>(q, std::move(plan.patterns[l]), plan.D, plan.form));
+            auto& A = levels_[l].A;
+            if (l > 0)
+            {
+                levels_[l].b = A.vector();
+                levels_[l].x = A.vector();
+                transfers_.emplace_back(levels_[l - 1].A, plan.transfers[l - 1], A);
+            }
+            A.forget_pattern();
         }
         const auto& last = levels_.back().A;
-        if (active.size() * static_cast<std::size_t>(last.block_size()) <= params.dense_limit)
-            coarsest_ = detail::dense_inverse<T>(last, active);
-        levels_.back().A.forget_pattern();
+        const auto& params = plan.params;
+        if (plan.active.size() * static_cast<std::size_t>(plan.D) <= params.dense_limit)
+            coarsest_ = detail::dense_inverse<T>(last, plan.active);
         constexpr std::size_t few = 2048; // rows; a product takes one core as long as a launch takes
         fused_ = last.form().lanes > 1 && levels() > 1 && solves_coarsest() && levels_[levels() - 2].A.rows() <= few;
         if (fused_)

@@ -45,7 +45,9 @@ public:
         job();
         // Nobody is waited for who has not come yet.
         std::uint64_t places = places_.load();
-        while (!places_.compare_exchange_weak(places, places & ~open_places)) {}
+        while (!places_.compare_exchange_weak(places, places & ~open_places))
+        {
+        }
         while (places_.load(std::memory_order_acquire) != 0) std::this_thread::yield();
     }
 

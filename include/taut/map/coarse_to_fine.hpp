@@ -28,6 +28,14 @@ struct coarse_to_fine_params
     /// there, and extreme shapes (long tubes) pause on their way.
     std::size_t small_vertices = 4000;
     int small_decrease_count = 3;
+
+    /// The level that the start map is made on.
+    std::size_t first_level(const mesh_levels& levels) const
+    {
+        std::size_t l = 0;
+        while (l + 1 < levels.size() && levels.vertices(l) > start_vertices) ++l;
+        return l;
+    }
 };
 
 /// Nested iteration: a start map on a coarse level, minimised, and then for each finer level its vertices reinserted
@@ -44,19 +52,13 @@ public:
         params_.stopping.base = solver.energy_at_rest();
     }
 
-    /// The level that the start map is made on.
-    std::size_t first_level() const
-    {
-        std::size_t l = 0;
-        while (l + 1 < levels_.size() && levels_.vertices(l) > params_.start_vertices) ++l;
-        return l;
-    }
-
     /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
     /// reason() then says how.
-    std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer)
+    /// plan: that of a level; asked for each level but the finest, coarse ones first.
+    std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer,
+                          const std::function<typename level_solver<P, R>::plan(std::size_t level)>& plan)
     {
-        const std::size_t first = first_level();
+        const std::size_t first = params_.first_level(levels_);
         start_ = robust_start(levels_.surface(first), params_.start);
         if (start_.flips.flipped > 0)
             return fail("the coarse start has " + std::to_string(start_.flips.flipped) + " flipped triangles");
@@ -64,7 +66,7 @@ public:
         if (params_.start.fixed_boundary) detail::scale_outline(levels_.hierarchy(), first, levels_.points(), uv);
         for (std::size_t l = first; l > 0; --l)
         {
-            uv = minimised(l, uv, l < first, observer(l));
+            uv = minimised(l, plan(l), uv, l < first, observer(l));
             if (reports_.back().solve.stop == solve::stop::not_finite_start)
                 return fail("the energy is not finite on level " + std::to_string(l));
             auto finer = detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv),
@@ -82,9 +84,10 @@ public:
     const std::vector<level_report>& reports() const { return reports_; }
 
 private:
-    std::vector<vec2> minimised(std::size_t l, const std::vector<vec2>& uv, bool relax, const solve::observer& ask)
+    std::vector<vec2> minimised(std::size_t l, typename level_solver<P, R>::plan host, const std::vector<vec2>& uv,
+                                bool relax, const solve::observer& ask)
     {
-        typename level_solver<P, R>::level level(solver_, l, uv);
+        typename level_solver<P, R>::level level(solver_, std::move(host), uv);
         if (relax) level.relax();
         auto stopping = params_.stopping;
         if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;

@@ -21,6 +21,7 @@ class level_solver
 {
 public:
     using kernels = newton_kernels<triangle, P, R>;
+    using plan = newton_plan<triangle, R>;
 
     /// Refers to the levels.
     level_solver(queue q, const mesh_levels& levels, const any_energy& energy, energy::weighting weights)
@@ -37,21 +38,21 @@ public:
     {
         const std::size_t coarsest = levels_.size() - 1;
         const auto m = levels_.surface(coarsest);
-        level(*this, coarsest, barycentric_map(m, facets(m), {}).uv).warm_up();
+        level(*this, make_plan(coarsest), barycentric_map(m, facets(m), {}).uv).warm_up();
     }
 
     double energy_at_rest() const { return energy_(element<double, 2>{mat2(1.0), 1.0, 1.0}); }
+
+    /// What can be made of a level without the device, on any thread.
+    plan make_plan(std::size_t l) const { return {levels_, l, lane_form::for_device(queue_.device())}; }
 
     /// One level at work.
     class level
     {
     public:
         /// uv: the map to start from, coordinates of the level's vertices. constraints: in the level's numbers.
-        level(level_solver& owner, std::size_t l, const std::vector<vec2>& uv,
-              const point_constraints<2>& constraints = {})
-            : layout_(owner.levels_.make_layout(l)),
-              problem_(owner.queue_, layout_, owner.energy_, owner.weights_, owner.kernels_, owner.levels_.cells(l),
-                       owner.levels_.transfers(l), owner.levels_.fixed(l), constraints),
+        level(level_solver& owner, plan host, const std::vector<vec2>& uv, const point_constraints<2>& constraints = {})
+            : problem_(owner.queue_, std::move(host), owner.energy_, owner.weights_, owner.kernels_, constraints),
               x_(problem_.make_point())
         {
             problem_.upload(uv, x_);
@@ -70,7 +71,6 @@ public:
         void warm_up() { problem_.warm_up(x_); }
 
     private:
-        std::shared_ptr<const layout<triangle>> layout_;
         newton_problem<triangle, P, R> problem_;
         typename newton_problem<triangle, P, R>::point x_;
     };

@@ -11,6 +11,7 @@
 #include <taut/compute/block_assembly.hpp>
 #include <taut/compute/multigrid.hpp>
 #include <taut/map/element_hessian.hpp>
+#include <taut/map/newton_plan.hpp>
 #include <taut/map/problem.hpp>
 #include <taut/map/vertex_relaxation.hpp>
 
@@ -57,17 +58,20 @@ public:
     using typename base::vector;
     using kernels = newton_kernels<Element, P, R>;
 
-    using cells_type = std::vector<typename mesh<Element>::cell>;
+    using plan = newton_plan<Element, R>;
 
-    /// cells: of the mesh in layout order. transfers: from each coarser level to the next finer one, in layout order;
-    /// none for a mesh too small to be thinned. fixed: one flag a vertex, or none.
-    newton_problem(queue q, std::shared_ptr<const taut::layout<Element>> mesh_layout, const any_energy& energy,
-                   energy::weighting weights, std::shared_ptr<const kernels> traced, const cells_type& cells,
-                   const std::vector<transfer_weights>& transfers, std::span<const char> fixed,
-                   const point_constraints<D>& constraints = {})
-        : newton_problem(q, mesh_layout, energy, weights, std::move(traced), cells,
-                         incidence_of_cells(cells, static_cast<std::size_t>(mesh_layout->vertex_count)), transfers,
-                         fixed, constraints)
+    /// host: made with the lane_form of the queue's device. constraints: besides the pins of the layout.
+    newton_problem(queue q, plan host, const any_energy& energy, energy::weighting weights,
+                   std::shared_ptr<const kernels> traced, const point_constraints<D>& constraints = {})
+        : base(q, host.layout, energy, weights,
+               std::shared_ptr<const element_kernels<Element, P, R>>(traced, &traced->first), constraints),
+          kernels_(std::move(traced)),
+          hessian_(q, hessian_slots<D>::count * host.layout->cell_stride),
+          cycle_(q, std::move(host.cycle)),
+          assemble_(cycle_.matrix(), host.assembly),
+          relaxation_(q, host.layout,
+                      std::shared_ptr<const relaxation_kernels<Element, P, R>>(kernels_, &kernels_->relaxation),
+                      this->arrays(), constraints.touched(static_cast<std::size_t>(host.layout->vertex_count)))
     {
     }
 
@@ -116,23 +120,6 @@ public:
     }
 
 private:
-    newton_problem(queue& q, const std::shared_ptr<const taut::layout<Element>>& mesh_layout, const any_energy& energy,
-                   energy::weighting weights, std::shared_ptr<const kernels> traced, const cells_type& cells,
-                   const cell_incidence& around, const std::vector<transfer_weights>& transfers,
-                   std::span<const char> fixed, const point_constraints<D>& constraints)
-        : base(q, mesh_layout, energy, weights,
-               std::shared_ptr<const element_kernels<Element, P, R>>(traced, &traced->first), constraints),
-          kernels_(std::move(traced)),
-          hessian_(q, hessian_slots<D>::count * mesh_layout->cell_stride),
-          cycle_(block_matrix<R>(q, pattern_of_cells(cells, around, lane_form::for_device(q.device()).slice), D),
-                 transfers, {.lambda_max = D + 1.0}),
-          assemble_(cycle_.matrix(), cells, around, mesh_layout->cell_stride, fixed),
-          relaxation_(q, mesh_layout,
-                      std::shared_ptr<const relaxation_kernels<Element, P, R>>(kernels_, &kernels_->relaxation),
-                      this->arrays(), constraints.touched(static_cast<std::size_t>(mesh_layout->vertex_count)))
-    {
-    }
-
     template <class Kernel>
     void element_hessians(const Kernel& kernel, const point& x)
     {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/core/made_ahead.hpp>
 #include <taut/map/coarse_to_fine.hpp>
 #include <taut/map/start_phase.hpp>
 
@@ -190,13 +191,27 @@ private:
     bool solve_levels()
     {
         const auto& numbers = levels_->order().vertices;
-        level_solver<P, R> solver(queue_, *levels_, params_.energy, params_.weights);
+        if (!arrival_ && !coarse_) arrival_ = numbers.apply(centred(report().start.uv));
+        const auto how = descent();
+        const std::size_t first = arrival_ ? 0 : how.first_level(*levels_);
+        // Plans are made while the driver compiles, and while coarser levels are solved.
+        using solver_type = level_solver<P, R>;
+        using plan = typename solver_type::plan;
+        const auto form = lane_form::for_device(queue_.device());
+        made_ahead<plan> plans(first + 1, [&, this](std::size_t k) { return plan(*levels_, first - k, form); });
+        const auto take = [&](std::size_t l) { return plans.take(first - l); };
+
+        solver_type solver(queue_, *levels_, params_.energy, params_.weights);
         solver.warm_up();
         report().seconds.device += limits_.lap();
-        if (!arrival_ && !coarse_) arrival_ = numbers.apply(centred(report().start.uv));
-        if (!arrival_ && !descend(solver)) return false;
-        typename level_solver<P, R>::level finest(solver, 0, *arrival_,
-                                                  in_.held.beyond_pins(centre_).renumbered(numbers));
+        if (!arrival_)
+        {
+            coarse_to_fine<P, R> nested(*levels_, solver, how);
+            auto uv = nested.run([this](std::size_t l) { return observer_on(l); }, take);
+            if (!arrive(nested, std::move(uv))) return false;
+        }
+        typename solver_type::level finest(solver, take(0), *arrival_,
+                                           in_.held.beyond_pins(centre_).renumbered(numbers));
         report().seconds.setup += limits_.lap();
         if (coarse_) finest.relax();
         report().solve = finest.minimize(limited(), observer_on(0));
@@ -210,16 +225,19 @@ private:
         return true;
     }
 
-    /// From the coarse start to a map of the mesh in arrival_; false if that failed.
-    template <class P, class R>
-    bool descend(level_solver<P, R>& solver)
+    coarse_to_fine_params descent()
     {
         coarse_to_fine_params p;
         p.start.boundary = params_.start.boundary;
         p.start.fixed_boundary = params_.boundary == boundary_mode::fixed;
         p.start.proceed = [this] { return limits_.proceed(); };
-        coarse_to_fine<P, R> nested(*levels_, solver, p);
-        auto uv = nested.run([this](std::size_t l) { return observer_on(l); });
+        return p;
+    }
+
+    /// Takes in what a descent came to; false if it failed.
+    template <class P, class R>
+    bool arrive(const coarse_to_fine<P, R>& nested, std::vector<vec2> uv)
+    {
         report().start = nested.start();
         report().levels = nested.reports();
         coarse_reason_ = uv.empty() ? nested.reason() : "the map that came of it could not be certified";

@@ -193,7 +193,7 @@ TEST_CASE_TEMPLATE("block sparse: element blocks are summed into place, transpos
             block_matrix<T> A(q, pattern_of_cells(m.cells(), n, form.slice), D, form);
             const auto host = random_values<T>((3 * d * (d + 1) / 2 + 3 * d * d) * stride, 9);
             const buffer<T> blocks(q, host);
-            const block_assembly<T> assembly(A, m.cells(), stride, fixed);
+            const block_assembly<T> assembly(A, {A.pattern(), D, m.cells(), stride, fixed});
             assembly(blocks, A);
             std::vector<double> expected(A.pattern().columns.size() * d * d, 0.0);
             for (std::size_t cell = 0; cell < cells; ++cell)

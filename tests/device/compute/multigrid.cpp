@@ -60,11 +60,12 @@ multigrid<T> elastic(queue& q, const mesh<triangle>& m, int D, bool pinned, lane
                     }
     }
     const auto around = incidence_of_cells(m.cells(), n);
-    block_matrix<T> A(q, pattern_of_cells(m.cells(), around, form.slice), D, form);
-    const block_assembly<T> assembly(A, m.cells(), around, stride, fixed);
-    assembly(buffer<T>(q, blocks), A);
+    multigrid_plan<T> plan(pattern_of_cells(m.cells(), around, form.slice), D, transfers, form);
+    const assembly_lists lists(plan.patterns.front(), D, m.cells(), around, stride, fixed);
+    multigrid<T> mg(q, std::move(plan));
+    const block_assembly<T> assembly(mg.matrix(), lists);
+    assembly(buffer<T>(q, blocks), mg.matrix());
     q.finish();
-    multigrid<T> mg(std::move(A), transfers);
     mg.refresh();
     return mg;
 }

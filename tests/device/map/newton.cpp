@@ -62,13 +62,10 @@ struct fixture
     newton_problem<triangle, P, R> make(const any_energy& energy) const
     {
         return {q,
-                levels.make_layout(0),
+                {levels, 0, lane_form::for_device(q.device())},
                 energy,
                 energy::weighting::measure,
-                std::make_shared<const newton_kernels<triangle, P, R>>(q, energy),
-                levels.cells(0),
-                levels.transfers(0),
-                levels.fixed(0)};
+                std::make_shared<const newton_kernels<triangle, P, R>>(q, energy)};
     }
 };
 

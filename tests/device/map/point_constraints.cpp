@@ -43,9 +43,12 @@ struct setting
 
     problem_type problem(const point_constraints<2>& constraints)
     {
-        return problem_type(q, levels.make_layout(0), energy::isometric{}, energy::weighting::measure,
-                            std::make_shared<const problem_type::kernels>(q, energy::isometric{}), levels.cells(0),
-                            levels.transfers(0), levels.fixed(0), constraints);
+        return {q,
+                {levels, 0, lane_form::for_device(q.device())},
+                energy::isometric{},
+                energy::weighting::measure,
+                std::make_shared<const problem_type::kernels>(q, energy::isometric{}),
+                constraints};
     }
 
     double spring_energy(const std::vector<vec2>& x) const
