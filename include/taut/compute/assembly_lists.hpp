@@ -54,8 +54,7 @@ public:
         if (cells.size() > 0) reach = (entries - 1) * cell_stride + cells.size();
 
         const auto is_fixed = [&](index v) { return !fixed.empty() && fixed[static_cast<std::size_t>(v)]; };
-        diagonal.resize(detail::chunk_count(pattern.rows()));
-        others.resize(diagonal.size());
+        std::vector<detail::list_chunk> own(detail::chunk_count(pattern.rows())), rest(own.size());
         const auto C = static_cast<std::size_t>(pattern.slice);
         const auto make = [&](std::size_t chunk, std::size_t begin, std::size_t end)
         {
@@ -82,20 +81,21 @@ public:
                         }
                     }
                 }
-                lists.finish(diagonal[chunk], others[chunk]);
+                lists.finish(own[chunk], rest[chunk]);
             }
         };
         detail::for_each_chunk(pattern.rows(), make);
-        diagonal_offsets = detail::slice_offsets(diagonal, pattern.stride() / C);
-        other_offsets = detail::slice_offsets(others, places / C);
+        diagonal = detail::joined(own);
+        others = detail::joined(rest);
+        diagonal_offsets = detail::slice_offsets(own, pattern.stride() / C);
+        other_offsets = detail::slice_offsets(rest, places / C);
     }
 
     std::size_t cell_stride;
     std::size_t places;    ///< of the pattern
     std::size_t reach = 0; ///< entries up to the last one that is read
     /// Entries of the diagonal, and ~entry where the transpose is meant; those of the other nonzeros by their place.
-    std::vector<detail::list_chunk> diagonal, others;
-    std::vector<index> diagonal_offsets, other_offsets;
+    std::vector<index> diagonal, others, diagonal_offsets, other_offsets;
 
 private:
     static constexpr index none = 0x7fffffff;

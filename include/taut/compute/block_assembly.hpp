@@ -23,9 +23,9 @@ public:
           reach_(lists.reach),
           cells_(static_cast<index>(lists.cell_stride)),
           diagonal_offsets_(queue_, lists.diagonal_offsets),
-          diagonal_slots_(detail::upload_lists(queue_, lists.diagonal)),
+          diagonal_slots_(queue_, lists.diagonal),
           slot_offsets_(queue_, lists.other_offsets),
-          slots_(detail::upload_lists(queue_, lists.others))
+          slots_(queue_, lists.others)
     {
         if (lists.places != A.columns().size())
             throw parameter_error("assembly_lists", "are of another pattern than the matrix");

@@ -170,8 +170,7 @@ block_pattern make_pattern(std::size_t rows, index slice, const MakeRow& make_ro
     p.slice = slice;
     p.count = rows;
     p.offsets = slice_offsets(chunks, (std::max<std::size_t>(rows, 1) + 255) / 256 * 256 / C);
-    p.columns.reserve(static_cast<std::size_t>(p.offsets.back()));
-    for (const auto& chunk : chunks) p.columns.insert(p.columns.end(), chunk.items.begin(), chunk.items.end());
+    p.columns = joined(chunks);
     return p;
 }
 

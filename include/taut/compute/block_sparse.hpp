@@ -39,21 +39,6 @@ void load_block_kernel(typed_kernel<Args...>& kernel, queue& q, const char* name
                   " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f")};
 }
 
-/// Lists on a device, from their pieces.
-inline buffer<index> upload_lists(queue& q, const std::vector<list_chunk>& chunks)
-{
-    std::size_t size = 0;
-    for (const auto& chunk : chunks) size += chunk.items.size();
-    buffer<index> all(q, size);
-    std::size_t at = 0;
-    for (const auto& chunk : chunks)
-    {
-        all.upload(chunk.items, at);
-        at += chunk.items.size();
-    }
-    return all;
-}
-
 } // namespace detail
 
 /// A square block-sparse matrix on a device, with D x D blocks of T, and the inverses of its diagonal blocks. Vectors

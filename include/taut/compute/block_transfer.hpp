@@ -30,7 +30,7 @@ public:
           stride_(static_cast<index>(coarse.stride())),
           columns_(queue_, lists.columns),
           transpose_offsets_(queue_, lists.transpose_offsets),
-          transpose_(detail::upload_lists(queue_, lists.transpose)),
+          transpose_(queue_, lists.transpose),
           weights_(queue_, lists.weights)
     {
         if (lists.fine_rows != fine.rows() || lists.coarse_rows != coarse.rows())

@@ -33,22 +33,13 @@ public:
 
     /// Throws device_error where n elements exceed the largest allocation or what is left of the device's memory:
     /// drivers that allocate lazily would crash later instead.
-    buffer(queue& q, std::size_t n) : state_(q.state()), size_(n)
-    {
-        const std::string operation = "allocating " + std::to_string(n) + " x " + cl_name<T>();
-        detail::require_fp64<T>(*state_, operation);
-        const auto& d = state_->device;
-        if (n > std::numeric_limits<std::size_t>::max() / sizeof(T) || bytes() > d.max_allocation())
-            refuse(operation, "the device allows " + std::to_string(d.max_allocation()) + " bytes in one buffer");
-        if (bytes() + state_->live_bytes > d.global_memory())
-            refuse(operation, "the device has " + std::to_string(d.global_memory()) + " bytes, of which " +
-                                  std::to_string(state_->live_bytes) + " are in use by this queue");
-        if (n == 0) return;
-        state_->run(operation, [&] { memory_ = boost::compute::buffer(state_->context, bytes()); });
-        state_->live_bytes += bytes();
-    }
+    buffer(queue& q, std::size_t n) : buffer(q, n, nullptr) {}
 
-    buffer(queue& q, std::span<const T> values) : buffer(q, values.size()) { upload(values); }
+    /// Filled with values, which is cheaper than an upload: no command waits for others.
+    buffer(queue& q, std::span<const T> values) : buffer(q, values.size(), values.data())
+    {
+        state_->counters.bytes_written += values.size_bytes();
+    }
     buffer(queue& q, const std::vector<T>& values) : buffer(q, std::span<const T>(values)) {}
 
     buffer(buffer&& other) noexcept { swap(other); }
@@ -147,10 +138,26 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& operation, const std::string& reason)
+    buffer(queue& q, std::size_t n, const T* values) : state_(q.state()), size_(n)
     {
-        size_ = 0; // the destructor must not give back what was never counted
-        state_->fail(operation, reason);
+        const std::string operation = "allocating " + std::to_string(n) + " x " + cl_name<T>();
+        detail::require_fp64<T>(*state_, operation);
+        const auto& d = state_->device;
+        if (n > std::numeric_limits<std::size_t>::max() / sizeof(T) || bytes() > d.max_allocation())
+            state_->fail(operation, "the device allows " + std::to_string(d.max_allocation()) + " bytes in one buffer");
+        if (bytes() + state_->live_bytes > d.global_memory())
+            state_->fail(operation, "the device has " + std::to_string(d.global_memory()) + " bytes, of which " +
+                                        std::to_string(state_->live_bytes) + " are in use by this queue");
+        if (n == 0) return;
+        constexpr cl_mem_flags copied = CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR;
+        state_->run(operation,
+                    [&]
+                    {
+                        memory_ = values
+                                      ? boost::compute::buffer(state_->context, bytes(), copied, const_cast<T*>(values))
+                                      : boost::compute::buffer(state_->context, bytes());
+                    });
+        state_->live_bytes += bytes();
     }
 
     void check(const char* what, std::size_t offset, std::size_t count) const

@@ -46,6 +46,17 @@ inline std::vector<index> slice_offsets(const std::vector<list_chunk>& chunks, s
     return offsets;
 }
 
+/// The items of all chunks, one after the other.
+inline std::vector<index> joined(const std::vector<list_chunk>& chunks)
+{
+    std::size_t size = 0;
+    for (const auto& chunk : chunks) size += chunk.items.size();
+    std::vector<index> all;
+    all.reserve(size);
+    for (const auto& chunk : chunks) all.insert(all.end(), chunk.items.begin(), chunk.items.end());
+    return all;
+}
+
 /// Calls body(chunk number, first row, last row + 1) for all chunks of the rows, on all threads.
 template <class Body>
 void for_each_chunk(std::size_t rows, const Body& body)

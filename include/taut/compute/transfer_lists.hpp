@@ -36,7 +36,7 @@ struct transfer_lists
     std::vector<index> columns; ///< at [k * fine_stride + row], for places k < 3
     std::vector<T> weights;     ///< alike
     std::vector<index> transpose_offsets;
-    std::vector<detail::list_chunk> transpose;    ///< places in `weights`
+    std::vector<index> transpose;                 ///< places in `weights`
     std::optional<detail::product_groups> groups; ///< for the product on CPUs; elsewhere an item does a row
 
 private:
@@ -67,11 +67,11 @@ private:
     {
         const auto C = static_cast<std::size_t>(coarse.slice);
         const auto stride = static_cast<index>(fine_stride);
-        transpose.resize(detail::chunk_count(P.coarse));
+        std::vector<detail::list_chunk> chunks(detail::chunk_count(P.coarse));
         detail::for_each_chunk(P.coarse,
                                [&](std::size_t chunk, std::size_t begin, std::size_t end)
                                {
-                                   auto& [items, sizes] = transpose[chunk];
+                                   auto& [items, sizes] = chunks[chunk];
                                    for (std::size_t first = begin; first < end; first += C)
                                    {
                                        const std::size_t last = std::min(first + C, end), base = items.size();
@@ -84,7 +84,8 @@ private:
                                        sizes.push_back(static_cast<index>(width * C));
                                    }
                                });
-        transpose_offsets = detail::slice_offsets(transpose, coarse.stride() / C);
+        transpose_offsets = detail::slice_offsets(chunks, coarse.stride() / C);
+        transpose = detail::joined(chunks);
     }
 };
 
