@@ -82,7 +82,9 @@ public:
         for (auto table : {library_solvers(queue_), peer_solvers()})
             for (auto& s : table)
                 if (chosen(s.name)) solvers_.push_back(std::move(s));
-        if (solvers_.empty()) throw std::invalid_argument("--solvers: none of that name");
+        for (const auto& name : words(options_.value("--solvers", "")))
+            if (std::none_of(solvers_.begin(), solvers_.end(), [&](const solver& s) { return s.name == name; }))
+                throw std::invalid_argument("--solvers: no solver is called '" + name + "'");
     }
 
     void run()

@@ -86,6 +86,16 @@ public:
         state_->counters.bytes_read += values.size_bytes();
     }
 
+    /// The same without the wait: values are there after the next one.
+    void begin_download(std::span<T> values) const
+    {
+        check("download from a buffer", 0, values.size());
+        if (values.empty()) return;
+        state_->run("downloading", [&]
+                    { state_->commands.enqueue_read_buffer_async(memory_, 0, values.size_bytes(), values.data()); });
+        state_->counters.bytes_read += values.size_bytes();
+    }
+
     std::vector<T> download() const
     {
         std::vector<T> values(size_);

@@ -133,7 +133,9 @@ private:
         report().notes.push_back(certified_ ? "float could not reach the tolerance; continued in double"
                                             : "float could not hold this map; repeated in double");
         if (!certified_) arrival_.reset();
-        attempt(precision::full);
+        const bool goes_on = certified_;
+        auto before = report().solve;
+        if (attempt(precision::full) && goes_on) report().solve = joined(std::move(before), std::move(report().solve));
     }
 
     /// Solves in a precision and certifies the map; whether there is one.

@@ -42,9 +42,9 @@ struct relaxation_result
 /// flips: det is affine along the step of one vertex, and positive at both ends. Pinned vertices and all others stay
 /// bit for bit. The same input gives the same output.
 ///
-/// Costs an evaluation of the energy and one wait if nothing is bad. Else two further waits, and four short launches a
-/// colour and sweep. Device memory: R a cell; while elements are bad, 4 indices an entry (an element at a moving
-/// vertex) and 11 R (14 R in space) an entry of the widest colour.
+/// Costs an evaluation of the energy and one wait; and, if something is bad, four short launches a colour and sweep.
+/// Device memory: R a cell; while elements are bad, 4 indices an entry (an element at a moving vertex) and 11 R (14 R
+/// in space) an entry of the widest colour.
 template <class Element, class P, class R>
 class vertex_relaxation
 {
@@ -85,6 +85,8 @@ public:
                             x.data(), densities_, cell_stride(), vertex_stride());
         const auto least = reductions_.minimum(densities_, cell_count());
         const auto mean = reductions_.dot(densities_, arrays_->weight, cell_count());
+        host_.resize(cell_count());
+        densities_.begin_download(std::span(host_));
         reductions_.fetch();
 
         result r{.worst = -reductions_.value(least)};
@@ -123,10 +125,8 @@ private:
     index vertex_stride() const { return static_cast<index>(layout_->vertex_stride); }
 
     /// The cells with a larger density.
-    std::vector<index> above(double limit)
+    std::vector<index> above(double limit) const
     {
-        host_.resize(cell_count());
-        densities_.download(std::span(host_));
         std::vector<index> cells;
         for (std::size_t c = 0; c < host_.size(); ++c)
             if (static_cast<double>(-host_[c]) > limit) cells.push_back(static_cast<index>(c));
@@ -136,21 +136,20 @@ private:
     void run(const relaxation_schedule& s, int sweeps, device_vector<P>& x)
     {
         const auto wide = static_cast<std::size_t>(s.widest);
-        require(lists_, s.lists.size());
         require(steps_, kernels::step_count * wide);
         require(numbers_, std::max(kernels::term_count, kernels::trials) * wide);
-        lists_.upload(s.lists);
+        const buffer<index> lists(queue_, s.lists);
         const auto& a = *arrays_;
         for (int sweep = 0; sweep < sweeps; ++sweep)
             for (const auto& c : s.colours)
             {
                 const auto rows = static_cast<std::size_t>(c.rows), entries = static_cast<std::size_t>(c.entries);
-                kernels_->terms(entries, lists_, x.data(), a.corners, a.inverse, a.measure, a.weight, cell_stride(),
+                kernels_->terms(entries, lists, x.data(), a.corners, a.inverse, a.measure, a.weight, cell_stride(),
                                 vertex_stride(), numbers_, c.first_entry, c.first_row, s.stride, s.widest);
-                kernels_->steps(rows, lists_, numbers_, steps_, c.first_entry, c.first_row, s.stride, s.widest);
-                kernels_->tries(entries, lists_, x.data(), a.corners, a.inverse, a.measure, a.weight, cell_stride(),
+                kernels_->steps(rows, lists, numbers_, steps_, c.first_entry, c.first_row, s.stride, s.widest);
+                kernels_->tries(entries, lists, x.data(), a.corners, a.inverse, a.measure, a.weight, cell_stride(),
                                 vertex_stride(), steps_, numbers_, c.first_entry, c.first_row, s.stride, s.widest);
-                kernels_->moves(rows, lists_, steps_, numbers_, x.data(), vertex_stride(), c.first_entry, c.first_row,
+                kernels_->moves(rows, lists, steps_, numbers_, x.data(), vertex_stride(), c.first_entry, c.first_row,
                                 s.stride, s.widest);
             }
     }
@@ -169,9 +168,8 @@ private:
     relaxation_scheduler<Element> scheduler_;
     reductions reductions_;
     buffer<R> densities_;
-    buffer<index> lists_;
     buffer<R> steps_, numbers_; ///< of one colour; the terms, and then the trial values
-    std::vector<R> host_;
+    std::vector<R> host_;       ///< a copy of the densities
 };
 
 } // namespace taut

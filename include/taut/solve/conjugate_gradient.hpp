@@ -83,7 +83,7 @@ report conjugate_gradient(Objective& f, typename Objective::point& x, const conj
 {
     params.validate();
     common.validate();
-    return with_inverse_hessian(f, x, params.memory,
+    return with_inverse_hessian(f, params.memory,
                                 [&](auto& h) { return descent(f, x, h, conjugate_rule(params), common, ask).run(); });
 }
 

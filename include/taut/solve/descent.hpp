@@ -89,6 +89,7 @@ private:
         h_.forget(length_ = params_.first_length);
         const double norm = std::sqrt(h_.gradient_squared());
         if (!std::isfinite(value_) || !std::isfinite(norm)) return solve::stop::not_finite_start;
+        linearize();
 
         scale_ = norm;
         if constexpr (has_gradient_scale<Objective>) scale_ = f_.gradient_scale(x_);
@@ -134,6 +135,8 @@ private:
         ++report_.iterations;
         length_ = length;
         if (h_.fresh()) h_.forget(length_); // the first pair was left out: at least its length is known
+        if (has_hessian<Objective> && linearized_at_ - at.value > params_.linearize_after * std::abs(at.value))
+            linearize();
         const double before = std::exchange(value_, at.value);
         lowest_ = std::min(lowest_, value_);
         record(at, capped);
@@ -147,12 +150,26 @@ private:
         return reason ? reason : monitor_.reason();
     }
 
-    /// Forget the pairs and go on with steepest descent; if that is what just failed, give up.
+    /// Makes the preconditioner that of x_k. H0 must not change under pairs that know it, so they go.
+    void linearize()
+    {
+        if constexpr (has_hessian<Objective>)
+        {
+            f_.linearize(x_, false);
+            h_.forget(length_);
+            linearized_at_ = value_;
+        }
+    }
+
+    /// Forget the pairs and go on with steepest descent, in the metric of a preconditioner; if that is what just
+    /// failed, give up.
     std::optional<solve::stop> restart()
     {
         if (monitor_.reason()) return monitor_.reason();
-        if (h_.fresh()) return solve::stop::line_search;
+        const bool stale = has_hessian<Objective> && linearized_at_ != value_;
+        if (h_.fresh() && !stale) return solve::stop::line_search;
         h_.forget(length_);
+        if (stale) linearize();
         ++report_.restarts;
         return std::nullopt;
     }
@@ -194,6 +211,7 @@ private:
     point trial_;
     vector d_, g_, g_new_;
     double value_ = 0, lowest_ = 0; // f(x_k), and the lowest value so far: they differ by rounding at most
+    double linearized_at_ = 0;      // the value then
     double scale_ = 1;              // gradients are relative to it
     double length_ = 1;             // of the last step
     report report_;

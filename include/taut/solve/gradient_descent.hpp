@@ -16,8 +16,7 @@ report gradient_descent(Objective& f, typename Objective::point& x, const descen
 {
     common.validate();
     const memory_params none{.pairs = 0};
-    return with_inverse_hessian(f, x, none,
-                                [&](auto& h) { return descent(f, x, h, no_momentum{}, common, ask).run(); });
+    return with_inverse_hessian(f, none, [&](auto& h) { return descent(f, x, h, no_momentum{}, common, ask).run(); });
 }
 
 } // namespace taut::solve

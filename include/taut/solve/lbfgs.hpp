@@ -16,8 +16,9 @@ struct lbfgs_params
 };
 
 /// Minimises f from x by d = -H_k g_k with the last m pairs in H_k (Nocedal & Wright, Algorithm 7.5). An objective with
-/// a preconditioner gives H0, scaled by s'y / y'H0 y; one with a Hessian is linearized at the start. x ends at the
-/// best iterate whatever the reason to stop. Throws parameter_error, and nothing else but what f and the observer do.
+/// a preconditioner gives H0, scaled by s'y / y'H0 y; one with a Hessian is linearized at the start, and again as the
+/// value falls (descent_params::linearize_after). x ends at the best iterate whatever the reason to stop. Throws
+/// parameter_error, and nothing else but what f and the observer do.
 ///
 /// Host waits of an iteration whose full step is accepted: the barrier (if any), the value with its gradient, and one
 /// multi_dot: 3.
@@ -27,7 +28,7 @@ report lbfgs(Objective& f, typename Objective::point& x, const lbfgs_params& par
 {
     params.validate();
     common.validate();
-    return with_inverse_hessian(f, x, params.memory,
+    return with_inverse_hessian(f, params.memory,
                                 [&](auto& h) { return descent(f, x, h, no_momentum{}, common, ask).run(); });
 }
 

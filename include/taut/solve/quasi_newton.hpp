@@ -9,12 +9,10 @@ namespace taut::solve
 {
 
 /// Calls run(h) with the inverse Hessian operator that the parameters ask for, on the space of an objective and with
-/// its preconditioner as H0 where it has one, that of x for an objective with a Hessian.
+/// its preconditioner as H0 where it has one.
 template <objective Objective, class Run>
-auto with_inverse_hessian(Objective& f, const typename Objective::point& x, const memory_params& params, Run run)
+auto with_inverse_hessian(Objective& f, const memory_params& params, Run run)
 {
-    // The preconditioner of the start serves the whole run: H0 must not change under pairs that know it.
-    if constexpr (has_hessian<Objective>) f.linearize(x, false);
     using space = space_of<Objective>;
     preconditioner<vector_of<Objective>> h0;
     if constexpr (has_precondition<Objective>)

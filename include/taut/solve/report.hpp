@@ -7,6 +7,7 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace taut::solve
@@ -43,6 +44,30 @@ struct report
     std::vector<int> capping; ///< what the last step of Newton's method met first, if a barrier cut it (has_capping)
     std::vector<history_entry> history;
 };
+
+/// Two runs as one, of which the second went on where the first had ended.
+inline report joined(report first, report next)
+{
+    for (auto it = next.history.empty() ? next.history.end() : next.history.begin() + 1; it != next.history.end(); ++it)
+    {
+        auto& entry = first.history.emplace_back(*it);
+        entry.iteration += first.iterations;
+        entry.evaluations += first.evaluations;
+        entry.seconds += first.seconds;
+        entry.waits += first.waits;
+    }
+    next.history = std::move(first.history);
+    next.iterations += first.iterations;
+    next.evaluations += first.evaluations;
+    next.gradients += first.gradients;
+    next.products += first.products;
+    next.restarts += first.restarts;
+    next.skipped_pairs += first.skipped_pairs;
+    next.seconds += first.seconds;
+    next.waits += first.waits;
+    next.value_start = first.value_start;
+    return next;
+}
 
 /// One line: `stop: gradient, 7 iterations, E 34.5 -> 7.446`.
 inline std::ostream& operator<<(std::ostream& stream, const report& r)
