@@ -215,9 +215,10 @@ public:
             vectors<float>("float", 8 << 20);
         }
 
-        std::printf(
-            "\nNewton, mixed    ns a triangle (GB/s, part of the triad)\n"
-            "triangles        triad    product            smoothing step     Hessians      + refresh    V-cycle\n");
+        std::printf("\nNewton, mixed    ns a triangle (GB/s, part of the triad)\n"
+                    "triangles        triad  product               smoothing step        Hessians              "
+                    "assembly              "
+                    "coarse matrices       V-cycle\n");
         for (const auto& m : meshes) newton(m);
     }
 
@@ -273,19 +274,33 @@ private:
     {
         using problem = newton_problem<triangle, double, float>;
         const mesh_levels levels(m);
-        const any_energy energy = energy::isometric{};
-        const auto kernels = std::make_shared<const problem::kernels>(queue_, energy);
         const problem::plan host(levels, 0, lane_form::for_device(queue_.device()));
         const auto local = host.layout;
-        problem f(queue_, host, energy, energy::weighting::measure, kernels);
-        auto x = f.make_point();
-        std::vector<vec2> uv;
-        for (const vec3& p : levels.points()) uv.emplace_back(p.x, p.y);
-        f.upload(uv, x);
-        auto g = f.space().make(), d = f.space().make(), y = f.space().make();
-        f.value_gradient(x, g);
-        f.linearize(x, false);
-        const auto& A = f.preconditioner().matrix();
+        const any_energy energy = energy::isometric{};
+        const problem::kernels kernels(queue_, energy);
+        multigrid<float> mg(queue_, host.cycle);
+        auto& A = mg.matrix();
+        const block_assembly<float> assembly(A, host.assembly);
+        const element_arrays<triangle, float> arrays(queue_, *local, energy::weighting::measure);
+        std::vector<double> positions(2 * local->vertex_stride);
+        for (std::size_t v = 0; v < levels.points().size(); ++v)
+            for (int c = 0; c < 2; ++c)
+                positions[static_cast<std::size_t>(c) * local->vertex_stride + v] =
+                    levels.points()[v][c] * local->scale;
+        const buffer<double> x(queue_, positions);
+        buffer<float> hessian(queue_, hessian_slots<2>::count * local->cell_stride);
+        const auto number = [](std::size_t n) { return static_cast<taut::index>(n); };
+        const auto hessians = [&]
+        {
+            kernels.second.projected({local->cell_stride, layout<triangle>::step}, arrays.corners, arrays.inverse,
+                                     arrays.measure, arrays.weight, x, hessian, number(local->cell_stride),
+                                     number(local->vertex_stride));
+        };
+        hessians();
+        assembly(hessian, A);
+        mg.refresh();
+        auto g = A.vector(), d = A.vector(), y = A.vector();
+        g.data().fill(1);
         const auto done = [&](auto&& work)
         {
             return [&, work]
@@ -294,26 +309,19 @@ private:
                 queue_.finish();
             };
         };
-        const element_arrays<triangle, float> arrays(queue_, *local, energy::weighting::measure);
-        buffer<float> hessian(queue_, hessian_slots<2>::count * local->cell_stride);
-        const auto number = [](std::size_t n) { return static_cast<taut::index>(n); };
         const auto t = bench::interleaved(
             repeats(m.cells().size()),
-            {done([&] { A.multiply(g, d); }), done([&] { A.smooth(g, d, d, 1, 0, 0.5, y); }),
-             done(
-                 [&]
-                 {
-                     kernels->second.projected({local->cell_stride, layout<triangle>::step}, arrays.corners,
-                                               arrays.inverse, arrays.measure, arrays.weight, x.data(), hessian,
-                                               number(local->cell_stride), number(local->vertex_stride));
-                 }),
-             done([&] { f.linearize(x, false); }), done([&] { f.precondition(g, d); })});
+            {done([&] { A.multiply(g, d); }), done([&] { A.smooth(g, d, d, 1, 0, 0.5, y); }), done(hessians),
+             done([&] { assembly(hessian, A); }), done([&] { mg.refresh(); }), done([&] { mg.apply(g, d); })});
         const double vector = 4.0 * static_cast<double>(g.size()), cells = static_cast<double>(m.cells().size());
-        const double moved[] = {static_cast<double>(A.product_bytes()),
-                                static_cast<double>(A.product_bytes()) + 2 * vector + vector, // inverses, right side
-                                cells * (3 + 3 + 1 + 1 + hessian_slots<2>::count) * 4 + 2 * vector};
+        const double product = static_cast<double>(A.product_bytes());
+        const double moved[] = {product,
+                                product + 3 * vector, // inverses, right side
+                                cells * (3 + 3 + 1 + 1 + hessian_slots<2>::count) * 4 + 2 * vector,
+                                static_cast<double>(hessian.bytes() + assembly.bytes() + A.values().bytes()),
+                                static_cast<double>(mg.bytes())};
         const double triad = bench::device_triad(queue_);
-        const char* names[] = {"product", "smoothing", "hessians", "linearize", "cycle"};
+        const char* names[] = {"product", "smoothing", "hessians", "assembly", "refresh", "cycle"};
         nlohmann::ordered_json row = {
             {"what", "newton"}, {"triangles", m.cells().size()}, {"triad_GBps", triad * 1e-9}};
         std::printf("%-12zu %9.1f", m.cells().size(), triad * 1e-9);
