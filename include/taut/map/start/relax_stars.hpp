@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <taut/mesh/block_sum.hpp>
+#include <taut/mesh/counting_sort.hpp>
 #include <taut/mesh/hierarchy/star_energy.hpp>
 #include <taut/mesh/triangle.hpp>
 
@@ -91,25 +92,22 @@ private:
     /// Triangles of each vertex, as 3 * triangle + corner.
     void find_corners()
     {
-        offsets_.assign(numbers_.size() + 1, 0);
-        for (const auto& t : cells_)
-            for (const index v : t) ++offsets_[u(v) + 1];
-        for (std::size_t v = 0; v < numbers_.size(); ++v) offsets_[v + 1] += offsets_[v];
         corners_.resize(3 * cells_.size());
-        auto next = offsets_;
-        for (std::size_t c = 0; c < cells_.size(); ++c)
-            for (std::size_t k = 0; k < 3; ++k) corners_[next[u(cells_[c][k])]++] = 3 * c + k;
+        offsets_ = counting_sort(
+            corners_.size(), numbers_.size(), [&](std::size_t corner) { return cells_[corner / 3][corner % 3]; },
+            [&](std::size_t corner, std::size_t position) { corners_[position] = static_cast<index>(corner); },
+            threads_);
     }
 
     /// The neighbours of v counter-clockwise, along the boundary first; false if there are too many.
     bool ring_of(std::size_t v, std::array<index, largest_star>& ring, std::size_t& size, bool& open) const
     {
         std::array<std::array<index, 2>, largest_star> edge;
-        const std::size_t count = offsets_[v + 1] - offsets_[v];
+        const auto first = u(offsets_[v]), count = u(offsets_[v + 1]) - first;
         if (count == 0 || count > largest_star) return false;
         for (std::size_t i = 0; i < count; ++i)
         {
-            const std::size_t corner = corners_[offsets_[v] + i], k = corner % 3;
+            const std::size_t corner = u(corners_[first + i]), k = corner % 3;
             const auto& t = cells_[corner / 3];
             edge[i] = {t[(k + 1) % 3], t[(k + 2) % 3]};
         }
@@ -149,7 +147,7 @@ private:
     std::span<const char> fixed_;
     unsigned threads_;
     std::vector<double> density_; // of each triangle
-    std::vector<std::size_t> offsets_, corners_;
+    std::vector<index> offsets_, corners_;
 };
 
 } // namespace taut::detail

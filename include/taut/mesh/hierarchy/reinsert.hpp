@@ -149,7 +149,7 @@ inline reinsertion reinsert(const hierarchy& h, std::size_t level, std::span<con
                 for (std::size_t r = first + begin; r < first + end; ++r)
                     lost[r] = !detail::place(removed, r, numbers, points, params.newton_steps, result.uv);
             },
-            params.threads, 1024);
+            params.threads, 64);
     }
     for (std::size_t r = 0; r < lost.size(); ++r)
         if (lost[r]) result.failed.push_back(removed.vertex[r]);

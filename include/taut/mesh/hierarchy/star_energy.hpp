@@ -99,7 +99,9 @@ private:
 inline vec2 newton_direction(const vec2& g, const mat2& h)
 {
     const double mean = 0.5 * (h[0][0] + h[1][1]), half = 0.5 * (h[0][0] - h[1][1]), off = h[1][0];
-    const double radius = std::hypot(half, off);
+    // As std::hypot, which cares for the last digit, too, and takes most of the time here.
+    const double larger = std::max(std::abs(half), std::abs(off)), smaller = std::min(std::abs(half), std::abs(off));
+    const double ratio = larger > 0 ? smaller / larger : 0, radius = larger * std::sqrt(1 + ratio * ratio);
     // Eigenvectors at half the angle of (half, off), and that and 90 degrees; the larger of sine and cosine first.
     vec2 u(1, 0);
     if (radius > 0)
