@@ -30,7 +30,8 @@ public:
             {
                 levels_[l].b = A.vector();
                 levels_[l].x = A.vector();
-                transfers_.emplace_back(levels_[l - 1].A, plan.transfers[l - 1], A);
+                const auto lists = std::move(plan.transfers[l - 1]); // freed as soon as they are on the device
+                transfers_.emplace_back(levels_[l - 1].A, lists, A);
             }
             A.forget_pattern();
         }

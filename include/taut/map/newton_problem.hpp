@@ -68,7 +68,7 @@ public:
           kernels_(std::move(traced)),
           hessian_(q, hessian_slots<D>::count * host.layout->cell_stride),
           cycle_(q, std::move(host.cycle)),
-          assemble_(cycle_.matrix(), host.assembly),
+          assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))), // freed once they are on the device
           relaxation_(q, host.layout,
                       std::shared_ptr<const relaxation_kernels<Element, P, R>>(kernels_, &kernels_->relaxation),
                       this->arrays(), constraints.touched(static_cast<std::size_t>(host.layout->vertex_count)))
