@@ -161,15 +161,32 @@ private:
         }
     }
 
+    /// Lets the objective spread out what cuts every step short; whether that was worth while.
+    bool relax()
+    {
+        if constexpr (has_relax<Objective>)
+        {
+            if (!f_.relax(x_)) return false;
+            const double before = value_;
+            value_ = report_.value = f_.value_gradient(x_, g_);
+            lowest_ = std::min(lowest_, value_);
+            monitor_.count(1, 1);
+            h_.start(g_);
+            constexpr double least = 1e-6; // less, again and again, would take for ever
+            return before - value_ > least * std::abs(before);
+        }
+        return false;
+    }
+
     /// Forget the pairs and go on with steepest descent, in the metric of a preconditioner; if that is what just
     /// failed, give up.
     std::optional<solve::stop> restart()
     {
         if (monitor_.reason()) return monitor_.reason();
-        const bool stale = has_hessian<Objective> && linearized_at_ != value_;
-        if (h_.fresh() && !stale) return solve::stop::line_search;
+        const auto stale = [this] { return has_hessian<Objective> && linearized_at_ != value_; };
+        if (h_.fresh() && !stale() && !relax()) return solve::stop::line_search;
         h_.forget(length_);
-        if (stale) linearize();
+        if (stale()) linearize();
         ++report_.restarts;
         return std::nullopt;
     }

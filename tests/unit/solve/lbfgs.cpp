@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "functions.hpp"
 
+#include <limits>
+#include <utility>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 using namespace taut::solve;
@@ -197,4 +201,46 @@ TEST_CASE("lbfgs: saddles and concave starts do not mislead it")
         CHECK(x[0] == doctest::Approx(1).epsilon(1e-6));
         if (method == line_search_method::backtracking) CHECK(r.skipped_pairs > 0); // short steps in the concave part
     }
+}
+
+namespace
+{
+
+/// A function with a barrier that x is on, off which only relax() leads.
+template <class Function>
+class walled : public Function
+{
+public:
+    explicit walled(Function f) : Function(std::move(f)) {}
+
+    double max_step(const std::vector<double>&, const std::vector<double>&) const
+    {
+        return behind_ ? std::numeric_limits<double>::infinity() : 0;
+    }
+    bool relax(std::vector<double>& x)
+    {
+        if (std::exchange(behind_, true)) return false;
+        x[0] = 1;
+        return true;
+    }
+    void linearize(const std::vector<double>&, bool) { ++linearized; }
+    void hessian_product(const std::vector<double>& v, std::vector<double>& out) const { out = v; }
+    void precondition(const std::vector<double>& v, std::vector<double>& out) const { out = v; }
+
+    int linearized = 0;
+
+private:
+    bool behind_ = false;
+};
+
+} // namespace
+
+TEST_CASE("lbfgs: what cuts every step short is relaxed, and the preconditioner follows the iterate")
+{
+    walled f(functions::quadratic(20, 100));
+    std::vector<double> x(20, 0.0);
+    const auto r = lbfgs(f, x);
+    CHECK(r.stop == stop::gradient);
+    CHECK(functions::distance(x, 1) < 1e-3);
+    CHECK(f.linearized > 2);
 }
