@@ -38,19 +38,18 @@ public:
     {
         const std::size_t coarsest = levels_.size() - 1;
         const auto m = levels_.surface(coarsest);
-        level(*this, make_plan(coarsest), barycentric_map(m, facets(m), {}).uv).warm_up();
+        plan host(levels_, coarsest, lane_form::for_device(queue_.device()));
+        level(*this, std::move(host), barycentric_map(m, facets(m), {}).uv).warm_up();
     }
 
     double energy_at_rest() const { return energy_(element<double, 2>{mat2(1.0), 1.0, 1.0}); }
-
-    /// What can be made of a level without the device, on any thread.
-    plan make_plan(std::size_t l) const { return {levels_, l, lane_form::for_device(queue_.device())}; }
 
     /// One level at work.
     class level
     {
     public:
-        /// uv: the map to start from, coordinates of the level's vertices. constraints: in the level's numbers.
+        /// host: that of the level. uv: the map to start from, coordinates of the level's vertices. constraints: in the
+        /// level's numbers.
         level(level_solver& owner, plan host, const std::vector<vec2>& uv, const point_constraints<2>& constraints = {})
             : problem_(owner.queue_, std::move(host), owner.energy_, owner.weights_, owner.kernels_, constraints),
               x_(problem_.make_point())

@@ -84,8 +84,7 @@ TEST_CASE("parallel_for: from several threads at once")
             n,
             [&](std::size_t begin, std::size_t end)
             {
-                for (std::size_t i = begin; i < end; ++i)
-                    out[i] += static_cast<int>(i * i);
+                for (std::size_t i = begin; i < end; ++i) out[i] += static_cast<int>(i * i);
             },
             3, 1);
     };
