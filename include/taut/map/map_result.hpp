@@ -14,13 +14,14 @@
 namespace taut
 {
 
-/// What became of a map. Only `valid` comes with a map whose every element keeps its orientation, in exact arithmetic.
+/// What became of a map. Only `valid` comes with a certified map: no triangle is flipped, and there is no inner vertex
+/// that the map winds around other than once; in exact arithmetic.
 enum class outcome
 {
     valid,          ///< the map is certified; map_report::solve says why the optimisation ended
     no_valid_start, ///< no injective start was found; map_report::reason and ids say where
     infeasible,     ///< no map obeys the pins without flips; reason and ids are the proof
-    gave_up ///< untangling did not succeed; the map has the fewest flipped elements that were seen, ids are theirs
+    gave_up ///< untangling did not succeed; the map has the fewest defects that were seen, ids are theirs
 };
 
 /// Wall-clock seconds of the phases of one run.
@@ -46,17 +47,16 @@ struct map_report
     std::vector<level_report> levels; ///< coarser levels, in their order in time
     std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
     std::vector<untangle_stage_report> untangling; ///< what it took to make the start injective
-    certificate flips;                             ///< of the map that is returned, exact
+    certificate flips;                             ///< of the map that is returned, exact: flips and branch points
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run
 
-    /// There is no valid map, as `map` has flips.
+    /// There is no valid map, as `map` has defects.
     void refuse(const std::string& map, const certificate& found)
     {
-        ids = found.ids;
-        reason = map + " has " + std::to_string(found.flipped) + " flipped of " + std::to_string(found.elements) +
-                 " triangles, first " + std::to_string(ids.empty() ? -1 : ids.front());
+        ids = found.flipped > 0 ? found.ids : found.branch_ids;
+        reason = map + " has " + describe_defects<triangle>(found);
     }
 };
 
@@ -72,7 +72,7 @@ struct map_result
     std::vector<vec2> uv; ///< one a vertex, in the user's order and the units of the surface
     map_report report;
 
-    /// True if the map is certified: no triangle is flipped.
+    /// True if the map is certified: no triangle is flipped, and there is no branch point.
     explicit operator bool() const { return report.outcome == outcome::valid; }
     const std::string& reason() const { return report.reason; }
 };

@@ -50,8 +50,7 @@ public:
         }
         if (make_start()) optimize();
         subtract_counters();
-        for (auto* points : {&result_.uv, &report().start.uv, &report().pin_origins})
-            for (vec2& p : *points) p /= in_.unit;
+        return_to_user_units();
         return std::move(result_);
     }
 
@@ -118,7 +117,7 @@ private:
             certify_map();
         }
         report().seconds.setup += limits_.lap();
-        if (report().flips.flipped == 0)
+        if (report().flips)
             report().outcome = outcome::valid;
         else
             report().refuse("the map that was found", report().flips);
@@ -151,7 +150,7 @@ private:
     void certify_map()
     {
         report().flips = certify<2>(in_.surface.cells(), result_.uv, in_.ideal.measure);
-        certified_ = report().flips.flipped == 0 && report().solve.stop != solve::stop::not_finite_start;
+        certified_ = report().flips && report().solve.stop != solve::stop::not_finite_start;
     }
 
     /// False where float, and not the caller, ended the run above the tolerance.
@@ -280,6 +279,24 @@ private:
             keep_total_area(in_.surface, in_.ideal, result_.uv);
         for (vec2& p : result_.uv) p += centre_;
         in_.held.restore(result_.uv, start); // the device may hold positions in float
+    }
+
+    /// Lengths of the user, pins bit for bit; the division is inexact at the ends of the range of double, so what is
+    /// valid is certified again.
+    void return_to_user_units()
+    {
+        for (auto* points : {&result_.uv, &report().start.uv, &report().pin_origins})
+            for (vec2& p : *points) p /= in_.unit;
+        in_.held.impose(result_.uv, 1);
+        if (report().outcome != outcome::valid) return;
+        auto final = certify<2>(in_.surface.cells(), result_.uv);
+        if (final) return;
+        final.min_det = report().flips.min_det;
+        final.max_det = report().flips.max_det;
+        report().flips = std::move(final);
+        report().outcome = outcome::gave_up;
+        report().refuse("the map in the units of the surface, which are too large or small for double precision,",
+                        report().flips);
     }
 
     void subtract_counters()
