@@ -333,7 +333,7 @@ test_streams()
     expect 0 unwrap in.obj -o out.obj --quiet
     mkfifo pipe
     for options in 'in.obj -o copy.obj --picture' 'in.obj -o copy.obj --render'; do
-        cat pipe >from_pipe &
+        timeout 60 cat pipe >from_pipe &
         # shellcheck disable=SC2086
         expect 0 unwrap $options pipe --quiet
         wait
