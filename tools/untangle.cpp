@@ -217,7 +217,7 @@ private:
                                  note_time();
                                  file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
                              }});
-        if (!options_.quiet)
+        if (place_of_report_ && has_reader(place_of_report_))
             files.push_back({place_of_report_, [&](io::atomic_file& file)
                              {
                                  note_time();
@@ -249,7 +249,7 @@ private:
     interrupt_guard interrupt_;
     progress& progress_;
     untangle_report report_;
-    const char* place_of_report_;
+    const char* place_of_report_; ///< null: there is none
     std::optional<untangle_problem<Element>> problem_;
     std::vector<vec<D>> map_;
     bool valid_ = false;
@@ -263,6 +263,7 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
     files.add("--stats", options.stats, {".json"});
     files.add("--picture", options.picture, {".png", ".svg"});
     files.protect("the input", options.input);
+    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
 
     const run_clock clock(launch);
     progress progress(progress_of(options.progress, options.quiet), std::cerr);
@@ -271,10 +272,9 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
     std::optional<decltype(io::read_any_prob({}))> file;
     report.seconds.read = clock.timed([&] { file = io::read_any_prob(options.input); });
     return std::visit(
-        [&]<class Element>(io::prob_file<Element>& problem)
-        {
+        [&]<class Element>(io::prob_file<Element>& problem) {
             return untangle_run<Element>(options, clock, progress, std::move(report),
-                                         files.place_of_report())(std::move(problem));
+                                         place_of_report)(std::move(problem));
         },
         *file);
 }

@@ -57,12 +57,13 @@ public:
     exit_code operator()()
     {
         const auto outputs = check(options_);
+        if (!options_.quiet) place_of_report_ = outputs.place_of_report();
         tell("read");
         report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
         read_pins();
         parameterize();
-        write(outputs.place_of_report());
+        write();
         return report_.code;
     }
 
@@ -149,7 +150,7 @@ private:
     }
 
     /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
-    void write(const char* place_of_report)
+    void write()
     {
         tell("write");
         const double begin = clock_.now();
@@ -170,8 +171,8 @@ private:
                                  note_time();
                                  file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
                              }});
-        if (!options_.quiet)
-            files.push_back({place_of_report, [&](io::atomic_file& file)
+        if (place_of_report_ && has_reader(place_of_report_))
+            files.push_back({place_of_report_, [&](io::atomic_file& file)
                              {
                                  note_time();
                                  progress_.finish();
@@ -224,6 +225,7 @@ private:
     constraints<triangle> pins_;
     std::vector<vec2> uv_;
     unwrap_report report_;
+    const char* place_of_report_ = nullptr; ///< null: there is none
 };
 
 } // namespace

@@ -424,6 +424,14 @@ test_streams()
         done
     fi
     "$taut" check in.obj >&- 2>err && fail "succeeds without a standard output"
+    "$taut" unwrap nothing.obj -o new.obj >&- 2>err
+    [ $? = 2 ] || fail "a closed standard output is not found before the run"
+    error_says '/dev/stdout: .*--quiet'
+    # But who has stopped reading the report does not lose the map.
+    { sleep 0.5; "$taut" unwrap in.obj -o new.obj 2>err; echo $? >code; } | true
+    [ "$(cat code)" = 0 ] || fail "no map where nobody reads the report"
+    valid_map new.obj
+    rm new.obj
 
     # What a run without a valid map has left is gone when there is one.
     echo stale >out.obj.invalid
