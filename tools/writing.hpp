@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/io/io_error.hpp>
+#include <string_view>
+
+#include <taut/io/atomic_file.hpp>
 
 #include "failure.hpp"
+#include "outputs.hpp"
 #include "png.hpp"
 
 namespace taut::tools
@@ -25,6 +28,12 @@ void writing(F&& write)
     {
         throw output_error(e.what());
     }
+}
+
+/// Throws output_error: what is printed is a result, too.
+inline void write_standard_output(std::string_view text)
+{
+    writing([&] { io::write_file(standard_output, text); });
 }
 
 } // namespace taut::tools

@@ -26,6 +26,7 @@
 #include <taut/io/pins.hpp>
 #include <taut/io/prob.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/write_files.hpp>
 #include <taut/io/write_map.hpp>
 #include <taut/io/write_obj.hpp>
 
