@@ -56,6 +56,7 @@ public:
     exit_code operator()()
     {
         check(options_);
+        limit_time(options_.time_limit - clock_.now());
         tell("read");
         report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input); });
         report_.notes = file_->notes;
@@ -87,6 +88,7 @@ private:
         if (options_.start == start_kind::uv) params.initial = start_from_file();
         params.observer = [this](const solve::progress& p)
         {
+            keep(p.usable);
             if (p.iterate)
                 progress_.update({.phase = p.level > 0 ? "coarse levels" : "optimize",
                                   .step = p.iteration,
@@ -95,7 +97,7 @@ private:
                                   .gradient = p.gradient,
                                   .length = p.step,
                                   .seconds = clock_.now()});
-            return !interrupt_.requested();
+            return !interrupted();
         };
         tell("device");
         std::optional<queue> q;
@@ -110,6 +112,7 @@ private:
         auto result = taut::parameterize(*q, file_->surface, params);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
+        keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
         tell("measure");
@@ -125,6 +128,8 @@ private:
     {
         const auto& map = report_.map;
         if (map.outcome == outcome::infeasible) throw infeasible_problem(map.reason);
+        if (interrupted() && map.outcome != outcome::gave_up) throw interrupted_run("there was no map yet");
+        if (map.outcome == outcome::stopped) throw no_valid_map(map.reason);
         if (map.outcome != outcome::gave_up)
             throw no_valid_map(map.reason + (options_.start == start_kind::uv
                                                  ? "; --start tutte makes a map without flips"
@@ -137,7 +142,7 @@ private:
         const std::string best = options_.output + ".invalid";
         writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
         const std::string what = map.reason + ids + "; the best map is in " + best;
-        if (interrupt_.requested()) throw interrupted_run(what);
+        if (interrupted()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
     }
 
@@ -168,7 +173,7 @@ private:
         const auto& surface = file_->surface;
         io::write_obj(options_.output, surface, uv_, file_->extras);
         const std::string title = std::filesystem::path(options_.input).filename().string();
-        if (!options_.picture.empty())
+        if (drawn(options_.picture, report_.notes))
         {
             const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
             const auto loops = boundary_loops(surface);
@@ -180,7 +185,7 @@ private:
                 write_png(options_.picture,
                           io::layout_picture(uv_, surface.cells(), distortion, loops, style, overlay));
         }
-        if (!options_.render.empty())
+        if (drawn(options_.render, report_.notes))
         {
             const io::render_style style{.title = title, .up = options_.up, .front = options_.front};
             write_png(options_.render, io::render_picture(surface.points(), surface.cells(), uv_, style));
@@ -202,7 +207,6 @@ private:
 
     unwrap_options options_;
     run_clock clock_;
-    interrupt_guard interrupt_;
     progress progress_;
     std::optional<io::surface_file> file_;
     constraints<triangle> pins_;

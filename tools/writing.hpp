@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <taut/io/io_error.hpp>
 
 #include "failure.hpp"
+#include "interrupt.hpp"
 #include "png.hpp"
 
 namespace taut::tools
@@ -25,6 +29,18 @@ void writing(F&& write)
     {
         throw output_error(e.what());
     }
+}
+
+/// Whether there is a picture of that name to be drawn. Whoever interrupts a run does not wait for pictures: their
+/// names are cleared, with a note.
+inline bool drawn(std::string& picture, std::vector<std::string>& notes)
+{
+    if (interrupted() && !picture.empty())
+    {
+        notes.push_back("interrupted: " + picture + " was not drawn");
+        picture.clear();
+    }
+    return !picture.empty();
 }
 
 } // namespace taut::tools
