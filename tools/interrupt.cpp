@@ -13,6 +13,8 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <taut/io/atomic_file.hpp>
+
 namespace taut::tools
 {
 
@@ -53,6 +55,7 @@ sigset_t watched() noexcept
     // Where nobody reads, a message is not worth waiting for.
     if (::poll(&out, 1, 0) == 1) [[maybe_unused]]
         const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+    io::remove_temporaries();
     ::_exit(to_int(code));
 }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <chrono>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -19,6 +24,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "writing.hpp"
 
 namespace taut::tools
 {
@@ -101,6 +107,16 @@ int usage(const CLI::App& program, const CLI::ParseError& e)
     return fail(exit_code::usage, e.what(), '`' + name + " --help` lists the options");
 }
 
+/// A result must not land in a file that got the number of a closed standard stream, and a pipe that nobody reads any
+/// more is an error like a full disk, so that nothing is left behind.
+void prepare_streams()
+{
+    for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(number, F_GETFD) < 0 && ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            break; // then nothing can be opened at all
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
 int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
     CLI::App program("Injective, low-distortion maps of triangle meshes to the plane, on any OpenCL device.", "taut");
@@ -118,7 +134,14 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     }
     catch (const CLI::Success& e) // --help, --version
     {
-        return program.exit(e);
+        return guarded(
+            [&]
+            {
+                std::ostringstream text;
+                program.exit(e, text, std::cerr);
+                write_standard_output(text.str());
+                return exit_code::valid;
+            });
     }
     catch (const CLI::ParseError& e)
     {
@@ -138,6 +161,7 @@ int main(int argc, char** argv)
 {
     const auto launch = std::chrono::steady_clock::now();
     taut::tools::watch_interrupts();
+    taut::tools::prepare_streams();
     try
     {
         return taut::tools::run(argc, argv, launch);

@@ -2,6 +2,7 @@
 #include "shared_options.hpp"
 
 #include "choices.hpp"
+#include "failure.hpp"
 
 namespace taut::tools
 {
@@ -14,6 +15,33 @@ CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
                 return CLI::detail::lexical_cast(text, x) && holds(x) ? std::string() : text + ' ' + otherwise;
             },
             ""};
+}
+
+CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& path, const char* stream,
+                      const std::string& help)
+{
+    const auto dash = [=](std::string& given)
+    {
+        if (given == "-") given = stream;
+        return std::string();
+    };
+    return app.add_option(name, path, help)->transform(CLI::Validator(dash, ""));
+}
+
+void require_one_standard_input(const std::string& input, const std::string& pins)
+{
+    if (input == standard_input && pins == standard_input)
+        throw usage_error("--pins -: standard input is IN already; name a file");
+}
+
+void add_format(CLI::App& app, io::surface_format& format)
+{
+    add_choice<io::surface_format>(app, "--format", format,
+                                   {{"auto", io::surface_format::automatic},
+                                    {"obj", io::surface_format::obj},
+                                    {"off", io::surface_format::off},
+                                    {"ply", io::surface_format::ply}},
+                                   "What IN is; auto: what its name says, for - (standard input) how it begins");
 }
 
 void add_device(CLI::App& app, std::string& device)

@@ -11,6 +11,7 @@
 #include <taut/io/picture/render_picture.hpp>
 #include <taut/io/picture/symmetric_distortion.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/write_files.hpp>
 #include <taut/io/write_obj.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/map/untangle/make_untangle_problem.hpp>
@@ -55,16 +56,14 @@ public:
 
     exit_code operator()()
     {
-        check(options_);
+        const auto outputs = check(options_);
         limit_time(options_.time_limit - clock_.now());
         tell("read");
-        report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input); });
+        report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
         read_pins();
         parameterize();
-        write();
-        progress_.finish();
-        if (!options_.quiet) print(report_, options_);
+        write(outputs.place_of_report());
         return report_.code;
     }
 
@@ -139,9 +138,9 @@ private:
             ids += (k == 0 ? " (" : ", ") + std::to_string(map.ids[k]);
         if (map.ids.size() > 8) ids += ", ..";
         if (!map.ids.empty()) ids += ')';
-        const std::string best = options_.output + ".invalid";
-        writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
-        const std::string what = map.reason + ids + "; the best map is in " + best;
+        const std::string best = name_of_invalid(options_.output);
+        if (!best.empty()) writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
+        const std::string what = map.reason + ids + (best.empty() ? "" : "; the best map is in " + best);
         if (interrupted()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
     }
@@ -154,42 +153,59 @@ private:
         return file_->vertex_texcoords();
     }
 
-    void write()
+    /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
+    void write(const char* place_of_report)
     {
         tell("write");
-        writing(
-            [&]
-            {
-                report_.seconds.write = clock_.timed([&] { write_files(); });
-                report_.seconds.total = clock_.now();
-                if (!options_.stats.empty())
-                    write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
-            });
-        report_.seconds.total = clock_.now();
+        const double begin = clock_.now();
+        const auto note_time = [&]
+        {
+            report_.seconds.total = clock_.now();
+            report_.seconds.write = report_.seconds.total - begin;
+        };
+        std::vector<io::file_to_write> files{
+            {options_.output, [&](io::atomic_file& file) { io::write_obj(file, file_->surface, uv_, file_->extras); }}};
+        if (drawn(options_.picture, report_.notes))
+            files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
+        if (drawn(options_.render, report_.notes))
+            files.push_back({options_.render, [&](io::atomic_file& file) { file.write(render()); }});
+        if (!options_.stats.empty())
+            files.push_back({options_.stats, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+                             }});
+        if (!options_.quiet)
+            files.push_back({place_of_report, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 progress_.finish();
+                                 file.write(text_of(report_, options_));
+                             }});
+        writing([&] { io::write_files(files); });
+        progress_.finish();
+        remove_invalid(options_.output);
     }
 
-    void write_files()
+    std::string title() const { return std::filesystem::path(options_.input).filename().string(); }
+
+    std::string picture() const
     {
         const auto& surface = file_->surface;
-        io::write_obj(options_.output, surface, uv_, file_->extras);
-        const std::string title = std::filesystem::path(options_.input).filename().string();
-        if (drawn(options_.picture, report_.notes))
-        {
-            const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
-            const auto loops = boundary_loops(surface);
-            const io::layout_style style{.title = title, .energy = report_.energy, .note = report_.summary()};
-            const auto overlay = constraints_overlay();
-            if (extension(options_.picture) == ".svg")
-                write_text(options_.picture, io::layout_svg(uv_, surface.cells(), distortion, loops, style, overlay));
-            else
-                write_png(options_.picture,
-                          io::layout_picture(uv_, surface.cells(), distortion, loops, style, overlay));
-        }
-        if (drawn(options_.render, report_.notes))
-        {
-            const io::render_style style{.title = title, .up = options_.up, .front = options_.front};
-            write_png(options_.render, io::render_picture(surface.points(), surface.cells(), uv_, style));
-        }
+        const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
+        const auto loops = boundary_loops(surface);
+        const io::layout_style style{.title = title(), .energy = report_.energy, .note = report_.summary()};
+        const auto overlay = constraints_overlay();
+        if (extension(options_.picture) == ".svg")
+            return io::layout_svg(uv_, surface.cells(), distortion, loops, style, overlay);
+        return encode_png(io::layout_picture(uv_, surface.cells(), distortion, loops, style, overlay));
+    }
+
+    std::string render() const
+    {
+        const auto& surface = file_->surface;
+        const io::render_style style{.title = title(), .up = options_.up, .front = options_.front};
+        return encode_png(io::render_picture(surface.points(), surface.cells(), uv_, style));
     }
 
     io::layout_overlay constraints_overlay() const

@@ -9,7 +9,6 @@
 
 #include "choices.hpp"
 #include "failure.hpp"
-#include "outputs.hpp"
 #include "shared_options.hpp"
 
 namespace taut::tools
@@ -47,9 +46,9 @@ void declare_map(CLI::App& app, unwrap_options& o)
                                   {"uniform", boundary_spacing::uniform},
                                   {"centripetal", boundary_spacing::centripetal}},
                                  "Gaps on the circle or square: as edge lengths, equal, as their roots");
-    app.add_option("--pins", o.pins,
-                   "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
-                   "file; without a weight exactly, with one as a spring; an empty u or v is free")
+    add_path(app, "--pins", o.pins, standard_input,
+             "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
+             "file; without a weight exactly, with one as a spring; an empty u or v is free")
         ->type_name("FILE.csv");
     app.add_flag("--holes", o.holes, "Take surfaces with holes; the longest boundary is the outer one");
 }
@@ -84,9 +83,10 @@ void declare_solver(CLI::App& app, unwrap_options& o)
 
 void declare_reports(CLI::App& app, unwrap_options& o)
 {
-    app.add_option("--stats", o.stats, "Write numbers as JSON")->type_name("FILE.json");
-    app.add_option("--picture", o.picture, "Draw the flat map, coloured by distortion")->type_name("FILE.png|.svg");
-    app.add_option("--render", o.render, "Draw the surface with a checkerboard")->type_name("FILE.png");
+    add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    add_path(app, "--picture", o.picture, standard_output, "Draw the flat map, coloured by distortion")
+        ->type_name("FILE.png|.svg");
+    add_path(app, "--render", o.render, standard_output, "Draw the surface with a checkerboard")->type_name("FILE.png");
     const std::initializer_list<choice<std::optional<vec3>>> axes = {
         {"auto", {}},           {"+x", vec3(1, 0, 0)}, {"-x", vec3(-1, 0, 0)}, {"+y", vec3(0, 1, 0)},
         {"-y", vec3(0, -1, 0)}, {"+z", vec3(0, 0, 1)}, {"-z", vec3(0, 0, -1)}};
@@ -99,18 +99,20 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 
 void declare(CLI::App& app, unwrap_options& o)
 {
-    app.add_option("IN", o.input, "Surface: OBJ, OFF or PLY; polygons are split into triangles")
+    add_path(app, "IN", o.input, standard_input, "Surface: OBJ, OFF or PLY; polygons are split into triangles")
         ->required()
         ->type_name("FILE");
-    app.add_option("-o,--output", o.output, "OBJ to write: the vertices in their order, one vt a vertex")
+    add_path(app, "-o,--output", o.output, standard_output,
+             "OBJ to write: the vertices in their order, one vt a vertex")
         ->required()
         ->type_name("OUT.obj");
+    add_format(app, o.format);
     declare_map(app, o);
     declare_solver(app, o);
     declare_reports(app, o);
 }
 
-void check(const unwrap_options& o)
+outputs check(const unwrap_options& o)
 {
     if (o.start == start_kind::uv && o.boundary != boundary_kind::free)
         throw usage_error("--boundary circle and square lay the boundary anew, which --start uv does not; "
@@ -121,9 +123,12 @@ void check(const unwrap_options& o)
     files.add("--stats", o.stats, {".json"});
     files.add("--picture", o.picture, {".png", ".svg"});
     files.add("--render", o.render, {".png"});
-    if (!o.pins.empty()) files.protect(o.pins);
-    files.protect(o.input); // -o may name the input: it is replaced as a whole, at the end
     files.add("-o", o.output, {".obj"});
+    files.add("-o (not valid)", name_of_invalid(o.output), {});
+    files.protect("the input", o.input, "-o"); // which is replaced as a whole, at the end
+    if (!o.pins.empty()) files.protect("the pins", o.pins);
+    require_one_standard_input(o.input, o.pins);
+    return files;
 }
 
 parameterize_params to_params(const unwrap_options& o)

@@ -2,6 +2,7 @@
 #include "unwrap_report.hpp"
 
 #include <iostream>
+#include <sstream>
 
 #include "interrupt.hpp"
 #include "run_clock.hpp"
@@ -154,7 +155,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     return json;
 }
 
-void print(const unwrap_report& r, const unwrap_options& o)
+std::string text_of(const unwrap_report& r, const unwrap_options& o)
 {
     for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
     const auto& flips = r.after.quality.flips;
@@ -189,8 +190,10 @@ void print(const unwrap_report& r, const unwrap_options& o)
     for (const auto& file : {o.picture, o.render, o.stats})
         if (!file.empty()) files += ", " + file;
     lines.add("wrote", files);
-    std::cout << lines;
-    print(std::cout, r.after);
+    std::ostringstream out;
+    out << lines;
+    print(out, r.after);
+    return out.str();
 }
 
 } // namespace taut::tools

@@ -48,7 +48,7 @@ private:
 
 nlohmann::ordered_json to_json(const unwrap_report& report, const unwrap_options& options);
 
-/// The table on standard output, and notes on standard error.
-void print(const unwrap_report& report, const unwrap_options& options);
+/// The table for people; notes go to standard error at once.
+std::string text_of(const unwrap_report& report, const unwrap_options& options);
 
 } // namespace taut::tools

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <taut/io/io_error.hpp>
+#include <taut/io/atomic_file.hpp>
 
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "outputs.hpp"
 #include "png.hpp"
 
 namespace taut::tools
@@ -41,6 +43,12 @@ inline bool drawn(std::string& picture, std::vector<std::string>& notes)
         picture.clear();
     }
     return !picture.empty();
+}
+
+/// Throws output_error: what is printed is a result, too.
+inline void write_standard_output(std::string_view text)
+{
+    writing([&] { io::write_file(standard_output, text); });
 }
 
 } // namespace taut::tools
