@@ -27,10 +27,11 @@ enum kind : std::size_t
     opened,
     written,
     flushed,
+    linked,
     renamed,
     kinds
 };
-constexpr const char* names[kinds] = {"file.open", "file.write", "file.flush", "file.rename"};
+constexpr const char* names[kinds] = {"file.open", "file.write", "file.flush", "file.link", "file.rename"};
 
 std::array<std::atomic<unsigned long>, kinds> counts{};
 std::array<std::atomic<bool>, 1024> watched{}; // file descriptors
@@ -83,7 +84,7 @@ void watch(int file, bool on)
 
 bool for_writing(int flags)
 {
-    return (flags & (O_WRONLY | O_RDWR)) != 0 && (flags & O_DIRECTORY) == 0;
+    return (flags & (O_WRONLY | O_RDWR)) != 0;
 }
 
 __attribute__((destructor)) void write_counts()
@@ -194,6 +195,12 @@ int fsync(int file)
 {
     if (is_watched(file) && fails(flushed, EIO)) return -1;
     return real<int (*)(int)>("fsync")(file);
+}
+
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags)
+{
+    if (in_folder(to) && fails(linked, EIO)) return -1;
+    return real<int (*)(int, const char*, int, const char*, int)>("linkat")(from_folder, from, to_folder, to, flags);
 }
 
 int rename(const char* from, const char* to)

@@ -27,6 +27,7 @@ enum kind : std::size_t
     context,
     queue,
     allocate,
+    program,
     build,
     kernel,
     argument,
@@ -38,7 +39,7 @@ enum kind : std::size_t
     finish,
     kinds
 };
-constexpr const char* names[] = {"context",  "queue",  "allocate", "build", "kernel", "argument",
+constexpr const char* names[] = {"context",  "queue",  "allocate", "program", "build", "kernel", "argument",
                                  "launch",   "read",   "write",    "fill",  "copy",   "finish"};
 static_assert(std::size(names) == kinds);
 
@@ -137,18 +138,26 @@ cl_mem CL_API_CALL create_buffer(cl_context where, cl_mem_flags flags, size_t si
     return nullptr;
 }
 
-cl_int CL_API_CALL build_program(cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
+cl_program CL_API_CALL create_program(cl_context where, cl_uint count, const char** texts, const size_t* lengths,
+                                      cl_int* code)
+{
+    if (!state().fails(program)) return state().target.clCreateProgramWithSource(where, count, texts, lengths, code);
+    tell(code, error_of(CL_OUT_OF_HOST_MEMORY));
+    return nullptr;
+}
+
+cl_int CL_API_CALL build_program(cl_program text, cl_uint count, const cl_device_id* devices, const char* options,
                                  void(CL_CALLBACK* notify)(cl_program, void*), void* data)
 {
     if (state().fails(build)) return error_of(CL_BUILD_PROGRAM_FAILURE);
     // What was written by a kernel is told by the types of its arguments.
     const std::string more = std::string(options ? options : "") + " -cl-kernel-arg-info";
-    return state().target.clBuildProgram(program, count, devices, more.c_str(), notify, data);
+    return state().target.clBuildProgram(text, count, devices, more.c_str(), notify, data);
 }
 
-cl_kernel CL_API_CALL create_kernel(cl_program program, const char* name, cl_int* code)
+cl_kernel CL_API_CALL create_kernel(cl_program text, const char* name, cl_int* code)
 {
-    if (!state().fails(kernel)) return state().target.clCreateKernel(program, name, code);
+    if (!state().fails(kernel)) return state().target.clCreateKernel(text, name, code);
     tell(code, error_of(CL_OUT_OF_HOST_MEMORY));
     return nullptr;
 }
@@ -269,6 +278,7 @@ CL_API_ENTRY cl_int CL_API_CALL clInitLayer(cl_uint count, const cl_icd_dispatch
     s.table.clCreateContext = create_context;
     s.table.clCreateCommandQueue = create_queue;
     s.table.clCreateBuffer = create_buffer;
+    s.table.clCreateProgramWithSource = create_program;
     s.table.clBuildProgram = build_program;
     s.table.clCreateKernel = create_kernel;
     s.table.clSetKernelArg = set_argument;
