@@ -23,6 +23,7 @@
 
 #include "commands.hpp"
 #include "failure.hpp"
+#include "interrupt.hpp"
 #include "writing.hpp"
 
 namespace taut::tools
@@ -44,7 +45,9 @@ int guarded(const command& run)
 {
     try
     {
-        return to_int(run());
+        const exit_code code = run();
+        const bool written = code == exit_code::valid || code == exit_code::time_limit;
+        return to_int(written && interrupted() ? interruption() : code);
     }
     catch (const usage_error& e)
     {
@@ -60,7 +63,7 @@ int guarded(const command& run)
     }
     catch (const interrupted_run& e)
     {
-        return fail(exit_code::interrupted, "interrupted", e.what());
+        return fail(interruption(), "interrupted", e.what());
     }
     catch (const infeasible_problem& e)
     {
@@ -120,9 +123,8 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     program.set_version_flag("--version", "taut " TAUT_VERSION_STRING);
     program.require_subcommand(1);
     program.footer("exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
-                   "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure; "
-                   "130 interrupted,\n"
-                   "  with a valid map written");
+                   "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure;\n"
+                   "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one by then");
 
     std::vector<command> commands{add_unwrap(program, launch), add_untangle(program, launch), add_check(program),
                                   add_eval(program), add_devices(program)};
@@ -158,6 +160,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 int main(int argc, char** argv)
 {
     const auto launch = std::chrono::steady_clock::now();
+    taut::tools::watch_interrupts();
     taut::tools::prepare_streams();
     try
     {

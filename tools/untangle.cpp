@@ -159,12 +159,13 @@ private:
             if (p.iterate)
                 progress_.update(
                     {.phase = "untangle", .step = p.iteration, .inverted = p.value, .seconds = clock_.now()});
-            return !interrupt_.requested();
+            return !interrupted();
         };
         // The limit is one for the whole run: what reading took is gone.
         if (std::isfinite(options_.time_limit))
             params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
         tell("untangle");
+        keep(true); // the initial map, at least
         untangle_result<Element> result;
         report_.seconds.solve = clock_.timed([&] { result = untangle(*q, *problem_, params); });
         take(std::move(result));
@@ -179,8 +180,8 @@ private:
             for (int k = 0; k < D; ++k)
                 held = held && (!problem_->holds(v, k) || result.map[v][k] == problem_->initial[v][k]);
         const bool valid = held && report_.inverted == 0;
-        report_.outcome = valid ? "injective" : interrupt_.requested() ? "interrupted" : "gave_up";
-        report_.code = interrupt_.requested() ? exit_code::interrupted
+        report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
+        report_.code = interrupted()          ? interruption()
                        : valid                ? exit_code::valid
                                               : exit_code::no_valid_map;
         report_.reason = valid ? "" : held ? result.reason : "a pin has moved";
@@ -209,7 +210,7 @@ private:
         if (!report_.written.empty())
             files.push_back({report_.written, [&](io::atomic_file& file) { io::write_map<D>(file, map_); }});
         if constexpr (D == 2)
-            if (!options_.picture.empty())
+            if (drawn(options_.picture, report_.notes))
                 files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
         if (!options_.stats.empty())
             files.push_back({options_.stats, [&](io::atomic_file& file)
@@ -244,9 +245,8 @@ private:
 
     static constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace; // file names need not be UTF-8
 
-    const untangle_options& options_;
+    untangle_options options_;
     run_clock clock_;
-    interrupt_guard interrupt_;
     progress& progress_;
     untangle_report report_;
     const char* place_of_report_; ///< null: there is none
@@ -266,6 +266,7 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
     const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
 
     const run_clock clock(launch);
+    limit_time(options.time_limit - clock.now());
     progress progress(progress_of(options.progress, options.quiet), std::cerr);
     progress.update({.phase = "read", .seconds = clock.now()});
     untangle_report report;

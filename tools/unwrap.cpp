@@ -58,6 +58,7 @@ public:
     {
         const auto outputs = check(options_);
         if (!options_.quiet) place_of_report_ = outputs.place_of_report();
+        limit_time(options_.time_limit - clock_.now());
         tell("read");
         report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
@@ -87,6 +88,7 @@ private:
         if (options_.start == start_kind::uv) params.initial = start_from_file();
         params.observer = [this](const solve::progress& p)
         {
+            keep(p.usable);
             if (p.iterate)
                 progress_.update({.phase = p.level > 0 ? "coarse levels" : "optimize",
                                   .step = p.iteration,
@@ -95,7 +97,7 @@ private:
                                   .gradient = p.gradient,
                                   .length = p.step,
                                   .seconds = clock_.now()});
-            return !interrupt_.requested();
+            return !interrupted();
         };
         tell("device");
         std::optional<queue> q;
@@ -110,6 +112,7 @@ private:
         auto result = taut::parameterize(*q, file_->surface, params);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
+        keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
         tell("measure");
@@ -125,6 +128,8 @@ private:
     {
         const auto& map = report_.map;
         if (map.outcome == outcome::infeasible) throw infeasible_problem(map.reason);
+        if (interrupted() && map.outcome != outcome::gave_up) throw interrupted_run("there was no map yet");
+        if (map.outcome == outcome::stopped) throw no_valid_map(map.reason);
         if (map.outcome != outcome::gave_up)
             throw no_valid_map(map.reason + (options_.start == start_kind::uv
                                                  ? "; --start tutte makes a map without flips"
@@ -137,7 +142,7 @@ private:
         const std::string best = name_of_invalid(options_.output);
         if (!best.empty()) writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
         const std::string what = map.reason + ids + (best.empty() ? "" : "; the best map is in " + best);
-        if (interrupt_.requested()) throw interrupted_run(what);
+        if (interrupted()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
     }
 
@@ -161,9 +166,9 @@ private:
         };
         std::vector<io::file_to_write> files{
             {options_.output, [&](io::atomic_file& file) { io::write_obj(file, file_->surface, uv_, file_->extras); }}};
-        if (!options_.picture.empty())
+        if (drawn(options_.picture, report_.notes))
             files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
-        if (!options_.render.empty())
+        if (drawn(options_.render, report_.notes))
             files.push_back({options_.render, [&](io::atomic_file& file) { file.write(render()); }});
         if (!options_.stats.empty())
             files.push_back({options_.stats, [&](io::atomic_file& file)
@@ -219,7 +224,6 @@ private:
 
     unwrap_options options_;
     run_clock clock_;
-    interrupt_guard interrupt_;
     progress progress_;
     std::optional<io::surface_file> file_;
     constraints<triangle> pins_;

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "interrupt.hpp"
 #include "run_clock.hpp"
 #include "text_table.hpp"
 
@@ -71,6 +72,18 @@ std::string boundary_name(boundary_kind kind)
 void unwrap_report::assess(const unwrap_options& options, const parameterize_params& params,
                            const mesh<triangle>& surface, std::span<const vec2> uv)
 {
+    summary_ = to_string(options.energy) + " energy, " + boundary_name(options.boundary) + " boundary, " +
+               count(static_cast<std::uint64_t>(map.solve.iterations), "iteration", "iterations");
+    if (map.solve.stop == solve::stop::time) code = exit_code::time_limit;
+    if (map.solve.stop == solve::stop::user)
+    {
+        // Whoever asked it to stop does not wait for measures.
+        code = interruption();
+        energy_before = map.solve.value_start;
+        energy = map.solve.value;
+        after = certified(surface, uv);
+        return;
+    }
     const ideal_elements<triangle> ideal(surface);
     const bool by_area = options.weights == energy::weighting::measure;
     energy_end = mean_energy(params.energy, surface, ideal, uv);
@@ -82,10 +95,6 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
     }
     energy = by_area ? energy_end.measure : energy_end.uniform;
     after = tools::assess(surface, uv);
-    if (map.solve.stop == solve::stop::time) code = exit_code::time_limit;
-    if (map.solve.stop == solve::stop::user) code = exit_code::interrupted;
-    summary_ = to_string(options.energy) + " energy, " + boundary_name(options.boundary) + " boundary, " +
-               count(static_cast<std::uint64_t>(map.solve.iterations), "iteration", "iterations");
 }
 
 nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
@@ -160,10 +169,11 @@ std::string text_of(const unwrap_report& r, const unwrap_options& o)
     if (r.pins + r.springs > 0)
         lines.add("constraints",
                   count(r.pins, "vertex pinned", "vertices pinned") + ", " + count(r.springs, "spring", "springs"));
-    lines.add("energy",
-              to_string(o.energy) + ' ' + number(r.energy_before) + " -> " + number(r.energy, 6) +
-                  (o.weights == energy::weighting::measure ? " by area, mean " + number(r.energy_end.uniform, 6)
-                                                           : " mean, by area " + number(r.energy_end.measure, 6)));
+    const bool by_area = o.weights == energy::weighting::measure;
+    const double other = by_area ? r.energy_end.uniform : r.energy_end.measure;
+    lines.add("energy", to_string(o.energy) + ' ' + number(r.energy_before) + " -> " + number(r.energy, 6) +
+                            (by_area ? " by area" : " mean") +
+                            (r.after.measured ? (by_area ? ", mean " : ", by area ") + number(other, 6) : ""));
     lines.add("stop", describe(s, o));
     lines.add("steps", count(static_cast<std::uint64_t>(s.iterations), "iteration", "iterations") + ", " +
                            count(static_cast<std::uint64_t>(s.evaluations), "evaluation", "evaluations") + ", " +

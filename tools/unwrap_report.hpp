@@ -34,7 +34,8 @@ struct unwrap_report
     assessment after;
     program_seconds seconds;
 
-    /// Fills the energies, `after`, and the exit code from the reason of the stop.
+    /// Fills the energies, `after`, and the exit code from the reason of the stop. After an interruption nothing is
+    /// measured but flips.
     void assess(const unwrap_options& options, const parameterize_params& params, const mesh<triangle>& surface,
                 std::span<const vec2> uv);
 

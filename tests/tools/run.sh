@@ -757,11 +757,13 @@ stopped()
     valid_map out.obj
 }
 
-# run_until PATTERN ARGUMENTS...: runs the program with --progress json, and interrupts it once its progress says PATTERN.
+# run_until PATTERN SIGNAL ARGUMENTS...: runs the program with --progress json, and sends it INT or TERM once its
+# progress says PATTERN.
 run_until()
 {
     pattern=$1
-    shift
+    signal=$2
+    shift 2
     "$taut" "$@" --progress json >out 2>err &
     program=$!
     waited=0
@@ -769,33 +771,52 @@ run_until()
         sleep 0.1
         waited=$((waited + 1))
         [ "$waited" -lt 3000 ] || { kill -9 "$program"; fail "no iteration in 5 minutes"; }
-        kill -0 "$program" 2>/dev/null || fail "ended before Ctrl-C"
+        kill -0 "$program" 2>/dev/null || fail "ended before the signal"
     done
-    kill -INT "$program"
+    kill -"$signal" "$program"
     wait "$program"
     code=$?
-    [ "$code" = 130 ] || fail "exit code $code instead of 130 after Ctrl-C"
+    [ "$signal" = INT ] && wanted=130 || wanted=143
+    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted after SIG$signal"
 }
 
 test_stops()
 {
     grid 150 >in.obj
-    for solver in newton lbfgs; do
-        expect 8 unwrap in.obj -o out.obj --stats stats.json --time-limit 0.05 --solver $solver
-        says out '^stop .*time limit'
-        stopped time
-        rm out.obj stats.json
+    # A run that would last for hours.
+    endless='--tolerance 0 --iterations 1000000000 --solver gd'
+    # Before there is a map, the end of the time leaves things as they were.
+    echo precious >out.obj
+    expect 6 unwrap in.obj -o out.obj --stats stats.json --time-limit 0.001
+    error_says 'time limit came before there was a map' 'nothing was written'
+    [ "$(cat out.obj)" = precious ] || fail "the old output is gone"
+    absent stats.json
+    # With a map it is written, however long this machine takes to come to one.
+    code=6
+    for limit in 1 4 16 64 256; do
+        [ "$code" = 6 ] || break
+        # shellcheck disable=SC2086
+        "$taut" unwrap in.obj -o out.obj --stats stats.json --time-limit $limit $endless >out 2>err
+        code=$?
     done
+    [ "$code" = 8 ] || fail "exit code $code instead of 8 at the time limit"
+    says out '^stop .*time limit'
+    stopped time
 
-    # Ctrl-C in the middle of a run that would last for hours.
-    run_until '"phase":"optimize","iteration":[1-9]' unwrap in.obj -o out.obj --stats stats.json --tolerance 0 \
-        --iterations 1000000000 --solver gd
-    says out '^stop .*interrupted'
-    stopped user
+    for signal in INT TERM; do
+        rm -f out.obj stats.json
+        # shellcheck disable=SC2086
+        run_until '"phase":"optimize","iteration":[1-9]' $signal unwrap in.obj -o out.obj --stats stats.json \
+            --picture out.png $endless
+        says out '^stop .*interrupted'
+        says err 'out.png was not drawn'
+        absent out.png
+        stopped user
+    done
 
     # Of a problem that is interrupted, what is left has the name only if it is valid.
     star 200 >large.prob
-    run_until '"phase":"untangle","iteration":[1-9]' untangle large.prob -o map.txt --stats stats.json
+    run_until '"phase":"untangle","iteration":[1-9]' INT untangle large.prob -o map.txt --stats stats.json
     if [ -e map.txt ]; then written=map.txt inverted=0; else written=map.txt.invalid inverted='[1-9].*'; fi
     keys stats.json inverted
     says values "^inverted=$inverted\$"

@@ -62,19 +62,33 @@ private:
 
     void build(entry& target, const std::string& source, const std::string& name, const std::string& options)
     {
-        target.program = boost::compute::program::create_with_source(source, context_);
         try
         {
+            target.program = boost::compute::program::create_with_source(source, context_);
             target.program.build("-cl-std=CL1.2 " + options);
         }
         catch (const boost::compute::opencl_error& e)
         {
-            std::string log = target.program.build_log();
-            if (log.empty() || log.back() != '\n') log += '\n';
+            std::string log = log_of(target.program);
+            if (log.empty()) log = e.error_string();
+            if (log.back() != '\n') log += '\n';
             throw build_error(name, log, detail::build_excerpt(source, log), device_.label(), e.error_code());
         }
         target.built = true;
         ++builds_;
+    }
+
+    /// What the compiler said; a driver that failed earlier may have nothing to say.
+    static std::string log_of(const boost::compute::program& program)
+    {
+        try
+        {
+            return program.build_log();
+        }
+        catch (const boost::compute::opencl_error&)
+        {
+            return {};
+        }
     }
 
     boost::compute::context context_;

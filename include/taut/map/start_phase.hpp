@@ -56,6 +56,7 @@ private:
                            !in_.held.outline_pinned(in_.surface, in_.sides);
         if (!draft || !make_without_constraints(params))
         {
+            limits_.check();
             auto p = params;
             p.start.proceed = [this] { return limits_.proceed(); };
             start() = parameterization_start(in_.surface, in_.ideal, in_.sides, p, in_.unit, report_.notes);
@@ -92,10 +93,11 @@ private:
         how.observer = [this](const solve::progress&) { return limits_.proceed(); };
         auto problem = in_.held.problem(in_.surface, start().uv);
         if (certify<2>(in_.surface.cells(), draft_)) problem.draft = std::move(draft_);
+        const bool bound = in_.held.constrained() || params.boundary == boundary_mode::fixed;
+        limits_.has_result(bound); // the best map, even with defects
         auto found = untangle(queue_, problem, how);
         report_.untangling = std::move(found.stages);
         const std::string before = "the start had " + describe_defects<Element>(start().flips) + "; ";
-        const bool bound = in_.held.constrained() || params.boundary == boundary_mode::fixed;
         if (!bound && !found)
         {
             report_.notes.push_back(before + "another start was made");

@@ -205,6 +205,27 @@ TEST_CASE("hierarchy: surfaces that cannot be thinned have one level")
     CHECK(h.steps.empty());
 }
 
+TEST_CASE("hierarchy: once the caller says no, no further level is made")
+{
+    const auto m = test::bumpy(30, 0.3, 2);
+    CHECK(make_hierarchy(m, {}, {.proceed = [] { return false; }}).levels.size() == 1);
+    int asked = 0;
+    const auto whole = make_hierarchy(m, {}, {.proceed = [&] { return ++asked > 0; }});
+    CHECK(same(whole, make_hierarchy(m)));
+    REQUIRE(whole.levels.size() > 1);
+    REQUIRE(asked > 2);
+    const int all = asked;
+    for (const int last : {2, all / 2, all})
+    {
+        asked = 0;
+        const auto part = make_hierarchy(m, {}, {.proceed = [&] { return ++asked < last; }});
+        CHECK(asked <= last + 1);
+        CHECK(part.levels.size() <= whole.levels.size());
+        CHECK(part.steps.size() + 1 == part.levels.size());
+        for (std::size_t l = 0; l < part.levels.size(); ++l) CHECK(part.levels[l].cells == whole.levels[l].cells);
+    }
+}
+
 TEST_CASE("hierarchy: closed surfaces are thinned to the least that there is")
 {
     const auto m = test::octahedron();

@@ -65,6 +65,21 @@ TEST_CASE("front Cholesky: solves sums of triangles' matrices, with and without 
         }
 }
 
+TEST_CASE("front Cholesky: once the caller says no, there are no factors; the next time there are")
+{
+    const auto m = taut::test::bumpy(20);
+    const std::vector<char> fixed(m.points().size(), 0);
+    const auto blocks = random_blocks(m.cells().size());
+    taut::detail::front_cholesky solver(m.cells(), fixed), other(m.cells(), fixed);
+    int asked = 0;
+    CHECK(!solver.factorize(blocks, 0, [&] { return ++asked < 5; }));
+    CHECK(asked == 5);
+    CHECK(solver.factorize(blocks, 0, [] { return true; }));
+    CHECK(other.factorize(blocks, 0));
+    const std::vector<vec2> b(m.points().size(), vec2(1.0, -2.0));
+    CHECK(solver.solve(b) == other.solve(b));
+}
+
 TEST_CASE("isometric Newton: steps go down to a map that no displacement improves, and keep fixed vertices")
 {
     const auto m = taut::test::bumpy(10, 0.3);

@@ -157,6 +157,16 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     check_typed(problem, cancelled);
     CHECK(cancelled.reason.find("cancelled") != std::string::npos);
 
+    // The question comes within the first step, too, which is then not made.
+    int asked = 0;
+    params.stages = {"newton"};
+    params.observer = [&](const solve::progress&) { return ++asked < 3; };
+    const auto within = untangle(problem, params);
+    check_typed(problem, within);
+    CHECK(asked == 3);
+    REQUIRE(within.stages.size() == 1);
+    CHECK(within.stages[0].iterations <= 1);
+
     params = {};
     params.stages = {"harmonic"};
     const auto alone = untangle(problem, params);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -39,15 +40,18 @@ public:
         place_.resize(unknown_.size());
     }
 
-    /// Factorizes sum of blocks + relative_shift * its diagonal; one block a triangle.
-    void factorize(std::span<const block> blocks, double relative_shift)
+    /// Factorizes sum of blocks + relative_shift * its diagonal; one block a triangle. proceed, if given, is asked
+    /// between fronts; once it says no, there are no factors and the answer is false.
+    bool factorize(std::span<const block> blocks, double relative_shift, const std::function<bool()>& proceed = {})
     {
         for (std::size_t f = 0; f < fronts_.size(); ++f)
         {
+            if (proceed && !proceed()) return false;
             dense front = assemble(f, blocks);
             eliminate(front, 2 * fronts_[f].pivots.size(), relative_shift);
             split(front, f);
         }
+        return true;
     }
 
     /// b: one vector a vertex; the result is 0 at fixed vertices.

@@ -18,6 +18,7 @@ inline void improve_margin(untangle_state<triangle>& state, int steps)
 {
     const auto& problem = state.problem();
     triangle_newton newton(state.cells(), problem.held);
+    newton.proceed = [&state] { return state.proceed(0); };
     newton.shapes = rest_shapes(problem.rest, expected_measure(problem, state.best()));
     auto x = state.best();
     double value = newton.value(x);

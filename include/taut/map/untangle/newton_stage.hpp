@@ -64,7 +64,7 @@ public:
 
 private:
     /// False if there is no such start.
-    bool start(const untangle_state<triangle>& state)
+    bool start(untangle_state<triangle>& state)
     {
         const auto& problem = state.problem();
         if (params_.start == untangle_start::best)
@@ -80,6 +80,7 @@ private:
                 if (problem.holds(v, k)) x_[v][k] = state.initial()[v][k];
         newton_ = std::make_unique<detail::triangle_newton>(state.cells(), problem.held);
         newton_->area_weight = params_.area_weight;
+        newton_->proceed = [&state] { return state.proceed(0); };
         const double measure = detail::expected_measure(problem, state.initial());
         newton_->shapes = params_.shapes == untangle_shapes::rest ? detail::rest_shapes(problem.rest, measure)
                                                                   : detail::regular_shapes(problem.rest, measure);

@@ -47,6 +47,7 @@ public:
     bool run(untangle_state<triangle>& state, int iterations) override
     {
         if (state.injective() || (!newton_ && !start(state))) return false;
+        newton_->proceed = [&state] { return state.proceed(0); };
         for (int i = 0; i < iterations; ++i)
         {
             for (auto& s : newton_->springs) s.stiffness *= growth;

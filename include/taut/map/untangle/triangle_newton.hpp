@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -48,6 +49,7 @@ public:
     double area_weight = 1;              ///< of det + 1 / det against the shape
     std::vector<target_shape<2>> shapes; ///< one a triangle
     std::vector<spring> springs;
+    std::function<bool()> proceed; ///< asked within a step, if given; once it says no, nothing moves
 
     mat2 mapped(std::span<const vec2> x, std::size_t c) const
     {
@@ -113,7 +115,11 @@ public:
             }
         }
         hold(force);
-        solver_.factorize(blocks_, shift);
+        if (!solver_.factorize(blocks_, shift, proceed))
+        {
+            length_ = 0;
+            return here;
+        }
         const std::vector<vec2> d = solver_.solve(force);
         double slope = 0;
         for (std::size_t v = 0; v < x.size(); ++v) slope -= glm::dot(force[v], d[v]);
