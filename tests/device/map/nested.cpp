@@ -348,18 +348,25 @@ TEST_CASE("nested: a caller who stops a run on any level gets a certified map, a
         }
 }
 
-TEST_CASE("nested: a time limit in any phase leaves a certified map")
+TEST_CASE("nested: a run that is ended in any phase leaves a certified map")
 {
     queue q;
     const auto m = test::bumpy(test::sized(50, 5), 0.5, 3);
-    const auto& whole = parameterize(q, m).report.seconds;
-    const double total = whole.device + whole.setup + whole.hierarchy + whole.start + whole.solve;
-    for (int k = 0; k <= 10; ++k)
+    int asked = 0;
+    REQUIRE(parameterize(q, m, {.observer = [&](const solve::progress&) { return ++asked > 0; }}));
+    for (const int questions : {1, 2, asked / 4, asked / 2, 3 * asked / 4, asked - 1})
     {
-        const auto r = parameterize(q, m, {.time_limit = std::chrono::duration<double>(k * total / 10)});
+        CAPTURE(questions);
+        int left = questions;
+        const auto r = parameterize(q, m, {.observer = [&](const solve::progress&) { return --left > 0; }});
         REQUIRE(r);
+        CHECK(left == 0);
         CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
-        const auto stop = r.report.solve.stop;
-        CHECK((stop == solve::stop::time || stop == solve::stop::gradient));
+        CHECK(r.report.solve.stop == solve::stop::user);
     }
+    // The clock is looked at wherever the observer is asked.
+    const auto late = parameterize(q, m, {.time_limit = std::chrono::seconds(0)});
+    REQUIRE(late);
+    CHECK(certify<2>(m.cells(), late.uv).flipped == 0);
+    CHECK(late.report.solve.stop == solve::stop::time);
 }
