@@ -85,6 +85,19 @@ TEST_CASE("strong wolfe: steps grow by a factor until the bound, which is accept
     CHECK(falls.evaluations == 5); // 1, 2.5, 6.25, 10, and 10 to land on
 }
 
+TEST_CASE("strong wolfe: a step that is no lower than the last one ends the search for longer ones")
+{
+    // Falls, jumps up at 0.6 and falls again for good: at 1 it is where it was at 0.4.
+    functions::line phi([](double a) { return a < 0.6 ? -a : -0.2 - 0.5 * (a - 0.6); },
+                        [](double a) { return a < 0.6 ? -1.0 : -0.5; }, 10);
+    REQUIRE(phi.value(1.0) == phi.value(0.4));
+    const auto r = strong_wolfe(phi, 0.4, {.curvature = 0.1}, 30);
+    CHECK(r.status == search_status::accepted);
+    CHECK(r.at.step > 0.4);
+    CHECK(r.at.step < 0.6);
+    CHECK(phi.longest == 1);
+}
+
 TEST_CASE("strong wolfe: returned steps have both conditions, evaluated anew")
 {
     for (const auto& l : lines())
@@ -197,6 +210,21 @@ TEST_CASE("bracket: from too long a step the longest rung that is a minimum amon
     CHECK(t.b == 0.25);
     CHECK(t.a == 0.0625);
     CHECK(t.c == 1);
+}
+
+TEST_CASE("bracket: a first step at the bound ends there, and one no lower than the start is too long")
+{
+    functions::line falls([](double a) { return -a; }, [](double) { return -1.0; }, 1);
+    const auto end = bracket(falls, {.step = 1, .value = -1}, 4, 30);
+    CHECK(end.found);
+    CHECK(end.capped);
+    CHECK(end.b == 1);
+    CHECK(falls.evaluations == 0);
+    functions::line parabola([](double a) { return (a - 1) * (a - 1); }, [](double a) { return 2 * (a - 1); });
+    const auto t = bracket(parabola, {.step = 2, .value = 1}, 4, 30);
+    CHECK(t.found);
+    CHECK(t.value < 1);
+    CHECK(t.b == 0.5);
 }
 
 TEST_CASE("bracket: gives up on a function that never rises, and on one that never falls")
