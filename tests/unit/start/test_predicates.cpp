@@ -190,3 +190,17 @@ TEST_CASE("exact sum: the magnitude of every power of two, and of sums that canc
         CHECK(rest.magnitude() == power);
     }
 }
+
+TEST_CASE("exact sum: the products of the largest numbers have a place")
+{
+    const double large = std::ldexp(1.0, 1023);
+    for (const bool negative : {false, true})
+    {
+        taut::detail::exact_sum<2> two;
+        two.add(negative, {large, large});
+        CHECK(two.sign() == (negative ? -1 : 1));
+        taut::detail::exact_sum<3> three;
+        for (int k = 0; k < 24; ++k) three.add(negative, {large, large, large});
+        CHECK(three.sign() == (negative ? -1 : 1));
+    }
+}
