@@ -10,8 +10,8 @@
 #include <taut/symbolic/differentiate.hpp>
 #include <taut/symbolic/recording.hpp>
 
-#include <taut/compute/queue.hpp>
 #include <taut/compute/handler.hpp>
+#include <taut/compute/queue.hpp>
 #include <taut/compute/vector_space.hpp>
 
 #include <taut/mesh/hierarchy/hierarchy.hpp>

@@ -124,7 +124,7 @@ same_vertices()
 
 lines_of() { grep -c "^$1 " "$2"; }
 
-# valid_map FILE: `taut eval` finds no flipped triangle and no crossing.
+# valid_map FILE: `taut eval` finds no flipped triangle.
 valid_map()
 {
     expect 0 eval "$1" --json

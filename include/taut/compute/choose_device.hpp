@@ -93,6 +93,15 @@ inline auto device_rank(const device& d)
     return std::tuple(d.has_fp64(), kind, d.compute_units() * std::max<std::size_t>(d.clock(), 1));
 }
 
+/// The device with the form of kernels that TAUT_FORM asks for. Throws parameter_error.
+inline device in_wanted_form(const device& d)
+{
+    const char* form = std::getenv("TAUT_FORM");
+    if (!form || !*form) return d;
+    if (std::string(form) != "gpu") throw parameter_error("TAUT_FORM", "is \"" + std::string(form) + "\", not \"gpu\"");
+    return d.as_gpu();
+}
+
 [[noreturn]] inline void refuse(const std::string& headline, const std::vector<listed_device>& all)
 {
     std::string text = headline + "\n";
@@ -123,8 +132,8 @@ inline auto device_rank(const device& d)
 } // namespace detail
 
 /// The device to use: TAUT_DEVICE if set (an index into devices(), or a part of a device's, vendor's or platform's
-/// name, in any case), else the best one: double precision before none, then GPU before CPU, then the largest. Throws
-/// no_device if none fits.
+/// name, in any case), else the best one: double precision before none, then GPU before CPU, then the largest. With
+/// TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits.
 inline device choose_device(const device_requirements& needs = {})
 {
     const auto all = devices(needs);
@@ -142,7 +151,7 @@ inline device choose_device(const device_requirements& needs = {})
         if (!number && names.find(wanted) == std::string::npos) continue;
         if (!best || detail::device_rank(*best) < detail::device_rank(d)) best = &d;
     }
-    if (best) return *best;
+    if (best) return detail::in_wanted_form(*best);
     detail::refuse(wanted.empty() ? std::string("no OpenCL device fits")
                                   : "no OpenCL device fits TAUT_DEVICE=" + std::string(wish),
                    all);

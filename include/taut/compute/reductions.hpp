@@ -93,7 +93,7 @@ public:
             launch<T>(slot::limit, 1, 1, 1, 1, as_uint(j.first), as_uint(j.groups), partials_,
                       decltype(number)(fraction), decltype(number)(most), out);
         };
-        partials_.wide() ? run(double()) : run(float());
+        partials_.wide() ? run(double()) : run(float()); // NOLINT(bugprone-branch-clone): of different types
     }
 
     /// Every left times every right vector over their first n elements: result i * right.size() + j. Tiles of up to

@@ -64,7 +64,8 @@ struct map_report
 inline std::ostream& operator<<(std::ostream& out, const map_report& r)
 {
     if (r.outcome != outcome::valid) return out << "no valid map: " << r.reason;
-    return out << r.solve << ", " << r.flips.flipped << " of " << r.flips.elements << " flipped";
+    return out << r.solve << ", " << std::to_string(r.flips.flipped) << " of " << std::to_string(r.flips.elements)
+               << " flipped";
 }
 
 /// A map and its report; `auto [uv, report] = parameterize(...)`.

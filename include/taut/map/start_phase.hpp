@@ -92,7 +92,7 @@ private:
         how.time_limit = limits_.left();
         how.observer = [this](const solve::progress&) { return limits_.proceed(); };
         auto problem = in_.held.problem(in_.surface, start().uv);
-        if (certify<2>(in_.surface.cells(), draft_)) problem.draft = std::move(draft_);
+        if (!draft_.empty() && certify<2>(in_.surface.cells(), draft_)) problem.draft = std::move(draft_);
         const bool bound = in_.held.constrained() || params.boundary == boundary_mode::fixed;
         limits_.has_result(bound); // the best map, even with defects
         auto found = untangle(queue_, problem, how);

@@ -92,16 +92,18 @@ TEST_CASE("parameterize: size and place of the model do not matter")
     const auto m = dome();
     for (const auto method : methods)
     {
-        const parameterize_params params{.solve = {.method = method, .stopping = {.max_iterations = 20}}};
+        const parameterize_params params{.precision = precision::full,
+                                         .solve = {.method = method, .stopping = {.max_iterations = 20}}};
         const auto reference = parameterize(q, m, params);
-        for (const double scale : {1e-9, 0.37, 1e9})
+        const auto width = [](const map_result& r) { return glm::length(r.uv.front() - r.uv.back()); };
+        // Powers of two change no digit, others the last ones.
+        for (const double scale : {std::ldexp(1.0, -30), std::ldexp(1.0, 30), 1e-9, 0.37, 1e9})
         {
+            const bool exact = std::ldexp(1.0, std::ilogb(scale)) == scale;
             const auto r = parameterize(q, moved(m, scale, vec3(0)), params);
             REQUIRE(r);
-            CHECK(r.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-3));
-            const double size = glm::length(r.uv.front() - r.uv.back());
-            const double expected = scale * glm::length(reference.uv.front() - reference.uv.back());
-            CHECK(size == doctest::Approx(expected).epsilon(1e-2));
+            CHECK(r.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(exact ? 1e-12 : 1e-5));
+            CHECK(width(r) / scale == doctest::Approx(width(reference)).epsilon(exact ? 1e-12 : 1e-3));
         }
         const auto far = parameterize(q, moved(m, 1, vec3(1e5, -1e5, 1e5)), params);
         REQUIRE(far);
@@ -200,10 +202,12 @@ TEST_CASE("parameterize: place and scale of a start do not matter to a free boun
                 const solve::params few{.method = method, .stopping = {.max_iterations = 60}};
                 return parameterize(q, m, {.initial = initial, .precision = how, .solve = few}).report.solve.value;
             };
-            const double reference = run(1, 0);
-            CHECK(run(1, 1e4) == doctest::Approx(reference).epsilon(1e-2));
-            CHECK(run(1e-3, 0) == doctest::Approx(reference).epsilon(1e-2));
-            CHECK(run(std::ldexp(1.0, 960), 0) == doctest::Approx(reference).epsilon(1e-2));
+            // Single precision keeps few digits of positions so far away, and L-BFGS is still on its way.
+            const bool arrives = how == precision::full && method == solve::method::automatic;
+            const double tolerance = arrives ? 1e-5 : 1e-2, reference = run(1, 0);
+            CHECK(run(1, 1e4) == doctest::Approx(reference).epsilon(tolerance));
+            CHECK(run(1e-3, 0) == doctest::Approx(reference).epsilon(tolerance));
+            CHECK(run(std::ldexp(1.0, 960), 0) == doctest::Approx(reference).epsilon(tolerance));
         }
 }
 
