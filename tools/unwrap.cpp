@@ -36,7 +36,7 @@ namespace
 
 queue open_queue(const unwrap_options& options, std::vector<std::string>& notes)
 {
-    const bool need = options.precision == precision::full || options.precision == precision::mixed;
+    const bool need = options.precision == precision::fp64 || options.precision == precision::mixed;
     queue q =
         tools::open_queue(options.device, need); // a wish for double or mixed precision needs a device with double
     if (options.precision == precision::automatic && !q.device().has_fp64())
@@ -117,7 +117,7 @@ private:
         // The certificate of exactly what is written, taken by other code than the solver's.
         if (report_.after.quality.flips.flipped > 0)
             throw no_valid_map("the map has " + std::to_string(report_.after.quality.flips.flipped) +
-                               " flipped triangles; --precision double may succeed");
+                               " flipped triangles; --precision fp64 may succeed");
     }
 
     /// Never a folded map under the name that was asked for: the best one goes beside it.

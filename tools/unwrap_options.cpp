@@ -29,7 +29,7 @@ void declare_map(CLI::App& app, unwrap_options& o)
         {{"free", boundary_kind::free}, {"circle", boundary_kind::circle}, {"square", boundary_kind::square}},
         "Let the boundary move, or keep it on a circle or square");
     add_choice<energy::weighting>(app, "--weights", o.weights,
-                                  {{"area", energy::weighting::measure}, {"uniform", energy::weighting::uniform}},
+                                  {{"measure", energy::weighting::measure}, {"uniform", energy::weighting::uniform}},
                                   "Weight of a triangle: its area, or 1");
     add_choice<start_kind>(
         app, "--start", o.start,
@@ -75,10 +75,10 @@ void declare_solver(CLI::App& app, unwrap_options& o)
     add_time_limit(app, o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)");
     add_choice<taut::precision>(app, "--precision", o.precision,
                                 {{"auto", precision::automatic},
-                                 {"double", precision::full},
-                                 {"float", precision::single},
-                                 {"mixed", precision::mixed}},
-                                "Arithmetic of the optimisation; the check for flips is exact in any case");
+                                 {"fp64", precision::fp64},
+                                 {"mixed", precision::mixed},
+                                 {"fp32", precision::fp32}},
+                                "Arithmetic of the optimisation: double, mixed, float; the check for flips is exact in any case");
     add_device(app, o.device);
 }
 
@@ -143,11 +143,11 @@ parameterize_params to_params(const unwrap_options& o)
     }
     p.weights = o.weights;
     p.boundary = o.boundary == boundary_kind::free ? boundary_mode::free : boundary_mode::fixed;
-    p.start.boundary.shape = o.boundary == boundary_kind::square ? boundary_shape::square : boundary_shape::circle;
-    p.start.boundary.spacing = o.spacing;
-    p.start.weights = o.start == start_kind::tutte ? barycentric_weights::uniform : barycentric_weights::mean_value;
-    if (o.start == start_kind::tutte || o.start == start_kind::mean_value) p.start.stretch_rounds = 0;
-    p.first = o.start == start_kind::automatic   ? start_method::automatic
+    p.barycentric.boundary.shape = o.boundary == boundary_kind::square ? boundary_shape::square : boundary_shape::circle;
+    p.barycentric.boundary.spacing = o.spacing;
+    p.barycentric.weights = o.start == start_kind::tutte ? barycentric_weights::uniform : barycentric_weights::mean_value;
+    if (o.start == start_kind::tutte || o.start == start_kind::mean_value) p.barycentric.stretch_rounds = 0;
+    p.start = o.start == start_kind::automatic   ? start_method::automatic
               : o.start == start_kind::coarse    ? start_method::coarse
               : o.start == start_kind::conformal ? start_method::conformal
                                                  : start_method::barycentric;
@@ -189,9 +189,9 @@ std::string to_string(solver_kind kind)
 
 std::string to_string(taut::precision p)
 {
-    return p == precision::full     ? "double"
+    return p == precision::fp64     ? "fp64"
            : p == precision::mixed  ? "mixed"
-           : p == precision::single ? "float"
+           : p == precision::fp32 ? "fp32"
                                     : "auto";
 }
 

@@ -99,7 +99,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["device"] = r.device;
     json["precision"] = to_string(r.map.precision);
     json["method"] = {{"energy", to_string(o.energy)},
-                      {"weights", o.weights == energy::weighting::measure ? "area" : "uniform"},
+                      {"weights", o.weights == energy::weighting::measure ? "measure" : "uniform"},
                       {"boundary", boundary_name(o.boundary)},
                       {"solver", to_string(o.solver)},
                       {"start", r.pins + r.springs > 0 ? "brought to the constraints" : describe_start(o)}};

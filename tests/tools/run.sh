@@ -388,7 +388,7 @@ test_unwrap()
                    '--solver mg-lbfgs' '--solver lbfgs' '--solver cg' '--solver gd --iterations 20' '--start auto' \
                    '--start coarse' '--start stretch' '--start tutte' '--start conformal' \
                    '--start conformal --boundary circle' '--start coarse --solver lbfgs' '--precision auto' \
-                   '--precision double' '--precision float' '--precision mixed' '--iterations 0'; do
+                   '--precision fp64' '--precision fp32' '--precision mixed' '--iterations 0'; do
         # shellcheck disable=SC2086
         expect 0 unwrap small.obj -o out.obj --quiet $options
         same_vertices small.obj out.obj
@@ -436,7 +436,7 @@ test_reports()
     for picture in layout.png render.png; do
         [ "$(od -An -tx1 -N8 "$picture" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$picture is no PNG"
     done
-    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision float --solver lbfgs \
+    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision fp32 --solver lbfgs \
         --iterations 3 --quiet
     says layout.svg '<svg ' '</svg>'
     keys stats.json precision stop iterations

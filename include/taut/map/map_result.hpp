@@ -41,7 +41,7 @@ struct map_report
     std::string reason;                          ///< why there is no valid map; empty if there is one
     std::vector<index> ids;                      ///< what the reason is about, see outcome
     std::vector<std::string> notes;              ///< what the library decided on its own
-    taut::precision precision = precision::full; ///< that the map was calculated in
+    taut::precision precision = precision::fp64; ///< that the map was calculated in
     start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
     std::vector<level_report> levels; ///< coarser levels, in their order in time
     std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places

@@ -67,7 +67,7 @@ private:
     bool starts_coarse() const
     {
         if (!levels_ || !params_.initial.empty() || in_.held.constrained()) return false;
-        return params_.first == start_method::coarse || params_.first == start_method::automatic;
+        return params_.start == start_method::coarse || params_.start == start_method::automatic;
     }
 
     /// Whether there is a start, or a way to make one on coarser levels.
@@ -99,7 +99,7 @@ private:
     {
         auto how = params_.precision;
         if (how == precision::automatic)
-            how = !queue_.device().has_fp64() ? precision::single : levels_ ? precision::mixed : precision::full;
+            how = !queue_.device().has_fp64() ? precision::fp32 : levels_ ? precision::mixed : precision::fp64;
         solve_in_turns(how);
         if (!certified_ && coarse_)
         {
@@ -129,13 +129,13 @@ private:
     {
         const bool chosen = params_.precision == precision::automatic;
         const bool done = attempt(how) && certified_ && (!chosen || accurate());
-        if (done || how == precision::full || !queue_.device().has_fp64()) return;
+        if (done || how == precision::fp64 || !queue_.device().has_fp64()) return;
         report().notes.push_back(certified_ ? "float could not reach the tolerance; continued in double"
                                             : "float could not hold this map; repeated in double");
         if (!certified_) arrival_.reset();
         const bool goes_on = certified_;
         auto before = report().solve;
-        if (attempt(precision::full) && goes_on) report().solve = joined(std::move(before), std::move(report().solve));
+        if (attempt(precision::fp64) && goes_on) report().solve = joined(std::move(before), std::move(report().solve));
     }
 
     /// Solves in a precision and certifies the map; whether there is one.
@@ -165,7 +165,7 @@ private:
 
     bool solve_in(precision how)
     {
-        if (how == precision::full) return levels_ ? solve_levels<double, double>() : solve_alone<double, double>();
+        if (how == precision::fp64) return levels_ ? solve_levels<double, double>() : solve_alone<double, double>();
         if (how == precision::mixed) return levels_ ? solve_levels<double, float>() : solve_alone<double, float>();
         return levels_ ? solve_levels<float, float>() : solve_alone<float, float>();
     }
@@ -230,7 +230,7 @@ private:
     coarse_to_fine_params descent()
     {
         coarse_to_fine_params p;
-        p.start.boundary = params_.start.boundary;
+        p.start.boundary = params_.barycentric.boundary;
         p.start.fixed_boundary = params_.boundary == boundary_mode::fixed;
         p.start.proceed = [this] { return limits_.proceed(); };
         return p;

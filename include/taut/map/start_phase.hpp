@@ -58,7 +58,7 @@ private:
         if (!draft || !make_without_constraints(params))
         {
             auto p = params;
-            p.start.proceed = [this] { return limits_.proceed(); };
+            p.barycentric.proceed = [this] { return limits_.proceed(); };
             start() = parameterization_start(in_.surface, in_.ideal, in_.sides, p, in_.unit, report_.notes);
         }
         if (!in_.held.constrained()) return;
