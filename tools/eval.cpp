@@ -72,6 +72,7 @@ command add_eval(CLI::App& program)
         ->required()
         ->type_name("FILE");
     app.add_flag("--json", options->json, "Print JSON");
+    app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");
     return [options] { return evaluate(*options); };
 }
 

@@ -11,8 +11,9 @@
 namespace taut::tools
 {
 
-/// A check whose message is a sentence; CLI11's own writes the range out to the last digit.
+/// Checks whose messages are sentences; CLI11's own write the range out to the last digit.
 CLI::Validator number_that(bool (*holds)(double), const char* otherwise);
+CLI::Validator whole_number();
 
 void add_device(CLI::App& app, std::string& device);
 void add_time_limit(CLI::App& app, double& seconds, const std::string& help);

@@ -280,6 +280,8 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
     app.add_option("--picture", options->picture, "Draw the map before and after, with its pins")
         ->type_name("FILE.png|.svg");
     add_progress(app, options->progress, options->quiet);
+    app.footer("exit codes: 0 injective map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+               "  6 not found, the best map is in OUT.invalid; 7 proved infeasible; 9 device failure; 130 interrupted");
     return [options, launch] { return run(*options, launch); };
 }
 

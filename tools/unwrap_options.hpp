@@ -57,6 +57,7 @@ struct unwrap_options
     boundary_spacing spacing{};
     solver_kind solver{};
     taut::precision precision{};
+    taut::placement placement{};
     int iterations = solve::stopping_params{}.max_iterations;
     double tolerance = solve::stopping_params{}.gradient_tolerance;
     double time_limit = std::numeric_limits<double>::infinity();

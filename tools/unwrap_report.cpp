@@ -72,7 +72,10 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
 {
     const ideal_elements<triangle> ideal(surface);
     const bool by_area = options.weights == energy::weighting::measure;
-    energy_end = mean_energy(params.energy, surface, ideal, uv);
+    // Energies and distortion are those at the size of the surface.
+    std::vector<vec2> sized(uv.begin(), uv.end());
+    for (vec2& p : sized) p /= map.scale;
+    energy_end = mean_energy(params.energy, surface, ideal, sized);
     energy_before = map.solve.value_start;
     if (!map.start.uv.empty())
     {
@@ -80,7 +83,14 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
         energy_before = by_area ? start.measure : start.uniform;
     }
     energy = by_area ? energy_end.measure : energy_end.uniform;
-    after = tools::assess(surface, uv);
+    after = tools::assess(surface, sized);
+    // The certificate is that of exactly what is written.
+    if (map.scale != 1)
+    {
+        const auto written = certify<2>(surface.cells(), uv);
+        after.quality.flips.flipped = written.flipped;
+        after.quality.flips.ids = written.ids;
+    }
     if (map.solve.stop == solve::stop::time) code = exit_code::time_limit;
     if (map.solve.stop == solve::stop::user) code = exit_code::interrupted;
     summary_ = to_string(options.energy) + " energy, " + boundary_name(options.boundary) + " boundary, " +
@@ -103,6 +113,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                       {"boundary", boundary_name(o.boundary)},
                       {"solver", to_string(o.solver)},
                       {"start", r.pins + r.springs > 0 ? "brought to the constraints" : describe_start(o)}};
+    json["scale"] = r.map.scale;
     json["constraints"] = {{"pins", r.pins}, {"springs", r.springs}};
     json["untangling"] = nlohmann::ordered_json::array();
     for (const auto& stage : r.map.untangling)

@@ -204,6 +204,7 @@ private:
                                  : what == slot::sums   ? "sums"
                                  : what == slot::minima ? "minima"
                                                         : "limit";
+        const auto use = queue_.state()->enter();
         auto& kernel = kernels_[std::is_same_v<T, double>][which];
         if (!kernel.get())
         {

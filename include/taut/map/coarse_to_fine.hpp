@@ -12,6 +12,7 @@
 #include <taut/map/level_report.hpp>
 #include <taut/map/level_solver.hpp>
 #include <taut/map/start/robust_start.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut
 {
@@ -61,7 +62,8 @@ public:
         const std::size_t first = params_.first_level(levels_);
         start_ = robust_start(levels_.surface(first), params_.start);
         if (start_.flips.flipped > 0)
-            return fail("the coarse start has " + std::to_string(start_.flips.flipped) + " flipped triangles");
+            return fail("the coarse start has " +
+                        detail::counted(start_.flips.flipped, "flipped triangle", "flipped triangles"));
         auto uv = std::move(start_.uv);
         if (params_.start.fixed_boundary) detail::scale_outline(levels_.hierarchy(), first, levels_.points(), uv);
         for (std::size_t l = first; l > 0; --l)

@@ -46,7 +46,8 @@ struct map_report
     std::vector<level_report> levels; ///< coarser levels, in their order in time
     std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
     std::vector<untangle_stage_report> untangling; ///< what it took to make the start injective
-    certificate flips;                             ///< of the map that is returned, exact
+    double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
+    certificate flips;   ///< of the map that is returned, exact
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run
@@ -69,7 +70,7 @@ inline std::ostream& operator<<(std::ostream& out, const map_report& r)
 /// A map and its report; `auto [uv, report] = parameterize(...)`.
 struct map_result
 {
-    std::vector<vec2> uv; ///< one a vertex, in the user's order and the units of the surface
+    std::vector<vec2> uv; ///< one a vertex, in the user's order; units and place by parameterize_params::placement
     map_report report;
 
     /// True if the map is certified: no triangle is flipped.

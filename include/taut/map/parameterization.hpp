@@ -14,6 +14,7 @@
 
 #include <taut/core/made_ahead.hpp>
 #include <taut/map/coarse_to_fine.hpp>
+#include <taut/map/place_map.hpp>
 #include <taut/map/start_phase.hpp>
 
 namespace taut
@@ -49,6 +50,7 @@ public:
             report().seconds.hierarchy = limits_.lap();
         }
         if (make_start()) optimize();
+        if (report().outcome == outcome::valid && is_free()) place();
         subtract_counters();
         for (auto* points : {&result_.uv, &report().start.uv, &report().pin_origins})
             for (vec2& p : *points) p /= in_.unit;
@@ -273,11 +275,31 @@ private:
         return uv;
     }
 
+    /// Whether nothing holds the map.
+    bool is_free() const { return params_.boundary == boundary_mode::free && !in_.held.constrained(); }
+
+    /// Brings a free map to its place, or leaves it where it is if rounding would flip a triangle on the way.
+    void place()
+    {
+        if (params_.placement == placement::as_solved) return;
+        const double side = params_.placement == placement::unit_square ? in_.unit : 0;
+        for (const bool turned : {true, false})
+        {
+            auto map = in_corner(turned ? turned_up(in_.surface, result_.uv) : result_.uv, side);
+            const auto flips = certify<2>(in_.surface.cells(), map.uv, in_.ideal.measure);
+            if (flips.flipped > 0) continue;
+            result_.uv = std::move(map.uv);
+            report().scale = map.scale;
+            report().flips = flips;
+            return;
+        }
+        report().notes.push_back("rounding would flip triangles of the map in its place; it stays where it was solved");
+    }
+
     /// Undoes what the solver was free to change without anyone asking for it. start: in the user's order.
     void restore(const std::vector<vec2>& start)
     {
-        if (params_.boundary == boundary_mode::free && !in_.held.constrained() && is_scale_invariant(params_.energy))
-            keep_total_area(in_.surface, in_.ideal, result_.uv);
+        if (is_free() && is_scale_invariant(params_.energy)) keep_total_area(in_.surface, in_.ideal, result_.uv);
         for (vec2& p : result_.uv) p += centre_;
         in_.held.restore(result_.uv, start); // the device may hold positions in float
     }

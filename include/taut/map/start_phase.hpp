@@ -12,6 +12,7 @@
 #include <taut/map/run_limits.hpp>
 #include <taut/map/run_surface.hpp>
 #include <taut/map/untangle/untangle.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut::detail
 {
@@ -72,6 +73,7 @@ private:
     bool make_without_constraints(parameterize_params p)
     {
         p.constraints = {};
+        p.placement = placement::as_solved;
         p.solve.stopping.gradient_tolerance = std::max(1e-3, p.solve.stopping.gradient_tolerance);
         p.time_limit = limits_.left();
         p.observer = [this](solve::progress now)
@@ -92,7 +94,8 @@ private:
         how.observer = [this](const solve::progress&) { return limits_.proceed(); };
         auto found = untangle(queue_, in_.held.problem(in_.surface, start().uv), how);
         report_.untangling = std::move(found.stages);
-        const std::string before = std::to_string(start().flips.flipped) + " triangles of the start were flipped; ";
+        const std::string before = counted(start().flips.flipped, "triangle of the start was flipped; ",
+                                           "triangles of the start were flipped; ");
         const std::size_t branches = found ? branch_points(in_.surface, in_.sides, found.map).size() : 0;
         const bool bound = in_.held.constrained() || params.boundary == boundary_mode::fixed;
         if (!bound && (!found || branches > 0))
@@ -102,7 +105,7 @@ private:
         }
         report_.notes.push_back(before + (found ? "it was untangled" : "untangling failed"));
         if (branches > 0)
-            report_.notes.push_back("the start winds more than once around " + std::to_string(branches) + " vertices");
+            report_.notes.push_back("the start winds more than once around " + counted(branches, "vertex", "vertices"));
         start().uv = std::move(found.map);
         start().assess(in_.surface, in_.ideal);
         if (found) return start().flips.flipped == 0 ? start_outcome::ready : refuse();

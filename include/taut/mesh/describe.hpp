@@ -15,12 +15,18 @@ namespace taut
 namespace detail
 {
 
+/// "1 triangle", "7 triangles"
+inline std::string counted(std::size_t n, const std::string& thing, const std::string& things)
+{
+    return std::to_string(n) + ' ' + (n == 1 ? thing : things);
+}
+
 /// "7 triangles (3, 14, 15, 92, 65, ...)"; ids in groups of `group` are written "3-14".
 inline std::string list_ids(const char* thing, const char* things, const std::vector<index>& ids, std::size_t group = 1)
 {
     constexpr std::size_t shown = 5;
     const std::size_t n = ids.size() / group;
-    std::string s = std::to_string(n) + ' ' + (n == 1 ? thing : things) + " (";
+    std::string s = counted(n, thing, things) + " (";
     for (std::size_t g = 0; g < std::min(n, shown); ++g)
     {
         if (g > 0) s += ", ";

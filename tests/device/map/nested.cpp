@@ -269,11 +269,11 @@ TEST_CASE("nested: preconditioned BFGS and conjugate gradients converge, in fewe
             {start_method::coarse, {}, precision::fp64},
             {start_method::coarse, {}, precision::automatic},
             {start_method::barycentric, {.weights = barycentric_weights::uniform}, precision::fp64}};
-        for (const auto& [start, plain, how] : runs)
+        for (const auto& [start, barycentric, how] : runs)
         {
             CAPTURE(static_cast<int>(start));
             p.start = start;
-            p.barycentric = plain;
+            p.barycentric = barycentric;
             p.precision = how;
             const auto r = parameterize(q, m, p);
             check_converged(m, r);

@@ -14,6 +14,7 @@
 #include <taut/map/untangle/margin.hpp>
 #include <taut/map/untangle/untangle_result.hpp>
 #include <taut/map/untangle/untangle_stages.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut
 {
@@ -115,7 +116,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
     if (result.outcome == untangle_outcome::gave_up)
     {
         result.ids = result.flips.ids;
-        const std::string left = std::to_string(result.flips.flipped) + " elements are inverted";
+        const std::string left = detail::counted(result.flips.flipped, "element is inverted", "elements are inverted");
         result.reason = state.cancelled()   ? "cancelled: " + left
                         : state.timed_out() ? "time limit: " + left
                                             : "no stage makes progress: " + left +
