@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <taut/compute/queue.hpp>
+#include <taut/io/atomic_file.hpp>
 #include <taut/version.hpp>
 
 #ifndef TAUT_BENCH_COMMIT
@@ -116,9 +116,7 @@ struct options
     void write(const nlohmann::ordered_json& report) const
     {
         if (json.empty()) return;
-        std::ofstream file(json);
-        file << report.dump(2) << '\n';
-        if (!file.flush()) throw std::runtime_error("cannot write " + json);
+        taut::io::write_file(json, report.dump(2) + '\n');
     }
 
 private:

@@ -4,7 +4,6 @@
 //   move SURFACE [OUT.svg]
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -90,7 +89,7 @@ try
         };
         const io::layout_style size;
         const std::vector<std::string> pictures{picture(torn, "before"), picture(moved.uv, "after")};
-        std::ofstream(argv[2]) << io::side_by_side_svg(pictures, size.width, size.height, 24);
+        io::write_file(argv[2], io::side_by_side_svg(pictures, size.width, size.height, 24));
     }
     std::cout << inside.size() << " vertices moved, " << folded << " triangles folded before; " << moved.report << '\n';
 }

@@ -83,6 +83,15 @@ assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv)
     return a;
 }
 
+assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv)
+{
+    assessment a;
+    a.vertices = surface.vertex_count();
+    a.measured = false;
+    a.quality.flips = certify<2>(surface.cells(), uv);
+    return a;
+}
+
 cut_surface cut_seams(const io::surface_file& file)
 {
     const auto& cells = file.surface.cells();
@@ -131,6 +140,7 @@ nlohmann::ordered_json finite(double x)
 
 nlohmann::ordered_json to_json(const assessment& a)
 {
+    if (!a.measured) return nullptr;
     const auto& q = a.quality;
     nlohmann::ordered_json json;
     json["isometric"] = to_json(q.isometric);
@@ -157,6 +167,7 @@ void describe_validity(labelled_lines& lines, const assessment& a)
     if (!first.empty() && flips.flipped > 5) first += ", ...";
     lines.add("flipped", count(flips.flipped) + " of " + count(flips.elements) + first + "; det " +
                              number(flips.min_det) + " .. " + number(flips.max_det));
+    if (!a.measured) return;
     lines.add("boundary", count(a.boundaries, "loop", "loops") + ", " +
                               (a.crossings ? count(*a.crossings, "crossing", "crossings") : "crossings unknown") +
                               (a.crossings.value_or(0) > 0 ? ": the flat parts overlap" : ""));
@@ -164,6 +175,7 @@ void describe_validity(labelled_lines& lines, const assessment& a)
 
 void print(std::ostream& out, const assessment& a)
 {
+    if (!a.measured) return;
     const auto& q = a.quality;
     text_table energies;
     energies.add({"energy", "by area", "mean", "isometry"});

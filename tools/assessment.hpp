@@ -21,7 +21,8 @@ namespace taut::tools
 /// A map of a surface and everything the programs say about it.
 struct assessment
 {
-    index vertices = 0; ///< of the surface
+    index vertices = 0;   ///< of the surface
+    bool measured = true; ///< false: nothing but quality.flips is known
     taut::quality quality;
     std::size_t left_out = 0;             ///< triangles without area at rest: counted in flips only
     std::size_t boundaries = 0;           ///< boundary loops of the map, seams included
@@ -31,6 +32,9 @@ struct assessment
 
 /// Measures a map with one position a vertex.
 assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv);
+
+/// Counts its flips alone, for those in a hurry.
+assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv);
 
 /// A surface cut open along the seams of its texture coordinates, so that each vertex has one.
 struct cut_surface
@@ -43,16 +47,16 @@ struct cut_surface
 /// Throws io::texcoord_error if a corner has no texture coordinate.
 cut_surface cut_seams(const io::surface_file& file);
 
-/// The quality columns. What is not a finite number becomes null.
+/// The quality columns, null if nothing was measured. What is not a finite number becomes null.
 nlohmann::ordered_json to_json(const assessment& a);
 
 /// A finite number, else null: JSON knows no others.
 nlohmann::ordered_json finite(double x);
 
-/// Adds the lines "flipped" and "boundary".
+/// Adds the lines "flipped" and, if it was measured, "boundary".
 void describe_validity(labelled_lines& lines, const assessment& a);
 
-/// The rest for people, in two small tables.
+/// The rest for people, in two small tables; nothing if nothing was measured.
 void print(std::ostream& out, const assessment& a);
 
 } // namespace taut::tools

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <iostream>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <variant>
@@ -15,10 +16,13 @@
 #include <taut/map/untangle/make_untangle_problem.hpp>
 #include <taut/mesh/validate.hpp>
 
+#include "choices.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "outputs.hpp"
+#include "shared_options.hpp"
 #include "text_table.hpp"
+#include "writing.hpp"
 
 namespace taut::tools
 {
@@ -29,6 +33,7 @@ namespace
 struct check_options
 {
     std::string input, pins;
+    std::optional<io::surface_format> format; ///< nothing: a problem
     bool json = false;
 };
 
@@ -108,7 +113,7 @@ void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element
 void check_surface(check_report& report, const check_options& options)
 {
     report.kind = "surface";
-    const auto file = io::read_surface_file(options.input);
+    const auto file = io::read_surface_file(options.input, *options.format);
     const auto& m = file.surface;
     report.vertices = m.points().size();
     report.cells = m.cells().size();
@@ -149,7 +154,8 @@ check_report examine(const check_options& options)
     check_report report;
     try
     {
-        if (extension(options.input) == ".prob")
+        const bool by_name = options.format == io::surface_format::automatic;
+        if (!options.format || (by_name && extension(options.input) == ".prob"))
             std::visit([&](auto&& file) { check_problem(report, options, std::move(file)); },
                        io::read_any_prob(options.input));
         else
@@ -189,7 +195,7 @@ nlohmann::ordered_json to_json(const check_report& r, const check_options& optio
     return json;
 }
 
-void print(const check_report& r, const check_options& options)
+std::string text_of(const check_report& r, const check_options& options)
 {
     labelled_lines lines;
     if (r.vertices > 0)
@@ -206,17 +212,17 @@ void print(const check_report& r, const check_options& options)
         wrong += f.wrong ? 1 : 0;
     }
     lines.add("result", wrong == 0 ? "nothing wrong" : count(wrong, "error", "errors") + ": " + describe(r.code));
-    std::cout << lines;
+    return (std::ostringstream() << lines).str();
 }
 
 exit_code run(const check_options& options)
 {
+    require_one_standard_input(options.input, options.pins);
     const auto report = examine(options);
-    if (options.json)
-        std::cout << to_json(report, options).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
-                  << '\n';
-    else
-        print(report, options);
+    write_standard_output(
+        options.json
+            ? to_json(report, options).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n'
+            : text_of(report, options));
     return report.code;
 }
 
@@ -227,10 +233,20 @@ command add_check(CLI::App& program)
     const auto options = std::make_shared<check_options>();
     auto& app =
         *program.add_subcommand("check", "Say what is wrong with a surface, a problem or pins, without solving");
-    app.add_option("IN", options->input, "Surface (OBJ, OFF, PLY) as `unwrap` takes it, or problem (.prob)")
+    add_path(app, "IN", options->input, standard_input,
+             "Surface (OBJ, OFF, PLY) as `unwrap` takes it, or problem (.prob)")
         ->required()
         ->type_name("FILE");
-    app.add_option("--pins", options->pins, "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
+    using io::surface_format;
+    add_choice<std::optional<surface_format>>(app, "--format", options->format,
+                                              {{"auto", surface_format::automatic},
+                                               {"obj", surface_format::obj},
+                                               {"off", surface_format::off},
+                                               {"ply", surface_format::ply},
+                                               {"prob", {}}},
+                                              "What IN is; auto: what its name says, for - (standard input) a surface");
+    add_path(app, "--pins", options->pins, standard_input,
+             "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
         ->type_name("FILE.csv");
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 nothing wrong; 2 usage; 3 unreadable input; 4 unsuitable input; 7 proved infeasible");

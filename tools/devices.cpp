@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <iostream>
+#include <sstream>
 #include <string>
 
 #include <taut/compute/choose_device.hpp>
 
 #include "commands.hpp"
 #include "text_table.hpp"
+#include "writing.hpp"
 
 namespace taut::tools
 {
@@ -34,9 +35,11 @@ exit_code list_devices()
                    std::to_string(i), kind(d), std::to_string(d.compute_units()), number(gib, 3) + " GiB",
                    d.has_fp64() ? "yes" : "no", version});
     }
-    std::cout << table
-              << "\n* is what `taut unwrap` takes; --device or TAUT_DEVICE with a number or a part of the name "
-                 "changes that\n";
+    std::ostringstream out;
+    out << table
+        << "\n* is what `taut unwrap` takes; --device or TAUT_DEVICE with a number or a part of the name changes "
+           "that\n";
+    write_standard_output(out.str());
     return exit_code::valid;
 }
 

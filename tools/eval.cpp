@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include <taut/io/read_surface.hpp>
@@ -8,7 +9,9 @@
 #include "assessment.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
+#include "shared_options.hpp"
 #include "text_table.hpp"
+#include "writing.hpp"
 
 namespace taut::tools
 {
@@ -19,12 +22,13 @@ namespace
 struct eval_options
 {
     std::string input;
+    io::surface_format format{};
     bool json = false;
 };
 
 exit_code evaluate(const eval_options& options)
 {
-    const auto file = io::read_surface_file(options.input);
+    const auto file = io::read_surface_file(options.input, options.format);
     if (file.texcoords.empty())
         throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
     const auto cut = cut_seams(file);
@@ -47,7 +51,7 @@ exit_code evaluate(const eval_options& options)
         json["max_det"] = finite(flips.max_det);
         json["quality"] = to_json(a);
         json["notes"] = a.notes;
-        std::cout << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+        write_standard_output(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
         return exit_code::valid;
     }
     for (const auto& note : a.notes) std::cerr << "taut: note: " << note << '\n';
@@ -57,8 +61,10 @@ exit_code evaluate(const eval_options& options)
                   count(flips.elements, "triangle", "triangles") +
                   (cut.seam_vertices > 0 ? ", " + count(cut.seam_vertices, "vertex", "vertices") + " on seams" : ""));
     describe_validity(lines, a);
-    std::cout << lines;
-    print(std::cout, a);
+    std::ostringstream out;
+    out << lines;
+    print(out, a);
+    write_standard_output(out.str());
     return exit_code::valid;
 }
 
@@ -68,9 +74,10 @@ command add_eval(CLI::App& program)
 {
     const auto options = std::make_shared<eval_options>();
     auto& app = *program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
-    app.add_option("IN", options->input, "OBJ file with texture coordinates; seams are cut open")
+    add_path(app, "IN", options->input, standard_input, "OBJ file with texture coordinates; seams are cut open")
         ->required()
         ->type_name("FILE");
+    add_format(app, options->format);
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");
     return [options] { return evaluate(*options); };

@@ -5,8 +5,8 @@ namespace taut::tools
 {
 
 /// What the program returns to the shell: a promise to scripts, so a number never changes its meaning.
-/// `valid`, `time_limit` and `interrupted` leave a map behind that is certified to have no flipped element; others
-/// none.
+/// `valid` and `time_limit` leave a map behind that is certified to have no flipped element, `interrupted` and
+/// `terminated` do if there was one by then; others leave none.
 enum class exit_code : int
 {
     valid = 0,            ///< a valid map was written
@@ -14,11 +14,12 @@ enum class exit_code : int
     unreadable_input = 3, ///< a file does not exist or cannot be understood
     unsuitable_input = 4, ///< a mesh or constraints that no map exists for: not a disk, contradicting pins, ...
     no_device = 5,        ///< no OpenCL device, or none that can do the work
-    no_valid_map = 6,     ///< the solver ended without a map free of flips; nothing is written as one
+    no_valid_map = 6,     ///< the solver, or its time, ended without a map free of flips; nothing is written as one
     infeasible = 7,       ///< it is proved that no valid map exists; nothing was written
     time_limit = 8,       ///< time ran out; the best valid map so far was written
     device_failure = 9,   ///< the device or its driver failed: build error, out of memory, lost device
-    interrupted = 130     ///< Ctrl-C, 128 + SIGINT as shells report it; the best valid map so far was written
+    interrupted = 130,    ///< Ctrl-C, 128 + SIGINT as shells report it; the best valid map so far was written, if any
+    terminated = 143      ///< SIGTERM, the same
 };
 
 constexpr int to_int(exit_code code)
@@ -51,6 +52,8 @@ constexpr const char* describe(exit_code code)
         return "the OpenCL device failed";
     case exit_code::interrupted:
         return "interrupted";
+    case exit_code::terminated:
+        return "terminated";
     }
     return "unknown";
 }

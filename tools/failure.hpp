@@ -29,7 +29,7 @@ public:
     using error::error;
 };
 
-/// Ctrl-C came before there was a map without flips.
+/// A signal came before there was a map without flips.
 class interrupted_run : public error
 {
 public:

@@ -1,49 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
-#include <cerrno>
-#include <csignal>
-#include <system_error>
+#include "exit_codes.hpp"
 
 namespace taut::tools
 {
 
-namespace detail
-{
-/// A signal handler can reach nothing but globals, hence this one. Lock-free, as handlers demand.
-inline std::atomic<bool> interrupt_flag{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-} // namespace detail
+/// Ctrl-C (SIGINT), SIGTERM and the end of the time limit. All threads block the signals, but for one that waits for
+/// them: a handler that others install is never entered (LLVM's, in an OpenCL driver, deletes the files that the driver
+/// is about to read), and programs that the driver starts do not notice.
+///
+/// While a run has nothing to keep, each of them ends the program at once, with a message: nothing is lost, whatever
+/// the threads are doing. From keep(true) on, the first signal only makes interrupted() true, which observers ask, and
+/// the second one ends the program; the time limit is then the solver's affair.
 
-/// While it lives, the first Ctrl-C (SIGINT) only sets a flag, which observers ask between iterations; the second one
-/// ends the program as if this class did not exist. One at a time. The previous handling is restored at the end.
-/// Errors: std::system_error if the handler cannot be installed.
-class interrupt_guard
-{
-public:
-    interrupt_guard()
-    {
-        detail::interrupt_flag = false;
-        struct sigaction action = {};
-        action.sa_handler = [](int) { detail::interrupt_flag.store(true, std::memory_order_relaxed); };
-        sigemptyset(&action.sa_mask);
-        // RESETHAND: the default, death, is back in force for the second signal. RESTART: no read or write fails.
-        action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-        if (sigaction(SIGINT, &action, &previous_) != 0)
-            throw std::system_error(errno, std::generic_category(), "SIGINT cannot be handled");
-    }
+/// To be called once, before there are other threads.
+void watch_interrupts();
 
-    ~interrupt_guard() { sigaction(SIGINT, &previous_, nullptr); }
+/// The program ends with code 6 so many seconds from now if it has nothing to keep then. Infinite: never.
+void limit_time(double seconds);
 
-    interrupt_guard(const interrupt_guard&) = delete;
-    interrupt_guard& operator=(const interrupt_guard&) = delete;
+/// Whether there is something that a run which stops would write: a map, even if only the best of those with flips.
+void keep(bool something);
 
-    /// True from the first Ctrl-C on. Cheap, callable from any thread.
-    bool requested() const noexcept { return detail::interrupt_flag.load(std::memory_order_relaxed); }
+/// Whether a run that has something to keep was asked to stop. Cheap, callable from any thread.
+bool interrupted() noexcept;
 
-private:
-    struct sigaction previous_ = {};
-};
+/// The exit code of the signal that asked, `interrupted` or `terminated`.
+exit_code interruption() noexcept;
 
 } // namespace taut::tools

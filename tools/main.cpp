@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <chrono>
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -19,6 +24,8 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "help.hpp"
+#include "interrupt.hpp"
+#include "writing.hpp"
 
 namespace taut::tools
 {
@@ -39,7 +46,9 @@ int guarded(const command& run)
 {
     try
     {
-        return to_int(run());
+        const exit_code code = run();
+        const bool written = code == exit_code::valid || code == exit_code::time_limit;
+        return to_int(written && interrupted() ? interruption() : code);
     }
     catch (const usage_error& e)
     {
@@ -55,11 +64,15 @@ int guarded(const command& run)
     }
     catch (const interrupted_run& e)
     {
-        return fail(exit_code::interrupted, "interrupted", e.what());
+        return fail(interruption(), "interrupted", e.what());
     }
     catch (const infeasible_problem& e)
     {
         return fail(exit_code::infeasible, "infeasible", e.what());
+    }
+    catch (const size_error& e)
+    {
+        return fail(exit_code::unsuitable_input, e.what());
     }
     catch (const parameter_error& e)
     {
@@ -99,6 +112,16 @@ int usage(const CLI::App& program, const CLI::ParseError& e)
     return fail(exit_code::usage, e.what(), '`' + name + " --help` lists the options");
 }
 
+/// A result must not land in a file that got the number of a closed standard stream, and a pipe that nobody reads any
+/// more is an error like a full disk, so that nothing is left behind.
+void prepare_streams()
+{
+    for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(number, F_GETFD) < 0 && ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            break; // then nothing can be opened at all
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
 int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
     CLI::App program("Injective, low-distortion maps of triangle meshes to the plane, on any OpenCL device.", "taut");
@@ -106,9 +129,8 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     program.require_subcommand(1);
     program.formatter(std::make_shared<wrapped_help>());
     program.footer("exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
-                   "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure; "
-                   "130 interrupted,\n"
-                   "  with a valid map written");
+                   "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure;\n"
+                   "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one by then");
 
     std::vector<command> commands{add_unwrap(program, launch), add_untangle(program, launch), add_check(program),
                                   add_eval(program), add_devices(program)};
@@ -120,7 +142,14 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     }
     catch (const CLI::Success& e) // --help, --version
     {
-        return program.exit(e);
+        return guarded(
+            [&]
+            {
+                std::ostringstream text;
+                program.exit(e, text, std::cerr);
+                write_standard_output(text.str());
+                return exit_code::valid;
+            });
     }
     catch (const CLI::ParseError& e)
     {
@@ -139,6 +168,8 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 int main(int argc, char** argv)
 {
     const auto launch = std::chrono::steady_clock::now();
+    taut::tools::watch_interrupts();
+    taut::tools::prepare_streams();
     try
     {
         return taut::tools::run(argc, argv, launch);

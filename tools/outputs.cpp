@@ -2,8 +2,6 @@
 #include "outputs.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include <unistd.h>
@@ -28,10 +26,11 @@ fs::path spelled_out(const fs::path& path)
     return full.empty() ? path : full;
 }
 
-bool is_special(const fs::path& path)
+/// Also by links, hard and symbolic.
+bool same_file(const fs::path& a, const fs::path& b)
 {
     std::error_code ignored;
-    return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored);
+    return fs::equivalent(a, b, ignored) || spelled_out(a) == spelled_out(b);
 }
 
 } // namespace
@@ -44,30 +43,38 @@ void outputs::add(const std::string& option, const fs::path& path, std::vector<s
 
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) refuse("is a folder; name a file");
-    if (is_special(path)) return;
-    if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension(path)) == extensions.end())
-    {
-        std::string list;
-        for (const auto& e : extensions) list += (list.empty() ? "" : " or ") + e;
-        refuse("the name must end in " + list);
-    }
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, ignored)) refuse("there is no folder " + folder.string() + "; create it first");
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        refuse("cannot write into folder " + folder.string() + ": " + std::strerror(errno));
-
-    const fs::path full = spelled_out(path);
-    for (const auto& other : outputs_)
-        if (other.path == full) refuse("is also the file of " + other.option);
-    outputs_.push_back({option, full});
+    try
+    {
+        const auto target = io::detail::resolve_target(path);
+        const bool named = !extensions.empty() && !target.stream;
+        if (named && std::find(extensions.begin(), extensions.end(), extension(path)) == extensions.end())
+        {
+            std::string list;
+            for (const auto& e : extensions) list += (list.empty() ? "" : " or ") + e;
+            refuse("the name must end in " + list);
+        }
+        io::require_writable(path);
+        standard_output_taken_ = standard_output_taken_ || target.number == STDOUT_FILENO;
+    }
+    catch (const io::io_error& e)
+    {
+        throw usage_error(option + ": " + e.what());
+    }
+    if (!fs::is_character_file(path, ignored)) // a terminal and /dev/null take anything
+        for (const auto& other : outputs_)
+            if (same_file(other.path, path)) refuse("is also the file of " + other.option);
+    outputs_.push_back({option, path});
 }
 
-void outputs::protect(const fs::path& input) const
+void outputs::protect(const std::string& what, const fs::path& input, const std::string& but_for) const
 {
     std::error_code ignored;
+    if (fs::exists(input, ignored) && !fs::is_regular_file(input, ignored)) return; // a pipe can be both
     for (const auto& o : outputs_)
-        if (o.path == spelled_out(input) || fs::equivalent(o.path, input, ignored))
-            throw usage_error(o.option + ' ' + o.path.string() + ": would overwrite the input");
+        if (o.option != but_for && same_file(o.path, input))
+            throw usage_error(o.option + ' ' + o.path.string() + ": would overwrite " + what);
 }
 
 std::string extension(const fs::path& path)
@@ -77,17 +84,16 @@ std::string extension(const fs::path& path)
     return text;
 }
 
-bool names_a_file(const fs::path& path)
+std::string name_of_invalid(const std::string& output)
 {
-    std::error_code ignored;
-    return !fs::exists(path, ignored) || fs::is_regular_file(path, ignored);
+    return io::is_stream(output) ? std::string() : output + ".invalid";
 }
 
-void write_text(const fs::path& path, std::string_view text)
+void remove_invalid(const std::string& output)
 {
-    io::atomic_file file(path);
-    file.write(text);
-    file.commit();
+    std::error_code ignored;
+    const fs::path path = name_of_invalid(output);
+    if (fs::is_regular_file(path, ignored)) fs::remove(path, ignored);
 }
 
 } // namespace taut::tools

@@ -3,23 +3,30 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace taut::tools
 {
 
+/// What - stands for on the command line.
+inline constexpr const char *standard_input = "/dev/stdin", *standard_output = "/dev/stdout";
+
 /// The files that a run is going to write, looked at before it starts: nobody waits an hour for "no such folder".
 class outputs
 {
 public:
-    /// Notes that `option` names a file to write; an empty path is no file. Throws usage_error if the folder is missing
-    /// or not writable, if the path is a folder, if another output has the same path, or if the extension (in any case)
-    /// is none of `extensions` (none: any will do). Devices and pipes need no extension.
+    /// Notes that `option` names a file to write; an empty path is no file. Throws usage_error if it cannot be written
+    /// as things are (no such folder, no permission, no room, a folder of that name), if another output is the same
+    /// file, or if the extension (in any case) is none of `extensions` (none: any will do). What is no file, as a pipe,
+    /// needs no extension.
     void add(const std::string& option, const std::filesystem::path& path, std::vector<std::string> extensions);
 
-    /// Throws usage_error if one of the outputs added so far is this input.
-    void protect(const std::filesystem::path& input) const;
+    /// Throws usage_error if one of the outputs added so far is this file, under whatever name.
+    /// what: "the input"; but_for: an option that may replace it.
+    void protect(const std::string& what, const std::filesystem::path& input, const std::string& but_for = {}) const;
+
+    /// Where a report for people goes: standard output, or standard error if a file goes there.
+    const char* place_of_report() const { return standard_output_taken_ ? "/dev/stderr" : standard_output; }
 
 private:
     struct output
@@ -28,15 +35,16 @@ private:
         std::filesystem::path path;
     };
     std::vector<output> outputs_;
+    bool standard_output_taken_ = false;
 };
 
 /// The extension in lower case, ".png".
 std::string extension(const std::filesystem::path& path);
 
-/// False for what exists and is no regular file: a device, a pipe, a folder.
-bool names_a_file(const std::filesystem::path& path);
+/// Where a map goes that is not valid; nowhere if the output is a device or a pipe.
+std::string name_of_invalid(const std::string& output);
 
-/// Writes a text file, whole or not at all. Throws io::io_error.
-void write_text(const std::filesystem::path& path, std::string_view text);
+/// Removes what an earlier run has left under name_of_invalid().
+void remove_invalid(const std::string& output);
 
 } // namespace taut::tools

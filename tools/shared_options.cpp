@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "choices.hpp"
+#include "failure.hpp"
 
 namespace taut::tools
 {
@@ -28,6 +29,33 @@ CLI::Validator whole_number()
                 return text + " is no whole number from 0 to " + std::to_string(std::numeric_limits<int>::max());
             },
             ""};
+}
+
+CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& path, const char* stream,
+                      const std::string& help)
+{
+    const auto dash = [=](std::string& given)
+    {
+        if (given == "-") given = stream;
+        return std::string();
+    };
+    return app.add_option(name, path, help)->transform(CLI::Validator(dash, ""));
+}
+
+void require_one_standard_input(const std::string& input, const std::string& pins)
+{
+    if (input == standard_input && pins == standard_input)
+        throw usage_error("--pins -: standard input is IN already; name a file");
+}
+
+void add_format(CLI::App& app, io::surface_format& format)
+{
+    add_choice<io::surface_format>(app, "--format", format,
+                                   {{"auto", io::surface_format::automatic},
+                                    {"obj", io::surface_format::obj},
+                                    {"off", io::surface_format::off},
+                                    {"ply", io::surface_format::ply}},
+                                   "What IN is; auto: what its name says, for - (standard input) how it begins");
 }
 
 void add_device(CLI::App& app, std::string& device)

@@ -5,6 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <taut/io/read_surface.hpp>
+
+#include "outputs.hpp"
 #include "progress.hpp"
 
 /// Options that several commands have.
@@ -14,6 +17,16 @@ namespace taut::tools
 /// Checks whose messages are sentences; CLI11's own write the range out to the last digit.
 CLI::Validator number_that(bool (*holds)(double), const char* otherwise);
 CLI::Validator whole_number();
+
+/// The name of a file; - stands for `stream`, standard_input or standard_output.
+CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& path, const char* stream,
+                      const std::string& help);
+
+/// Throws usage_error if both are standard input.
+void require_one_standard_input(const std::string& input, const std::string& pins);
+
+/// --format of a surface to read
+void add_format(CLI::App& app, io::surface_format& format);
 
 void add_device(CLI::App& app, std::string& device);
 void add_time_limit(CLI::App& app, double& seconds, const std::string& help);

@@ -16,6 +16,7 @@
 #include <taut/io/picture/layout_svg.hpp>
 #include <taut/io/picture/side_by_side_svg.hpp>
 #include <taut/io/picture/symmetric_distortion.hpp>
+#include <taut/io/write_files.hpp>
 #include <taut/io/write_map.hpp>
 #include <taut/map/untangle/infeasible.hpp>
 #include <taut/map/untangle/make_untangle_problem.hpp>
@@ -63,7 +64,8 @@ std::vector<std::vector<index>> outline_of(const mesh<triangle>& m)
     return edges;
 }
 
-void draw(const std::string& path, const untangle_problem<triangle>& p, const std::vector<layout_input>& maps)
+/// The bytes of a picture; SVG or PNG as the path says.
+std::string draw(const std::string& path, const untangle_problem<triangle>& p, const std::vector<layout_input>& maps)
 {
     constexpr int gap = 24;
     const auto& cells = p.rest.cells();
@@ -80,10 +82,8 @@ void draw(const std::string& path, const untangle_problem<triangle>& p, const st
             images.push_back(io::layout_picture(x, cells, distortion, outline, style, overlay));
     }
     const io::layout_style size;
-    if (extension(path) == ".svg")
-        write_text(path, io::side_by_side_svg(texts, size.width, size.height, gap));
-    else
-        write_png(path, io::side_by_side(images, gap));
+    if (extension(path) == ".svg") return io::side_by_side_svg(texts, size.width, size.height, gap);
+    return encode_png(io::side_by_side(images, gap));
 }
 
 /// One run of `taut untangle`, phase by phase.
@@ -93,8 +93,13 @@ class untangle_run
 public:
     static constexpr int D = Element::dimension;
 
-    untangle_run(const untangle_options& options, run_clock clock, progress& progress, untangle_report report)
-        : options_(options), clock_(clock), progress_(progress), report_(std::move(report))
+    untangle_run(const untangle_options& options, run_clock clock, progress& progress, untangle_report report,
+                 const char* place_of_report)
+        : options_(options),
+          clock_(clock),
+          progress_(progress),
+          report_(std::move(report)),
+          place_of_report_(place_of_report)
     {
     }
 
@@ -112,8 +117,6 @@ public:
         report_.inverted_before = flips(problem_->initial);
         if (!prove_infeasible()) solve();
         write();
-        progress_.finish();
-        if (!options_.quiet) print(report_, options_);
         if (report_.code == exit_code::infeasible) throw infeasible_problem(report_.reason);
         if (report_.code == exit_code::no_valid_map)
             throw no_valid_map(report_.reason +
@@ -156,12 +159,13 @@ private:
             if (p.iterate)
                 progress_.update(
                     {.phase = "untangle", .step = p.iteration, .inverted = p.value, .seconds = clock_.now()});
-            return !interrupt_.requested();
+            return !interrupted();
         };
         // The limit is one for the whole run: what reading took is gone.
         if (std::isfinite(options_.time_limit))
             params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
         tell("untangle");
+        keep(true); // the initial map, at least
         untangle_result<Element> result;
         report_.seconds.solve = clock_.timed([&] { result = untangle(*q, *problem_, params); });
         take(std::move(result));
@@ -176,10 +180,8 @@ private:
             for (int k = 0; k < D; ++k)
                 held = held && (!problem_->holds(v, k) || result.map[v][k] == problem_->initial[v][k]);
         const bool valid = held && report_.inverted == 0;
-        report_.outcome = valid ? "injective" : interrupt_.requested() ? "interrupted" : "gave_up";
-        report_.code = interrupt_.requested() ? exit_code::interrupted
-                       : valid                ? exit_code::valid
-                                              : exit_code::no_valid_map;
+        report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
+        report_.code = interrupted() ? interruption() : valid ? exit_code::valid : exit_code::no_valid_map;
         report_.reason = valid ? "" : held ? result.reason : "a pin has moved";
         report_.ids = std::move(result.ids);
         report_.least_det = result.flips.min_det;
@@ -190,33 +192,43 @@ private:
         map_ = std::move(result.map);
     }
 
+    /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
     void write()
     {
         tell("write");
-        writing(
-            [&]
-            {
-                report_.seconds.write = clock_.timed([&] { write_files(); });
-                report_.seconds.total = clock_.now();
-                if (!options_.stats.empty())
-                    write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
-            });
-        report_.seconds.total = clock_.now();
-    }
-
-    void write_files()
-    {
-        // A map with inverted elements never gets the name that was asked for.
-        if (!map_.empty() && (valid_ || names_a_file(options_.output)))
+        const double begin = clock_.now();
+        const auto note_time = [&]
         {
-            report_.written = valid_ ? options_.output : options_.output + ".invalid";
-            io::write_map<D>(report_.written, map_);
-        }
+            report_.seconds.total = clock_.now();
+            report_.seconds.write = report_.seconds.total - begin;
+        };
+        std::vector<io::file_to_write> files;
+        // A map with inverted elements never gets the name that was asked for.
+        if (!map_.empty()) report_.written = valid_ ? options_.output : name_of_invalid(options_.output);
+        if (!report_.written.empty())
+            files.push_back({report_.written, [&](io::atomic_file& file) { io::write_map<D>(file, map_); }});
         if constexpr (D == 2)
-            if (!options_.picture.empty()) draw_maps();
+            if (drawn(options_.picture, report_.notes))
+                files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
+        if (!options_.stats.empty())
+            files.push_back({options_.stats, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+                             }});
+        if (!options_.quiet)
+            files.push_back({place_of_report_, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 progress_.finish();
+                                 file.write(text_of(report_, options_));
+                             }});
+        writing([&] { io::write_files(files); });
+        progress_.finish();
+        if (valid_) remove_invalid(options_.output);
     }
 
-    void draw_maps() requires(D == 2)
+    std::string picture() const requires(D == 2)
     {
         const std::string name = std::filesystem::path(options_.input).filename().string();
         std::vector<layout_input> maps{
@@ -226,16 +238,16 @@ private:
                 {map_, {.title = "after", .note = report_.outcome + (valid_ ? " by " + report_.stage : "")}});
         else
             maps.back().style.note += ", infeasible";
-        draw(options_.picture, *problem_, maps);
+        return draw(options_.picture, *problem_, maps);
     }
 
     static constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace; // file names need not be UTF-8
 
-    const untangle_options& options_;
+    untangle_options options_;
     run_clock clock_;
-    interrupt_guard interrupt_;
     progress& progress_;
     untangle_report report_;
+    const char* place_of_report_;
     std::optional<untangle_problem<Element>> problem_;
     std::vector<vec<D>> map_;
     bool valid_ = false;
@@ -245,12 +257,13 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
 {
     outputs files;
     files.add("-o", options.output, {});
-    if (names_a_file(options.output)) files.add("-o", options.output + ".invalid", {});
+    files.add("-o (not valid)", name_of_invalid(options.output), {});
     files.add("--stats", options.stats, {".json"});
     files.add("--picture", options.picture, {".png", ".svg"});
-    files.protect(options.input);
+    files.protect("the input", options.input);
 
     const run_clock clock(launch);
+    limit_time(options.time_limit - clock.now());
     progress progress(progress_of(options.progress, options.quiet), std::cerr);
     progress.update({.phase = "read", .seconds = clock.now()});
     untangle_report report;
@@ -258,7 +271,10 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
     report.seconds.read = clock.timed([&] { file = io::read_any_prob(options.input); });
     return std::visit(
         [&]<class Element>(io::prob_file<Element>& problem)
-        { return untangle_run<Element>(options, clock, progress, std::move(report))(std::move(problem)); },
+        {
+            return untangle_run<Element>(options, clock, progress, std::move(report),
+                                         files.place_of_report())(std::move(problem));
+        },
         *file);
 }
 
@@ -268,20 +284,23 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
 {
     const auto options = std::make_shared<untangle_options>();
     auto& app = *program.add_subcommand("untangle", "Make a map injective while some vertices stay where they are");
-    app.add_option("PROBLEM", options->input, "Problem: rest shape, initial map, cells and fixed vertices, as text")
+    add_path(app, "PROBLEM", options->input, standard_input,
+             "Problem: rest shape, initial map, cells and fixed vertices, as text")
         ->required()
         ->type_name("FILE.prob");
-    app.add_option("-o,--output", options->output, "Map to write: a vertex a line; OUT.invalid if it has flips left")
+    add_path(app, "-o,--output", options->output, standard_output,
+             "Map to write: a vertex a line; OUT.invalid if it has flips left")
         ->required()
         ->type_name("OUT");
     add_time_limit(app, options->time_limit, "Give up after S seconds");
     add_device(app, options->device);
-    app.add_option("--stats", options->stats, "Write numbers as JSON")->type_name("FILE.json");
-    app.add_option("--picture", options->picture, "Draw the map before and after, with its pins")
+    add_path(app, "--stats", options->stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    add_path(app, "--picture", options->picture, standard_output, "Draw the map before and after, with its pins")
         ->type_name("FILE.png|.svg");
     add_progress(app, options->progress, options->quiet);
     app.footer("exit codes: 0 injective map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
-               "  6 not found, the best map is in OUT.invalid; 7 proved infeasible; 9 device failure; 130 interrupted");
+               "  6 not found, the best map is in OUT.invalid; 7 proved infeasible; 9 device failure; 130 interrupted, "
+               "143 terminated");
     return [options, launch] { return run(*options, launch); };
 }
 

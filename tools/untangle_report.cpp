@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <sstream>
 
 #include "assessment.hpp"
 #include "run_clock.hpp"
@@ -41,7 +42,7 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
     return json;
 }
 
-void print(const untangle_report& r, const untangle_options& o)
+std::string text_of(const untangle_report& r, const untangle_options& o)
 {
     for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
     labelled_lines lines;
@@ -65,7 +66,7 @@ void print(const untangle_report& r, const untangle_options& o)
     for (const auto& file : {o.picture, o.stats})
         if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
     if (!files.empty()) lines.add("wrote", files);
-    std::cout << lines;
+    return (std::ostringstream() << lines).str();
 }
 
 } // namespace taut::tools

@@ -47,7 +47,7 @@ struct untangle_report
 
 nlohmann::ordered_json to_json(const untangle_report& report, const untangle_options& options);
 
-/// The table on standard output, and notes on standard error.
-void print(const untangle_report& report, const untangle_options& options);
+/// The table for people; notes go to standard error at once.
+std::string text_of(const untangle_report& report, const untangle_options& options);
 
 } // namespace taut::tools

@@ -11,6 +11,7 @@
 #include <taut/io/picture/render_picture.hpp>
 #include <taut/io/picture/symmetric_distortion.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/write_files.hpp>
 #include <taut/io/write_obj.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/map/untangle/make_untangle_problem.hpp>
@@ -55,15 +56,14 @@ public:
 
     exit_code operator()()
     {
-        check(options_);
+        const auto outputs = check(options_);
+        limit_time(options_.time_limit - clock_.now());
         tell("read");
-        report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input); });
+        report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
         read_pins();
         parameterize();
-        write();
-        progress_.finish();
-        if (!options_.quiet) print(report_, options_);
+        write(outputs.place_of_report());
         return report_.code;
     }
 
@@ -87,6 +87,7 @@ private:
         if (options_.start == start_kind::uv) params.initial = start_from_file();
         params.observer = [this](const solve::progress& p)
         {
+            keep(p.usable);
             if (p.iterate)
                 progress_.update({.phase = p.level > 0 ? "coarse levels" : "optimize",
                                   .step = p.iteration,
@@ -95,7 +96,7 @@ private:
                                   .gradient = p.gradient,
                                   .length = p.step,
                                   .seconds = clock_.now()});
-            return !interrupt_.requested();
+            return !interrupted();
         };
         tell("device");
         std::optional<queue> q;
@@ -110,6 +111,7 @@ private:
         auto result = taut::parameterize(*q, file_->surface, params);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
+        keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
         tell("measure");
@@ -125,6 +127,8 @@ private:
     {
         const auto& map = report_.map;
         if (map.outcome == outcome::infeasible) throw infeasible_problem(map.reason);
+        if (interrupted() && map.outcome != outcome::gave_up) throw interrupted_run("there was no map yet");
+        if (map.outcome == outcome::stopped) throw no_valid_map(map.reason);
         if (map.outcome != outcome::gave_up)
             throw no_valid_map(map.reason + (options_.start == start_kind::uv
                                                  ? "; --start tutte makes a map without flips"
@@ -134,10 +138,10 @@ private:
             ids += (k == 0 ? " (" : ", ") + std::to_string(map.ids[k]);
         if (map.ids.size() > 8) ids += ", ..";
         if (!map.ids.empty()) ids += ')';
-        const std::string best = options_.output + ".invalid";
-        writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
-        const std::string what = map.reason + ids + "; the best map is in " + best;
-        if (interrupt_.requested()) throw interrupted_run(what);
+        const std::string best = name_of_invalid(options_.output);
+        if (!best.empty()) writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
+        const std::string what = map.reason + ids + (best.empty() ? "" : "; the best map is in " + best);
+        if (interrupted()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
     }
 
@@ -149,42 +153,70 @@ private:
         return file_->vertex_texcoords();
     }
 
-    void write()
+    /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
+    void write(const char* place_of_report)
     {
         tell("write");
-        writing(
-            [&]
-            {
-                report_.seconds.write = clock_.timed([&] { write_files(); });
-                report_.seconds.total = clock_.now();
-                if (!options_.stats.empty())
-                    write_text(options_.stats, to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
-            });
-        report_.seconds.total = clock_.now();
+        const double begin = clock_.now();
+        const auto note_time = [&]
+        {
+            report_.seconds.total = clock_.now();
+            report_.seconds.write = report_.seconds.total - begin - report_.seconds.draw;
+        };
+        std::vector<io::file_to_write> files{
+            {options_.output, [&](io::atomic_file& file) { io::write_obj(file, file_->surface, uv_, file_->extras); }}};
+        if (drawn(options_.picture, report_.notes))
+            files.push_back(
+                {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});
+        if (drawn(options_.render, report_.notes))
+            files.push_back(
+                {options_.render, [&](io::atomic_file& file) { file.write(timed([&] { return render(); })); }});
+        if (!options_.stats.empty())
+            files.push_back({options_.stats, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+                             }});
+        if (!options_.quiet)
+            files.push_back({place_of_report, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 progress_.finish();
+                                 file.write(text_of(report_, options_));
+                             }});
+        writing([&] { io::write_files(files); });
+        progress_.finish();
+        remove_invalid(options_.output);
     }
 
-    void write_files()
+    /// A picture, whose making is no part of the writing.
+    template <class Draw>
+    std::string timed(Draw&& draw)
+    {
+        std::string image;
+        report_.seconds.draw += clock_.timed([&] { image = draw(); });
+        return image;
+    }
+
+    std::string title() const { return std::filesystem::path(options_.input).filename().string(); }
+
+    std::string picture() const
     {
         const auto& surface = file_->surface;
-        io::write_obj(options_.output, surface, uv_, file_->extras);
-        const std::string title = std::filesystem::path(options_.input).filename().string();
-        if (!options_.picture.empty())
-        {
-            const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
-            const auto loops = boundary_loops(surface);
-            const io::layout_style style{.title = title, .energy = report_.energy, .note = report_.summary()};
-            const auto overlay = constraints_overlay();
-            if (extension(options_.picture) == ".svg")
-                write_text(options_.picture, io::layout_svg(uv_, surface.cells(), distortion, loops, style, overlay));
-            else
-                write_png(options_.picture,
-                          io::layout_picture(uv_, surface.cells(), distortion, loops, style, overlay));
-        }
-        if (!options_.render.empty())
-        {
-            const io::render_style style{.title = title, .up = options_.up, .front = options_.front};
-            write_png(options_.render, io::render_picture(surface.points(), surface.cells(), uv_, style));
-        }
+        const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
+        const auto loops = boundary_loops(surface);
+        const io::layout_style style{.title = title(), .energy = report_.energy, .note = report_.summary()};
+        const auto overlay = constraints_overlay();
+        if (extension(options_.picture) == ".svg")
+            return io::layout_svg(uv_, surface.cells(), distortion, loops, style, overlay);
+        return encode_png(io::layout_picture(uv_, surface.cells(), distortion, loops, style, overlay));
+    }
+
+    std::string render() const
+    {
+        const auto& surface = file_->surface;
+        const io::render_style style{.title = title(), .up = options_.up, .front = options_.front};
+        return encode_png(io::render_picture(surface.points(), surface.cells(), uv_, style));
     }
 
     io::layout_overlay constraints_overlay() const
@@ -202,7 +234,6 @@ private:
 
     unwrap_options options_;
     run_clock clock_;
-    interrupt_guard interrupt_;
     progress progress_;
     std::optional<io::surface_file> file_;
     constraints<triangle> pins_;

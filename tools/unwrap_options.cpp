@@ -9,7 +9,6 @@
 
 #include "choices.hpp"
 #include "failure.hpp"
-#include "outputs.hpp"
 #include "shared_options.hpp"
 
 namespace taut::tools
@@ -50,12 +49,11 @@ void declare_map(CLI::App& app, unwrap_options& o)
     add_choice<taut::placement>(
         app, "--placement", o.placement,
         {{"upright", placement::upright}, {"unit-square", placement::unit_square}, {"as-solved", placement::as_solved}},
-        "Where a map that nothing holds comes to lie: in the units of the surface, what is up in "
-        "it up in the map, the lower left corner at 0,0; the same scaled into the unit square; "
-        "anywhere");
-    app.add_option("--pins", o.pins,
-                   "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
-                   "file; without a weight exactly, with one as a spring; an empty u or v is free")
+        "Where a map that nothing holds comes to lie: y up or x to the right, the lower left corner at 0,0; the same "
+        "scaled into the unit square; anywhere");
+    add_path(app, "--pins", o.pins, standard_input,
+             "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
+             "file; without a weight exactly, with one as a spring; an empty u or v is free")
         ->type_name("FILE.csv");
     app.add_flag("--holes", o.holes, "Take surfaces with holes; the longest boundary is the outer one");
 }
@@ -91,9 +89,10 @@ void declare_solver(CLI::App& app, unwrap_options& o)
 
 void declare_reports(CLI::App& app, unwrap_options& o)
 {
-    app.add_option("--stats", o.stats, "Write numbers as JSON")->type_name("FILE.json");
-    app.add_option("--picture", o.picture, "Draw the flat map, coloured by distortion")->type_name("FILE.png|.svg");
-    app.add_option("--render", o.render, "Draw the surface with a checkerboard")->type_name("FILE.png");
+    add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    add_path(app, "--picture", o.picture, standard_output, "Draw the flat map, coloured by distortion")
+        ->type_name("FILE.png|.svg");
+    add_path(app, "--render", o.render, standard_output, "Draw the surface with a checkerboard")->type_name("FILE.png");
     const std::initializer_list<choice<std::optional<vec3>>> axes = {
         {"auto", {}},           {"+x", vec3(1, 0, 0)}, {"-x", vec3(-1, 0, 0)}, {"+y", vec3(0, 1, 0)},
         {"-y", vec3(0, -1, 0)}, {"+z", vec3(0, 0, 1)}, {"-z", vec3(0, 0, -1)}};
@@ -106,18 +105,20 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 
 void declare(CLI::App& app, unwrap_options& o)
 {
-    app.add_option("IN", o.input, "Surface: OBJ, OFF or PLY; polygons are split into triangles")
+    add_path(app, "IN", o.input, standard_input, "Surface: OBJ, OFF or PLY; polygons are split into triangles")
         ->required()
         ->type_name("FILE");
-    app.add_option("-o,--output", o.output, "OBJ to write: the vertices in their order, one vt a vertex")
+    add_path(app, "-o,--output", o.output, standard_output,
+             "OBJ to write: the vertices in their order, one vt a vertex")
         ->required()
         ->type_name("OUT.obj");
+    add_format(app, o.format);
     declare_map(app, o);
     declare_solver(app, o);
     declare_reports(app, o);
 }
 
-void check(const unwrap_options& o)
+outputs check(const unwrap_options& o)
 {
     if (o.start == start_kind::uv && o.boundary != boundary_kind::free)
         throw usage_error("--boundary circle and square lay the boundary anew, which --start uv does not; "
@@ -139,9 +140,12 @@ void check(const unwrap_options& o)
     files.add("--stats", o.stats, {".json"});
     files.add("--picture", o.picture, {".png", ".svg"});
     files.add("--render", o.render, {".png"});
-    if (!o.pins.empty()) files.protect(o.pins);
-    files.protect(o.input); // -o may name the input: it is replaced as a whole, at the end
     files.add("-o", o.output, {".obj"});
+    files.add("-o (not valid)", name_of_invalid(o.output), {});
+    files.protect("the input", o.input, "-o"); // which is replaced as a whole, at the end
+    if (!o.pins.empty()) files.protect("the pins", o.pins);
+    require_one_standard_input(o.input, o.pins);
+    return files;
 }
 
 parameterize_params to_params(const unwrap_options& o)

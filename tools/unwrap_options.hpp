@@ -7,7 +7,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <taut/io/read_surface.hpp>
 #include <taut/map/parameterize_params.hpp>
+
+#include "outputs.hpp"
 
 namespace taut::tools
 {
@@ -50,6 +53,7 @@ enum class energy_kind
 struct unwrap_options
 {
     std::string input, output, pins, stats, picture, render, device, progress;
+    io::surface_format format{};
     energy_kind energy{};
     boundary_kind boundary{};
     energy::weighting weights{};
@@ -69,7 +73,7 @@ struct unwrap_options
 void declare(CLI::App& app, unwrap_options& options);
 
 /// Throws usage_error for options that do not fit together and for outputs that could not be written.
-void check(const unwrap_options& options);
+outputs check(const unwrap_options& options);
 
 /// What the library is to do, all but the start's coordinates and the observer.
 parameterize_params to_params(const unwrap_options& options);

@@ -2,7 +2,9 @@
 #include "unwrap_report.hpp"
 
 #include <iostream>
+#include <sstream>
 
+#include "interrupt.hpp"
 #include "run_clock.hpp"
 #include "text_table.hpp"
 
@@ -70,6 +72,18 @@ std::string boundary_name(boundary_kind kind)
 void unwrap_report::assess(const unwrap_options& options, const parameterize_params& params,
                            const mesh<triangle>& surface, std::span<const vec2> uv)
 {
+    summary_ = to_string(options.energy) + " energy, " + boundary_name(options.boundary) + " boundary, " +
+               count(static_cast<std::uint64_t>(map.solve.iterations), "iteration", "iterations");
+    if (map.solve.stop == solve::stop::time) code = exit_code::time_limit;
+    if (map.solve.stop == solve::stop::user)
+    {
+        // Whoever asked it to stop does not wait for measures.
+        code = interruption();
+        energy_before = map.solve.value_start;
+        energy = map.solve.value;
+        after = certified(surface, uv);
+        return;
+    }
     const ideal_elements<triangle> ideal(surface);
     const bool by_area = options.weights == energy::weighting::measure;
     // Energies and distortion are those at the size of the surface.
@@ -91,10 +105,6 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
         after.quality.flips.flipped = written.flipped;
         after.quality.flips.ids = written.ids;
     }
-    if (map.solve.stop == solve::stop::time) code = exit_code::time_limit;
-    if (map.solve.stop == solve::stop::user) code = exit_code::interrupted;
-    summary_ = to_string(options.energy) + " energy, " + boundary_name(options.boundary) + " boundary, " +
-               count(static_cast<std::uint64_t>(map.solve.iterations), "iteration", "iterations");
 }
 
 nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
@@ -136,7 +146,8 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                        {"setup", r.map.seconds.setup}, {"hierarchy", r.map.seconds.hierarchy},
                        {"start", r.map.seconds.start}, {"untangle", r.map.seconds.untangle},
                        {"solve", r.map.seconds.solve}, {"quality", r.seconds.quality},
-                       {"write", r.seconds.write},     {"total", r.seconds.total}};
+                       {"draw", r.seconds.draw},       {"write", r.seconds.write},
+                       {"total", r.seconds.total}};
     json["levels"] = nlohmann::ordered_json::array();
     for (const auto& l : r.map.levels)
         json["levels"].push_back({{"level", l.level},
@@ -156,7 +167,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     return json;
 }
 
-void print(const unwrap_report& r, const unwrap_options& o)
+std::string text_of(const unwrap_report& r, const unwrap_options& o)
 {
     for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
     const auto& flips = r.after.quality.flips;
@@ -170,28 +181,32 @@ void print(const unwrap_report& r, const unwrap_options& o)
     if (r.pins + r.springs > 0)
         lines.add("constraints",
                   count(r.pins, "vertex pinned", "vertices pinned") + ", " + count(r.springs, "spring", "springs"));
-    lines.add("energy",
-              to_string(o.energy) + ' ' + number(r.energy_before) + " -> " + number(r.energy, 6) +
-                  (o.weights == energy::weighting::measure ? " by area, mean " + number(r.energy_end.uniform, 6)
-                                                           : " mean, by area " + number(r.energy_end.measure, 6)));
+    const bool by_area = o.weights == energy::weighting::measure;
+    const double other = by_area ? r.energy_end.uniform : r.energy_end.measure;
+    lines.add("energy", to_string(o.energy) + ' ' + number(r.energy_before) + " -> " + number(r.energy, 6) +
+                            (by_area ? " by area" : " mean") +
+                            (r.after.measured ? (by_area ? ", mean " : ", by area ") + number(other, 6) : ""));
     lines.add("stop", describe(s, o));
     lines.add("steps", count(static_cast<std::uint64_t>(s.iterations), "iteration", "iterations") + ", " +
                            count(static_cast<std::uint64_t>(s.evaluations), "evaluation", "evaluations") + ", " +
                            count(static_cast<std::uint64_t>(s.gradients), "gradient", "gradients"));
     describe_validity(lines, r.after);
-    lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
-                          duration(r.seconds.queue + r.map.seconds.device) + ", setup " +
-                          duration(r.map.seconds.setup) + ", hierarchy " + duration(r.map.seconds.hierarchy) +
-                          ", start " + duration(r.map.seconds.start) +
-                          (r.map.untangling.empty() ? "" : ", untangle " + duration(r.map.seconds.untangle)) +
-                          ", solve " + duration(r.map.seconds.solve) + ", write " + duration(r.seconds.write));
+    lines.add("time",
+              duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
+                  duration(r.seconds.queue + r.map.seconds.device) + ", setup " + duration(r.map.seconds.setup) +
+                  ", hierarchy " + duration(r.map.seconds.hierarchy) + ", start " + duration(r.map.seconds.start) +
+                  (r.map.untangling.empty() ? "" : ", untangle " + duration(r.map.seconds.untangle)) + ", solve " +
+                  duration(r.map.seconds.solve) + (r.seconds.draw > 0 ? ", draw " + duration(r.seconds.draw) : "") +
+                  ", write " + duration(r.seconds.write));
     lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
     std::string files = o.output;
     for (const auto& file : {o.picture, o.render, o.stats})
         if (!file.empty()) files += ", " + file;
     lines.add("wrote", files);
-    std::cout << lines;
-    print(std::cout, r.after);
+    std::ostringstream out;
+    out << lines;
+    print(out, r.after);
+    return out.str();
 }
 
 } // namespace taut::tools

@@ -18,7 +18,7 @@ namespace taut::tools
 /// Wall-clock seconds of the phases that the library does not see.
 struct program_seconds
 {
-    double read = 0, queue = 0, quality = 0, write = 0, total = 0;
+    double read = 0, queue = 0, quality = 0, draw = 0, write = 0, total = 0;
 };
 
 /// Everything that a run of `taut unwrap` has to say.
@@ -34,7 +34,8 @@ struct unwrap_report
     assessment after;
     program_seconds seconds;
 
-    /// Fills the energies, `after`, and the exit code from the reason of the stop.
+    /// Fills the energies, `after`, and the exit code from the reason of the stop. After an interruption nothing is
+    /// measured but flips.
     void assess(const unwrap_options& options, const parameterize_params& params, const mesh<triangle>& surface,
                 std::span<const vec2> uv);
 
@@ -47,7 +48,7 @@ private:
 
 nlohmann::ordered_json to_json(const unwrap_report& report, const unwrap_options& options);
 
-/// The table on standard output, and notes on standard error.
-void print(const unwrap_report& report, const unwrap_options& options);
+/// The table for people; notes go to standard error at once.
+std::string text_of(const unwrap_report& report, const unwrap_options& options);
 
 } // namespace taut::tools

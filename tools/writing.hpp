@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/io/io_error.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <taut/io/atomic_file.hpp>
 
 #include "failure.hpp"
+#include "interrupt.hpp"
+#include "outputs.hpp"
 #include "png.hpp"
 
 namespace taut::tools
@@ -25,6 +31,24 @@ void writing(F&& write)
     {
         throw output_error(e.what());
     }
+}
+
+/// Whether there is a picture of that name to be drawn. Whoever interrupts a run does not wait for pictures: their
+/// names are cleared, with a note.
+inline bool drawn(std::string& picture, std::vector<std::string>& notes)
+{
+    if (interrupted() && !picture.empty())
+    {
+        notes.push_back("interrupted: " + picture + " was not drawn");
+        picture.clear();
+    }
+    return !picture.empty();
+}
+
+/// Throws output_error: what is printed is a result, too.
+inline void write_standard_output(std::string_view text)
+{
+    writing([&] { io::write_file(standard_output, text); });
 }
 
 } // namespace taut::tools

@@ -271,28 +271,28 @@ test_outputs()
     error_says '--stats' 'no folder'
     expect 2 unwrap in.obj -o out.obj --picture same.png --render ./same.png
     error_says 'is also the file of --picture'
-    mkdir sealed
-    chmod a-w sealed
-    if ! touch sealed/probe 2>/dev/null; then # root writes anywhere
-        expect 2 unwrap in.obj -o sealed/out.obj
-        error_says 'cannot write into folder'
-    fi
     # Nothing is solved before the outputs are known to be writable: the input need not even be there.
     expect 2 unwrap nothing.obj -o missing/out.obj
     absent out.obj
 
-    # A disk that is full when the work is done.
-    if [ -w /dev/full ]; then
-        expect 2 unwrap in.obj -o /dev/full --quiet
-        error_says 'No space left'
-    fi
-
     # What was there stays when a run fails, and temporary files do not.
     echo precious >out.obj
     octahedron >closed.obj
+    ls -A >before
     expect 4 unwrap closed.obj -o out.obj
     [ "$(cat out.obj)" = precious ] || fail "a failed run touched its output"
-    [ -z "$(ls | grep part)" ] || fail "temporary files are left"
+    # All outputs of a run, or none: an error when the work is done changes no file.
+    if [ -w /dev/full ]; then
+        expect 2 unwrap in.obj -o /dev/full --quiet
+        error_says 'No space left'
+        expect 2 unwrap in.obj -o out.obj --stats /dev/full --picture out.png --quiet
+        error_says '/dev/full'
+        "$taut" unwrap in.obj -o out.obj >/dev/full 2>err
+        [ $? = 2 ] || fail "no error where the report cannot be printed"
+        [ "$(cat out.obj)" = precious ] || fail "an output was replaced without the others"
+    fi
+    ls -A | diff before - >out || fail "files are left"
+    rm out.obj
 
     # In place, as asked.
     cp in.obj place.obj
@@ -301,11 +301,165 @@ test_outputs()
     silent err
     same_vertices in.obj place.obj
     valid_map place.obj
-    # The input is no place for anything else.
+    # The input is no place for anything else, nor are pins for any output.
+    printf '0,0,0\n' >pins.obj
+    cp pins.obj pins.copy
     ln -s in.obj link.json
-    expect 2 unwrap in.obj -o out.obj --stats link.json
+    ln in.obj hard.json
+    ln -s pins.obj pins.json
+    ln pins.obj hard_pins.json
+    for name in link hard; do
+        expect 2 unwrap in.obj -o out.obj --stats $name.json
+        error_says 'overwrite the input'
+    done
+    expect 2 unwrap - -o out.obj --stats hard.json <in.obj
     error_says 'overwrite the input'
+    for name in pins hard_pins; do
+        expect 2 unwrap in.obj -o out.obj --pins pins.obj --stats $name.json
+        error_says 'overwrite the pins'
+    done
+    expect 2 unwrap in.obj -o pins.obj --pins pins.obj
+    error_says 'overwrite the pins'
+    cp in.obj out.obj.invalid
+    expect 2 unwrap out.obj.invalid --format obj -o out.obj
+    error_says 'overwrite the input'
+    cmp -s pins.obj pins.copy || fail "the pins were changed"
+    ln hard.json out.obj
+    expect 2 unwrap copy.obj -o out.obj --stats hard.json
+    error_says 'is also the file of'
+    expect 2 unwrap in.obj -o - --stats -
+    error_says 'is also the file of'
     cmp -s in.obj copy.obj || fail "the input was changed"
+}
+
+# What is no file is written through and stays what it is, for pictures, too.
+test_streams()
+{
+    grid 4 >in.obj
+    expect 0 unwrap in.obj -o out.obj --quiet
+    mkfifo pipe
+    for options in 'in.obj -o copy.obj --picture' 'in.obj -o copy.obj --render'; do
+        cat pipe >from_pipe &
+        # shellcheck disable=SC2086
+        expect 0 unwrap $options pipe --quiet
+        wait
+        [ -p pipe ] || fail "the pipe was replaced"
+        [ "$(od -An -tx1 -N8 from_pipe | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "no PNG came through: $options"
+    done
+    if mknod null c 1 3 2>/dev/null && : 2>/dev/null >null; then
+        expect 0 unwrap in.obj -o null --picture ./null --render null --quiet
+        [ -c null ] || fail "the device was replaced"
+        absent null.invalid
+    else
+        echo "without a device of our own: only root makes one"
+    fi
+    ln -s picture.png link.png
+    chmod 640 out.obj
+    expect 0 unwrap in.obj -o out.obj --picture link.png --quiet
+    [ -L link.png ] || fail "the link was replaced"
+    [ -f picture.png ] || fail "the link was not followed"
+    [ "$(ls -l out.obj | cut -c 1-10)" = -rw-r----- ] || fail "the permissions are not kept"
+
+    # Standard input and output, as - and by name, into a pipe and into a file.
+    expect 0 unwrap - -o - <in.obj
+    cmp -s out out.obj || fail "another map by standard streams"
+    says err '^mesh +/dev/stdin: 25 vertices' '^wrote +/dev/stdout$'
+    expect 0 unwrap /dev/stdin -o /dev/stdout --quiet --stats stats.json <in.obj
+    cmp -s out out.obj || fail "another map by standard streams"
+    keys stats.json input output
+    says values '^input=/dev/stdin$' '^output=/dev/stdout$'
+    cat in.obj | "$taut" unwrap - -o - --quiet | cmp -s - out.obj || fail "another map through pipes"
+    { echo before; "$taut" unwrap in.obj -o - --quiet; echo after; } >all
+    { echo before; cat out.obj; echo after; } | cmp -s - all || fail "standard output was not written where it stood"
+    expect 0 unwrap in.obj -o copy.obj --stats -
+    cp out stats.json
+    keys stats.json schema
+    says err '^mesh '
+    for kind in off ply; do
+        grid 4 $kind >in.$kind
+        expect 0 unwrap - -o copy.obj --quiet <in.$kind
+        cmp -s copy.obj out.obj || fail "another map of $kind by standard input"
+        cp in.$kind in.dat
+        expect 3 check in.dat
+        expect 0 check in.dat --format $kind
+        expect 0 unwrap in.dat --format $kind -o copy.obj --quiet
+    done
+    expect 3 check - --format ply <in.off
+    expect 0 eval - <out.obj
+    says out '^flipped +0 of 32'
+    printf '0,0,0\n' >pins.csv
+    expect 2 check - --pins - <in.obj
+    expect 0 check - --pins pins.csv <in.obj
+    expect 0 check in.obj --pins - <pins.csv
+    says out '1 pinned vertex'
+    strip 8 collapsed >in.prob
+    expect 0 check - --format prob <in.prob
+    says out 'problem of triangles'
+    expect 0 untangle in.prob -o map.txt --quiet
+    expect 0 untangle - -o - <in.prob
+    cmp -s out map.txt || fail "another map by standard streams"
+    says err '^outcome +injective'
+
+    # An input without an end. The limit is a quarter of what the process may have.
+    (ulimit -v 1000000 && "$taut" eval /dev/zero >out 2>err)
+    [ $? = 3 ] || fail "endless input"
+    error_says '/dev/zero: has more than [0-9]+ MiB'
+
+    # What cannot be printed is no success.
+    if [ -w /dev/full ]; then
+        for words in 'eval out.obj' 'eval out.obj --json' 'check in.obj' 'check in.obj --json' devices --help --version; do
+            # shellcheck disable=SC2086
+            "$taut" $words >/dev/full 2>err
+            [ $? = 2 ] || fail "taut $words succeeds on a full standard output"
+            error_says '/dev/stdout: cannot write: No space left'
+        done
+    fi
+    "$taut" check in.obj >&- 2>err && fail "succeeds without a standard output"
+
+    # What a run without a valid map has left is gone when there is one.
+    echo stale >out.obj.invalid
+    echo stale >map.txt.invalid
+    expect 0 unwrap in.obj -o out.obj --quiet
+    expect 0 untangle in.prob -o map.txt --quiet
+    absent out.obj.invalid
+    absent map.txt.invalid
+}
+
+# Outputs that cannot be written, found before anything is read, which here means: before the input is missed.
+test_permissions()
+{
+    [ "$(id -u)" != 0 ] || { echo "root may write anywhere"; exit 77; }
+    mkdir sealed
+    echo precious >sealed/out.obj
+    echo precious >read_only.obj
+    chmod a-w sealed read_only.obj
+    trap 'chmod u+w sealed' EXIT
+    for name in sealed/new.obj sealed/out.obj read_only.obj; do
+        expect 2 unwrap nothing.obj -o $name
+        error_says "$name: cannot write: Permission denied"
+    done
+    expect 2 unwrap nothing.obj -o out.obj --stats sealed/new.json
+    error_says '--stats: sealed/new.json: cannot write: Permission denied'
+    expect 2 untangle nothing.prob -o map.txt --picture sealed/new.svg
+    error_says '--picture: sealed/new.svg: cannot write: Permission denied'
+    [ "$(cat sealed/out.obj read_only.obj | sort -u)" = precious ] || fail "a read-only file was changed"
+}
+
+# A disk with little room.
+test_full_disk()
+{
+    mkdir small
+    mount -t tmpfs -o size=64k tmpfs small 2>/dev/null || { echo "no small disk can be mounted"; exit 77; }
+    trap 'umount small' EXIT
+    grid 4 >in.obj
+    echo precious >small/out.obj
+    expect 2 unwrap in.obj -o small/out.obj --picture small/out.png --stats small/out.json
+    error_says 'out.png: cannot write: No space left'
+    [ "$(ls -A small) $(cat small/out.obj)" = 'out.obj precious' ] || fail "a failed run changed files: $(ls -A small)"
+    # No room at all is found before anything is read.
+    head -c 100000 /dev/zero >small/filler 2>/dev/null
+    expect 2 unwrap nothing.obj -o small/new.obj
+    error_says 'new.obj: cannot write: No space left'
 }
 
 test_input()
@@ -441,7 +595,7 @@ test_reports()
     silent err
     keys stats.json schema vertices faces device precision method.solver method.start stop iterations evaluations \
         gradients hessian_products energy_start energy flipped min_det max_det seconds.read seconds.device \
-        seconds.setup seconds.hierarchy seconds.start seconds.untangle seconds.solve seconds.write seconds.total \
+        seconds.setup seconds.hierarchy seconds.start seconds.untangle seconds.solve seconds.draw seconds.write seconds.total \
         launches waits peak_memory_bytes quality.isometric.by_area quality.isometric.mean \
         quality.shape.by_area quality.area.by_area quality.stretch_l2.rms quality.stretch_linf.max \
         quality.area_ratio.rms quality.angular quality.boundary_crossings
@@ -595,11 +749,13 @@ stopped()
     valid_map out.obj
 }
 
-# run_until PATTERN ARGUMENTS...: runs the program with --progress json, and interrupts it once its progress says PATTERN.
+# run_until PATTERN SIGNAL ARGUMENTS...: runs the program with --progress json, and sends it INT or TERM once its
+# progress says PATTERN.
 run_until()
 {
     pattern=$1
-    shift
+    signal=$2
+    shift 2
     "$taut" "$@" --progress json >out 2>err &
     program=$!
     waited=0
@@ -607,33 +763,52 @@ run_until()
         sleep 0.1
         waited=$((waited + 1))
         [ "$waited" -lt 3000 ] || { kill -9 "$program"; fail "no iteration in 5 minutes"; }
-        kill -0 "$program" 2>/dev/null || fail "ended before Ctrl-C"
+        kill -0 "$program" 2>/dev/null || fail "ended before the signal"
     done
-    kill -INT "$program"
+    kill -"$signal" "$program"
     wait "$program"
     code=$?
-    [ "$code" = 130 ] || fail "exit code $code instead of 130 after Ctrl-C"
+    [ "$signal" = INT ] && wanted=130 || wanted=143
+    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted after SIG$signal"
 }
 
 test_stops()
 {
     grid 150 >in.obj
-    for solver in newton lbfgs; do
-        expect 8 unwrap in.obj -o out.obj --stats stats.json --time-limit 0.05 --solver $solver
-        says out '^stop .*time limit'
-        stopped time
-        rm out.obj stats.json
+    # A run that would last for hours.
+    endless='--tolerance 0 --iterations 1000000000 --solver gd'
+    # Before there is a map, the end of the time leaves things as they were.
+    echo precious >out.obj
+    expect 6 unwrap in.obj -o out.obj --stats stats.json --time-limit 0.001
+    error_says 'time limit came before there was a map' 'nothing was written'
+    [ "$(cat out.obj)" = precious ] || fail "the old output is gone"
+    absent stats.json
+    # With a map it is written, however long this machine takes to come to one.
+    code=6
+    for limit in 1 4 16 64 256; do
+        [ "$code" = 6 ] || break
+        # shellcheck disable=SC2086
+        "$taut" unwrap in.obj -o out.obj --stats stats.json --time-limit $limit $endless >out 2>err
+        code=$?
     done
+    [ "$code" = 8 ] || fail "exit code $code instead of 8 at the time limit"
+    says out '^stop .*time limit'
+    stopped time
 
-    # Ctrl-C in the middle of a run that would last for hours.
-    run_until '"phase":"optimize","iteration":[1-9]' unwrap in.obj -o out.obj --stats stats.json --tolerance 0 \
-        --iterations 1000000000 --solver gd
-    says out '^stop .*interrupted'
-    stopped user
+    for signal in INT TERM; do
+        rm -f out.obj stats.json
+        # shellcheck disable=SC2086
+        run_until '"phase":"optimize","iteration":[1-9]' $signal unwrap in.obj -o out.obj --stats stats.json \
+            --picture out.png $endless
+        says out '^stop .*interrupted'
+        says err 'out.png was not drawn'
+        absent out.png
+        stopped user
+    done
 
     # Of a problem that is interrupted, what is left has the name only if it is valid.
     star 200 >large.prob
-    run_until '"phase":"untangle","iteration":[1-9]' untangle large.prob -o map.txt --stats stats.json
+    run_until '"phase":"untangle","iteration":[1-9]' INT untangle large.prob -o map.txt --stats stats.json
     if [ -e map.txt ]; then written=map.txt inverted=0; else written=map.txt.invalid inverted='[1-9].*'; fi
     keys stats.json inverted
     says values "^inverted=$inverted\$"
@@ -734,7 +909,6 @@ test_pins()
     expect 3 unwrap in.obj -o no.obj --pins twice.csv
     says err 'twice.csv, line 2: vertex 0'
     expect 3 unwrap in.obj -o no.obj --pins missing.csv
-    expect 2 unwrap in.obj -o pins.csv --pins pins.csv
 }
 
 test_untangle()

@@ -81,6 +81,7 @@ public:
     {
         const auto use = state_->enter();
         (detail::require_fp64<typename detail::argument_traits<Args>::element>(*state_, "kernel " + name_), ...);
+        state_->ask_between_builds();
         kernel_ = state_->cache.find(source, name_, options);
         const auto expected = kernel_.get_info<cl_uint>(CL_KERNEL_NUM_ARGS);
         if (expected != sizeof...(Args))

@@ -212,9 +212,7 @@ void write_pins(const std::filesystem::path& path, std::span<const pin<D>> pins)
         append(p.weight);
         text += '\n';
     }
-    atomic_file file(path);
-    file.write(text);
-    file.commit();
+    write_file(path, text);
 }
 
 } // namespace taut::io

@@ -13,12 +13,11 @@
 namespace taut::io
 {
 
-/// Writes a map as text: a line a vertex, its coordinates with 17 significant digits, which read back bit for bit. The
-/// file appears complete or not at all. Throws io_error.
+/// Writes a map as text: a line a vertex, its coordinates with 17 significant digits, which read back bit for bit.
+/// Throws io_error.
 template <int D>
-void write_map(const std::filesystem::path& path, std::span<const vec<D>> x)
+void write_map(atomic_file& file, std::span<const vec<D>> x)
 {
-    atomic_file file(path);
     std::string text;
     for (const vec<D>& p : x)
     {
@@ -35,6 +34,14 @@ void write_map(const std::filesystem::path& path, std::span<const vec<D>> x)
         text.clear();
     }
     file.write(text);
+}
+
+/// The same to a file that appears complete or not at all.
+template <int D>
+void write_map(const std::filesystem::path& path, std::span<const vec<D>> x)
+{
+    atomic_file file(path);
+    write_map<D>(file, x);
     file.commit();
 }
 

@@ -83,16 +83,15 @@ void write_items(atomic_file& file, std::size_t n, const Append& append)
 } // namespace detail
 
 /// Writes a surface and a map of it to the plane as OBJ: the vertices in their order with values that read back bit
-/// for bit, one vt a vertex, faces v/vt. The file appears complete or not at all.
+/// for bit, one vt a vertex, faces v/vt.
 /// uv: one a vertex. extras: surface_file::extras, further text for the v lines; may be shorter than the vertices.
 /// Throws io_error; parameter_error if uv has another size.
-inline void write_obj(const std::filesystem::path& path, const mesh<triangle>& surface, std::span<const vec2> uv,
+inline void write_obj(atomic_file& file, const mesh<triangle>& surface, std::span<const vec2> uv,
                       std::span<const std::string> extras = {})
 {
     if (uv.size() != surface.points().size())
         throw parameter_error("uv", std::to_string(uv.size()) + " texture coordinates for " +
                                         std::to_string(surface.points().size()) + " vertices; give one a vertex");
-    atomic_file file(path);
     detail::write_items(file, uv.size(),
                         [&](std::string& text, std::size_t v)
                         {
@@ -106,6 +105,14 @@ inline void write_obj(const std::filesystem::path& path, const mesh<triangle>& s
                         });
     detail::write_items(file, surface.cells().size(),
                         [&](std::string& text, std::size_t c) { detail::append_face(text, surface.cells()[c]); });
+}
+
+/// The same to a file that appears complete or not at all.
+inline void write_obj(const std::filesystem::path& path, const mesh<triangle>& surface, std::span<const vec2> uv,
+                      std::span<const std::string> extras = {})
+{
+    atomic_file file(path);
+    write_obj(file, surface, uv, extras);
     file.commit();
 }
 

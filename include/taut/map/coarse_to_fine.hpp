@@ -17,7 +17,8 @@
 namespace taut
 {
 
-/// How the levels above the finest one are solved: roughly, since the next one changes everything a little.
+/// How the levels above the finest one are solved: roughly, since the next one changes everything a little. Before
+/// each one `start.proceed` is asked, too.
 struct coarse_to_fine_params
 {
     std::size_t start_vertices = 1000; ///< the start map is made on the finest level with at most so many
@@ -65,10 +66,13 @@ public:
             return fail("the coarse start has " +
                         detail::counted(start_.flips.flipped, "flipped triangle", "flipped triangles"));
         auto uv = std::move(start_.uv);
+        const auto stopped = [this] { return params_.start.proceed && !params_.start.proceed(); };
         if (params_.start.fixed_boundary) detail::scale_outline(levels_.hierarchy(), first, levels_.points(), uv);
         for (std::size_t l = first; l > 0; --l)
         {
+            if (stopped()) return fail("it was stopped");
             uv = minimised(l, plan(l), uv, l < first, observer(l));
+            if (stopped()) return fail("it was stopped");
             if (reports_.back().solve.stop == solve::stop::not_finite_start)
                 return fail("the energy is not finite on level " + std::to_string(l));
             auto finer = detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv),
@@ -90,7 +94,7 @@ private:
                                 bool relax, const solve::observer& ask)
     {
         typename level_solver<P, R>::level level(solver_, std::move(host), uv);
-        if (relax) level.relax();
+        if (relax && params_.stopping.max_iterations > 0) level.relax();
         auto stopping = params_.stopping;
         if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;
         auto r = level.minimize({.method = solve::method::newton, .stopping = stopping}, ask);

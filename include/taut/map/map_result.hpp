@@ -19,6 +19,7 @@ enum class outcome
 {
     valid,          ///< the map is certified; map_report::solve says why the optimisation ended
     no_valid_start, ///< no injective start was found; map_report::reason and ids say where
+    stopped,        ///< the time limit or the observer ended the run before there was a map; there are no coordinates
     infeasible,     ///< no map obeys the pins without flips; reason and ids are the proof
     gave_up ///< untangling did not succeed; the map has the fewest flipped elements that were seen, ids are theirs
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -44,12 +45,14 @@ public:
     map_result run()
     {
         report().seconds.setup += limits_.lap();
-        if (params_.uses_levels())
+        try
         {
-            levels_.emplace(in_.surface, in_.held.pinned());
-            report().seconds.hierarchy = limits_.lap();
+            phases();
         }
-        if (make_start()) optimize();
+        catch (const run_stopped&)
+        {
+            stop_short();
+        }
         if (report().outcome == outcome::valid && is_free()) place();
         subtract_counters();
         for (auto* points : {&result_.uv, &report().start.uv, &report().pin_origins})
@@ -65,6 +68,47 @@ private:
     }
 
     map_report& report() { return result_.report; }
+
+    void phases()
+    {
+        limits_.check();
+        if (params_.uses_levels())
+        {
+            levels_.emplace(in_.surface, in_.held.pinned(),
+                            hierarchy_params{.proceed = [this] { return limits_.proceed(); }});
+            report().seconds.hierarchy = limits_.lap();
+            limits_.check();
+        }
+        if (make_start()) optimize();
+    }
+
+    /// The limits ended the run outside of a minimisation: the best map of by then, if there is one.
+    void stop_short()
+    {
+        if (!certified_ && arrival_)
+        {
+            const auto start = levels_->order().vertices.undo(*arrival_);
+            result_.uv = start;
+            restore(start);
+        }
+        else if (!certified_)
+            result_.uv = report().start.uv;
+        if (!certified_ && !result_.uv.empty())
+        {
+            const means e = mean_over<triangle>(
+                in_.surface, in_.ideal, result_.uv, [this](const element<double, 2>& here)
+                { return here.det > 0 ? params_.energy(here) : std::numeric_limits<double>::infinity(); });
+            report().solve.value = params_.weights == energy::weighting::measure ? e.measure : e.uniform;
+            report().solve.value_start = report().solve.value;
+            certify_map();
+        }
+        report().solve.stop = limits_.reason();
+        report().outcome = certified_ ? outcome::valid : outcome::stopped;
+        if (certified_) return;
+        result_.uv.clear();
+        report().reason = limits_.reason() == solve::stop::time ? "the time limit came before there was a map"
+                                                                : "stopped before there was a map";
+    }
 
     bool starts_coarse() const
     {
@@ -85,13 +129,19 @@ private:
         const auto made = start_phase<Element>(queue_, in_, limits_, report()).run(params_);
         if (made == start_outcome::useless)
         {
+            limits_.check();
             params_.initial.clear();
             return make_start();
         }
         const auto& start = report().start;
         // Sums far from the origin cost digits, most of all in float.
         if (in_.held.constrained() || !params_.initial.empty()) centre_ = bounding_square(start.uv).centre;
-        if (made == start_outcome::ready) return true;
+        if (made == start_outcome::ready)
+        {
+            limits_.has_result(true);
+            limits_.check();
+            return true;
+        }
         report().flips = start.flips;
         result_.uv = start.uv;
         return false;
@@ -105,6 +155,8 @@ private:
         solve_in_turns(how);
         if (!certified_ && coarse_)
         {
+            limits_.has_result(false);
+            limits_.check();
             report().notes.push_back("the coarse start failed (" + coarse_reason_ + "); a barycentric start was made");
             coarse_ = false;
             arrival_.reset();
@@ -132,11 +184,14 @@ private:
         const bool chosen = params_.precision == precision::automatic;
         const bool done = attempt(how) && certified_ && (!chosen || accurate());
         if (done || how == precision::fp64 || !queue_.device().has_fp64()) return;
+        const int left = params_.solve.stopping.max_iterations - report().solve.iterations;
+        if (certified_ && left == 0) return;
         report().notes.push_back(certified_ ? "float could not reach the tolerance; continued in double"
                                             : "float could not hold this map; repeated in double");
         if (!certified_) arrival_.reset();
         const bool goes_on = certified_;
         auto before = report().solve;
+        if (goes_on) params_.solve.stopping.max_iterations = left; // the limit is one for both
         if (attempt(precision::fp64) && goes_on) report().solve = joined(std::move(before), std::move(report().solve));
     }
 
@@ -182,7 +237,10 @@ private:
         f.upload(centred(report().start.uv), x);
         report().seconds.setup += limits_.lap();
         // Drivers compile at the first launch; that is start-up, not solving.
-        f.warm_up(x);
+        {
+            const auto asked = ask_between_builds();
+            f.warm_up(x);
+        }
         report().seconds.device += limits_.lap();
         report().solve = solve::minimize(f, x, limited(), observer_on(0));
         result_.uv = f.download(x);
@@ -205,9 +263,12 @@ private:
         made_ahead<plan> plans(first + 1, [&, this](std::size_t k) { return plan(*levels_, first - k, form); });
         const auto take = [&](std::size_t l) { return plans.take(first - l); };
 
+        auto asked = ask_between_builds();
         solver_type solver(queue_, *levels_, params_.energy, params_.weights);
         solver.warm_up();
+        asked.reset();
         report().seconds.device += limits_.lap();
+        limits_.check();
         if (!arrival_)
         {
             coarse_to_fine<P, R> nested(*levels_, solver, how);
@@ -217,7 +278,8 @@ private:
         typename solver_type::level finest(solver, take(0), *arrival_,
                                            in_.held.beyond_pins(centre_).renumbered(numbers));
         report().seconds.setup += limits_.lap();
-        if (coarse_) finest.relax();
+        limits_.check();
+        if (coarse_ && iterates()) finest.relax();
         report().solve = finest.minimize(limited(), observer_on(0));
         for (int& c : report().solve.capping) c = levels_->order().cells.new_to_old[static_cast<std::size_t>(c)];
         auto uv = finest.download();
@@ -232,6 +294,7 @@ private:
     coarse_to_fine_params descent()
     {
         coarse_to_fine_params p;
+        p.stopping.max_iterations = std::min(p.stopping.max_iterations, params_.solve.stopping.max_iterations);
         p.start.boundary = params_.barycentric.boundary;
         p.start.fixed_boundary = params_.boundary == boundary_mode::fixed;
         p.start.proceed = [this] { return limits_.proceed(); };
@@ -248,7 +311,19 @@ private:
         report().seconds.start += limits_.lap();
         if (uv.empty()) return false;
         arrival_ = std::move(uv);
+        limits_.has_result(true);
+        limits_.check();
         return true;
+    }
+
+    /// Without iterations the start is returned as it is.
+    bool iterates() const { return params_.solve.stopping.max_iterations > 0; }
+
+    /// While it is held, the limits are asked between the kernels that are built.
+    std::shared_ptr<void> ask_between_builds()
+    {
+        queue_.state()->between_builds = [this] { limits_.check(); };
+        return {nullptr, [q = queue_](void*) { q.state()->between_builds = nullptr; }};
     }
 
     /// The user's observer, told where it is; on coarser levels it also keeps the time.

@@ -75,10 +75,11 @@ struct parameterize_params
     /// Method, line search, stopping. `solve.stopping.time_limit` is overruled by time_limit below.
     solve::params solve = {};
 
-    /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned.
+    /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned, or none (`stopped`).
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
-    /// Asked at every iterate and trial step, and between the rounds of the start map, whether to go on.
+    /// Asked at every iterate and trial step, between phases and between the steps of long ones, whether to go on.
+    /// progress::usable: whether there is a map that would be returned.
     solve::observer observer = {};
 
     /// Throws parameter_error that names the field.

@@ -26,7 +26,10 @@ inline std::array<std::complex<double>, 3> images_of_axes(const mesh<triangle>& 
     {
         const auto p = [&](std::size_t k) { return m.points()[static_cast<std::size_t>(t[k])]; };
         const auto q = [&](std::size_t k) { return uv[static_cast<std::size_t>(t[k])]; };
-        const vec3 normal = glm::normalize(glm::cross(p(1) - p(0), p(2) - p(0)));
+        const vec3 across = glm::cross(p(1) - p(0), p(2) - p(0));
+        const double twice_area = glm::length(across);
+        if (!(twice_area > 0)) continue; // too small to count
+        const vec3 normal = across / twice_area;
         // Area times gradient of the basis functions of corners 1 and 2; that of corner 0 is minus their sum.
         const vec3 one = glm::cross(normal, p(0) - p(2)) / 2.0, two = glm::cross(normal, p(1) - p(0)) / 2.0;
         const vec2 to_one = q(1) - q(0), to_two = q(2) - q(0);
@@ -63,11 +66,12 @@ inline std::complex<double> principal_direction(const mesh<triangle>& m, std::sp
     return third < 0 ? -axis : axis;
 }
 
-/// What must come to point up (along v) in a map. It is chosen by the surface and the map alone, and changes
-/// continuously with them but where the choice itself is even: by the first of the axes y, z, x that is seen in the
-/// map, at least half as well as the best seen one. Where none is (a torus cut open), the longer principal axis comes
-/// to lie along u.
-inline std::complex<double> up_direction(const mesh<triangle>& m, std::span<const vec2> uv)
+/// The turn, as a complex number, that puts a map upright: the first of the axes y, x, z that is seen in it, at least
+/// half as well as the best seen one, comes to point up if it is y or z, and to the right if it is x, so that a view
+/// along y from above is that of a map. Where none is seen (a torus cut open), the longer principal axis comes to lie
+/// along u. It follows from the surface and the map alone, and changes continuously with them but where the choice of
+/// the axis is even.
+inline std::complex<double> upright_turn(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     const auto images = images_of_axes(m, uv);
     double area = 0, seen = 0;
@@ -77,10 +81,13 @@ inline std::complex<double> up_direction(const mesh<triangle>& m, std::span<cons
         area += glm::length(glm::cross(p(1) - p(0), p(2) - p(0))) / 2;
     }
     for (const auto& image : images) seen = std::max(seen, std::abs(image));
-    if (seen > 0.01 * area)
-        for (const std::size_t k : {1, 2, 0})
-            if (std::abs(images[k]) >= seen / 2) return images[k] / std::abs(images[k]);
-    return principal_direction(m, uv) * std::complex<double>(0, 1);
+    const auto to = [](std::complex<double> wanted, std::complex<double> image)
+    { return wanted * std::conj(image) / std::abs(image); };
+    const std::complex<double> right = 1, up(0, 1);
+    if (!(seen > 0.01 * area)) return to(right, principal_direction(m, uv));
+    if (std::abs(images[1]) >= seen / 2) return to(up, images[1]);
+    if (std::abs(images[0]) >= seen / 2) return to(right, images[0]);
+    return to(up, images[2]);
 }
 
 /// A map in its place.
@@ -106,10 +113,10 @@ inline placed_map in_corner(std::vector<vec2> uv, double side)
     return {std::move(uv), side > 0 ? side / longer : 1};
 }
 
-/// Turns a map of m so that what must point up does.
+/// A map of m, put upright.
 inline std::vector<vec2> turned_up(const mesh<triangle>& m, std::vector<vec2> uv)
 {
-    const auto turn = std::complex<double>(0, 1) / up_direction(m, uv);
+    const auto turn = upright_turn(m, uv);
     for (vec2& p : uv)
     {
         const auto z = std::complex<double>(p.x, p.y) * turn;

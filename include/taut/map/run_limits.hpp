@@ -11,6 +11,11 @@
 namespace taut::detail
 {
 
+/// Ends a run in the middle of a phase, where its limits say so; caught by the run itself.
+struct run_stopped
+{
+};
+
 /// The clock of a run of several phases, and what may end it: its time limit and the user's observer.
 class run_limits
 {
@@ -26,9 +31,13 @@ public:
     bool in_time() const { return total() < limit_.count(); }
     seconds left() const { return std::max(limit_ - seconds(total()), seconds(0)); }
 
+    /// Whether a run that ends from now on has a result. The observer is told at the next question.
+    void has_result(bool usable) { usable_ = usable; }
+
     /// Who has once said no is not asked again, whatever the phase.
-    bool ask(const solve::progress& p)
+    bool ask(solve::progress p)
     {
+        p.usable = usable_;
         stopped_ = stopped_ || (observer_ && !observer_(p));
         return !stopped_;
     }
@@ -36,11 +45,20 @@ public:
     /// Between the steps of a phase that has no values to show.
     bool proceed() { return in_time() && ask({.seconds = total(), .iterate = false}); }
 
+    /// The same for who would not know how to go on: throws run_stopped.
+    void check()
+    {
+        if (!proceed()) throw run_stopped();
+    }
+
+    /// Why the run does not go on.
+    solve::stop reason() const { return stopped_ ? solve::stop::user : solve::stop::time; }
+
 private:
     stopwatch watch_;
     seconds limit_;
     solve::observer observer_;
-    bool stopped_ = false;
+    bool stopped_ = false, usable_ = false;
 };
 
 } // namespace taut::detail

@@ -58,6 +58,7 @@ private:
                            !in_.held.outline_pinned(in_.surface, in_.sides);
         if (!draft || !make_without_constraints(params))
         {
+            limits_.check();
             auto p = params;
             p.barycentric.proceed = [this] { return limits_.proceed(); };
             start() = parameterization_start(in_.surface, in_.ideal, in_.sides, p, in_.unit, report_.notes);
@@ -92,12 +93,13 @@ private:
         auto how = params.untangling;
         how.time_limit = limits_.left();
         how.observer = [this](const solve::progress&) { return limits_.proceed(); };
+        const bool bound = in_.held.constrained() || params.boundary == boundary_mode::fixed;
+        limits_.has_result(bound); // the best map, even with flips
         auto found = untangle(queue_, in_.held.problem(in_.surface, start().uv), how);
         report_.untangling = std::move(found.stages);
         const std::string before = counted(start().flips.flipped, "triangle of the start was flipped; ",
                                            "triangles of the start were flipped; ");
         const std::size_t branches = found ? branch_points(in_.surface, in_.sides, found.map).size() : 0;
-        const bool bound = in_.held.constrained() || params.boundary == boundary_mode::fixed;
         if (!bound && (!found || branches > 0))
         {
             report_.notes.push_back(before + "another start was made");

@@ -87,7 +87,15 @@ public:
         const auto mean = reductions_.dot(densities_, arrays_->weight, cell_count());
         host_.resize(cell_count());
         densities_.begin_download(std::span(host_));
-        reductions_.fetch();
+        try
+        {
+            reductions_.fetch();
+        }
+        catch (...)
+        {
+            clFinish(queue_.native()); // host_ may go, and the driver may still be writing to it
+            throw;
+        }
 
         result r{.worst = -reductions_.value(least)};
         const double limit = std::max(how.threshold * kernels_->rest, -how.above_mean * reductions_.value(mean));

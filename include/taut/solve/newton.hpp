@@ -153,7 +153,8 @@ private:
         if (!monitor_.proceed()) return monitor_.reason();
         model_ = pcg_.solve(
             g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
-            [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_);
+            [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_,
+            [this] { return monitor_.proceed(); });
         report_.products += model_.steps;
         return pending_ ? settle(model_.gradient_squared) : std::nullopt;
     }

@@ -18,6 +18,7 @@ struct progress
     int level = 0;       ///< of a nested iteration; 0: the problem itself
     bool iterate =
         true; ///< a new iterate; false: in the middle of a line search, the other fields are the last iterate's
+    bool usable = true; ///< a run that ends now has a result; false where one of several phases has none yet
 };
 
 /// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with

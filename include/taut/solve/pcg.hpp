@@ -63,6 +63,11 @@ struct pcg_result
 template <vector_space Space>
 class pcg
 {
+    struct always
+    {
+        bool operator()() const { return true; }
+    };
+
 public:
     using vector = typename Space::vector;
 
@@ -71,9 +76,10 @@ public:
     {
     }
 
-    /// A(v, out) and M(v, out) are the products, M symmetric positive definite on the space of g.
-    template <class Product, class Preconditioner>
-    pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d)
+    /// A(v, out) and M(v, out) are the products, M symmetric positive definite on the space of g. proceed() is asked
+    /// between blocks of steps; where it says no, d is what there is.
+    template <class Product, class Preconditioner, class Proceed = always>
+    pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d, Proceed&& proceed = {})
     {
         pcg_result result;
         std::size_t needed = 0; // steps until the last one brought little
@@ -81,6 +87,7 @@ public:
         for (bool more = true; more && result.steps < params_.max_steps;)
         {
             const bool first = result.steps == 0;
+            if (!first && !proceed()) break;
             const std::size_t s = std::min(size_, static_cast<std::size_t>(params_.max_steps - result.steps));
             make_block(s, A, M);
             const products in = multiply(first);

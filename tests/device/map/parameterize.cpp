@@ -295,7 +295,7 @@ TEST_CASE("parameterize: parameters outside their domain are named")
     CHECK(field_of({.solve = {.newton = {.relax_below = 2}}}) == "newton.relax_below");
 }
 
-TEST_CASE("parameterize: stopping for any reason leaves a valid map")
+TEST_CASE("parameterize: stopping for any reason leaves a valid map once there is one")
 {
     queue q;
     const auto m = test::bumpy(test::sized(40, 3), 0.5, 3);
@@ -304,25 +304,43 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map")
         const auto endless =
             solve::params{.method = method, .stopping = {.gradient_tolerance = 0, .max_iterations = 100000}};
 
-        for (const int questions : {1, 6, 20})
+        int asked = 0;
+        const auto until = [&](auto&& goes_on)
         {
-            int asked = 0;
-            const auto cancelled = parameterize(
-                q, m, {.solve = endless, .observer = [&](const solve::progress&) { return ++asked < questions; }});
-            CHECK(cancelled);
+            asked = 0;
+            return parameterize(q, m, {.solve = endless, .observer = [&](const solve::progress& p)
+                                                         { return goes_on(++asked, p.usable); }});
+        };
+        until([](int, bool usable) { return !usable; });
+        const int first = asked; // question with a map in hand
+        for (const int questions : {1, first - 1, first, first + 1, first + 5, first + 19})
+        {
+            CAPTURE(questions);
+            const auto cancelled = until([=](int question, bool) { return question < questions; });
             CHECK(asked == questions);
             CHECK(cancelled.report.solve.stop == solve::stop::user);
-            CHECK(certify<2>(m.cells(), cancelled.uv).flipped == 0);
+            CHECK(static_cast<bool>(cancelled) == (questions >= first));
+            if (cancelled)
+            {
+                CHECK(cancelled.uv.size() == m.points().size());
+                CHECK(certify<2>(m.cells(), cancelled.uv).flipped == 0);
+                CHECK(cancelled.report.solve.value >= 4);
+                continue;
+            }
+            CHECK(cancelled.report.outcome == outcome::stopped);
+            CHECK(cancelled.uv.empty());
+            CHECK(cancelled.reason() == "stopped before there was a map");
         }
 
-        const auto late = parameterize(q, m, {.solve = endless, .time_limit = 1ms});
-        CHECK(late);
+        const auto late = parameterize(q, m, {.solve = endless, .time_limit = 0s});
+        CHECK(late.report.outcome == outcome::stopped);
         CHECK(late.report.solve.stop == solve::stop::time);
-        CHECK(late.report.solve.iterations == 0);
+        CHECK(late.uv.empty());
 
         const auto none = parameterize(q, m, {.solve = {.method = method, .stopping = {.max_iterations = 0}}});
         CHECK(none);
         CHECK(none.report.solve.iterations == 0);
+        for (const auto& level : none.report.levels) CHECK(level.solve.iterations == 0);
     }
 }
 

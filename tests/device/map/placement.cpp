@@ -158,7 +158,7 @@ TEST_CASE("placement: a flat surface lies as it does in space, and up is up on a
     for (std::size_t v = 0; v < uv.size(); ++v)
         CHECK(glm::distance(uv[v], vec2(flat.points()[v].x, flat.points()[v].y)) < 1e-6);
 
-    // Around y, around z, and around x: the axis of the tube points up in the map.
+    // Around y and around z the tube stands, around x it lies.
     for (const int axis : {1, 2, 0})
     {
         const auto strip = with_points(test::grid(24, 8),
@@ -173,8 +173,24 @@ TEST_CASE("placement: a flat surface lies as it does in space, and up is up on a
                                        });
         const auto map = free_map(q, strip);
         for (std::size_t v = 0; v < map.size(); ++v)
-            CHECK(map[v].y == doctest::Approx(strip.points()[v][axis]).epsilon(1e-3));
+            CHECK(map[v][axis == 0 ? 0 : 1] == doctest::Approx(strip.points()[v][axis]).epsilon(1e-3));
     }
+}
+
+TEST_CASE("placement: a dome with y up lies as it is seen from above")
+{
+    queue q;
+    const auto dome = with_points(test::cap(8, 2), [](vec3 p) { return vec3(p.x, p.z, -p.y); });
+    const auto map = free_map(q, dome);
+    const auto at = [&](auto farthest)
+    {
+        const auto& p = dome.points();
+        const auto far =
+            std::max_element(p.begin(), p.end(), [&](vec3 a, vec3 b) { return farthest(a) < farthest(b); });
+        return map[static_cast<std::size_t>(far - p.begin())];
+    };
+    CHECK(at([](vec3 p) { return p.x; }).x > at([](vec3 p) { return -p.x; }).x + 1);
+    CHECK(at([](vec3 p) { return -p.z; }).y > at([](vec3 p) { return p.z; }).y + 1);
 }
 
 TEST_CASE("placement: a torus that was cut open shows no axis and lies along its longer side")

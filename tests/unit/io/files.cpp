@@ -146,74 +146,6 @@ TEST_CASE("write_obj: a large surface comes back the same")
     CHECK(back.vertex_texcoords() == flattened(m));
 }
 
-TEST_CASE("atomic_file: nothing is there before commit, and nothing is left without it")
-{
-    const temporary_folder folder;
-    {
-        io::atomic_file file(folder / "a.txt");
-        file.write("half");
-        CHECK_FALSE(std::filesystem::exists(folder / "a.txt"));
-    }
-    CHECK(folder.entries() == 0);
-    {
-        io::atomic_file file(folder / "a.txt");
-        file.write("one, ");
-        file.stream() << "two";
-        file.commit();
-    }
-    CHECK(folder.read(folder / "a.txt") == "one, two");
-    CHECK(folder.entries() == 1);
-}
-
-TEST_CASE("atomic_file: an older file stays until commit and is then replaced")
-{
-    const temporary_folder folder;
-    folder.write(folder / "a.txt", "old and long");
-    {
-        io::atomic_file abandoned(folder / "a.txt");
-        abandoned.write("new");
-    }
-    CHECK(folder.read(folder / "a.txt") == "old and long");
-    io::atomic_file file(folder / "a.txt");
-    file.write("new");
-    file.commit();
-    CHECK(folder.read(folder / "a.txt") == "new");
-    CHECK(folder.entries() == 1);
-}
-
-TEST_CASE("atomic_file: a link is followed, not replaced")
-{
-    const temporary_folder folder;
-    folder.write(folder / "real.txt", "old");
-    std::filesystem::create_symlink(folder / "real.txt", folder / "link.txt");
-    io::atomic_file file(folder / "link.txt");
-    file.write("new");
-    file.commit();
-    CHECK(std::filesystem::is_symlink(folder / "link.txt"));
-    CHECK(folder.read(folder / "real.txt") == "new");
-}
-
-TEST_CASE("atomic_file: what cannot be written is an error with the reason")
-{
-    const temporary_folder folder;
-    CHECK_THROWS_AS(io::atomic_file(folder / "missing" / "a.txt"), io::io_error);
-    std::filesystem::create_directory(folder / "d");
-    CHECK_THROWS_AS(io::atomic_file(folder / "d"), io::io_error);
-    CHECK(folder.entries() == 1);
-}
-
-TEST_CASE("atomic_file: a full disk is an error" * doctest::skip(!std::filesystem::exists("/dev/full")))
-{
-    io::atomic_file file("/dev/full");
-    const auto write_all = [&]
-    {
-        file.write(std::string(1 << 20, 'x'));
-        file.commit();
-    };
-    CHECK_THROWS_AS(write_all(), io::io_error);
-    CHECK_FALSE(std::filesystem::is_regular_file("/dev/full"));
-}
-
 TEST_CASE("write_obj: colours behind the positions of an OBJ come back as they were written")
 {
     const temporary_folder folder;
@@ -221,29 +153,4 @@ TEST_CASE("write_obj: colours behind the positions of an OBJ come back as they w
     const auto file = io::read_surface_file(folder / "a.obj");
     io::write_obj(folder / "b.obj", file.surface, flattened(file.surface), file.extras);
     CHECK(folder.read(folder / "b.obj").starts_with("v 0 0 0\nv 1 0 0 0.25 1 0.5\nv 0 1 0\nvt "));
-}
-
-TEST_CASE("atomic_file: a link to a file that is not there yet makes that file")
-{
-    const temporary_folder folder;
-    std::filesystem::create_symlink("target", folder / "link");
-    io::atomic_file f(folder / "link");
-    f.write("text");
-    f.commit();
-    CHECK(std::filesystem::is_symlink(folder / "link"));
-    CHECK(folder.read(folder / "target") == "text");
-}
-
-TEST_CASE("atomic_file: the longest legal name can be written, and a replaced file keeps its permissions")
-{
-    const temporary_folder folder;
-    const auto path = folder / std::string(255, 'n');
-    folder.write(path, "old");
-    std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
-    io::atomic_file f(path);
-    f.write("new");
-    f.commit();
-    CHECK(folder.read(path) == "new");
-    CHECK(std::filesystem::status(path).permissions() ==
-          (std::filesystem::perms::owner_read | std::filesystem::perms::owner_write));
 }

@@ -1,53 +1,144 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <csignal>
+#include <limits>
+#include <utility>
+
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "../../../tools/exit_codes.hpp"
-#include "../../../tools/interrupt.hpp"
+#include "../../../tools/interrupt.cpp" // it is not in a library of its own
 
-using taut::tools::exit_code;
-using taut::tools::interrupt_guard;
+using namespace taut::tools;
 
-TEST_CASE("interrupt: the first Ctrl-C only sets the flag, a new guard starts afresh")
+namespace
 {
-    {
-        const interrupt_guard guard;
-        CHECK(!guard.requested());
-        std::raise(SIGINT);
-        CHECK(guard.requested());
-    }
-    const interrupt_guard next;
-    CHECK(!next.requested());
-}
 
-TEST_CASE("interrupt: the second Ctrl-C kills")
+/// The exit code of a process that watches for interrupts and runs f, -1 if it was killed. 42 if f returns.
+template <class F>
+int exit_code_of(F&& f)
 {
-    const pid_t child = fork();
+    const pid_t child = ::fork();
     if (child == 0)
     {
-        const interrupt_guard guard;
-        std::raise(SIGINT);
-        if (!guard.requested()) _exit(1);
-        std::raise(SIGINT);
-        _exit(2);
+        ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
+        watch_interrupts();
+        f();
+        ::_exit(42);
     }
     int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    REQUIRE(WIFSIGNALED(status));
-    CHECK(WTERMSIG(status) == SIGINT);
+    if (::waitpid(child, &status, 0) != child) return -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST_CASE("interrupt: the handling of before is back afterwards")
+void send(int signal)
 {
-    struct sigaction before = {}, after = {};
-    sigaction(SIGINT, nullptr, &before);
+    ::kill(::getpid(), signal);
+}
+
+template <class Condition>
+void wait_for(Condition&& holds)
+{
+    for (int k = 0; k < 10000 && !holds(); ++k) ::usleep(1000);
+}
+
+void wait_for_the_end()
+{
+    wait_for([] { return false; });
+}
+
+} // namespace
+
+TEST_CASE("interrupt: with nothing to keep, a signal ends the program at once")
+{
+    for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)})
     {
-        const interrupt_guard guard;
+        CHECK(exit_code_of(
+                  [&]
+                  {
+                      send(signal);
+                      wait_for_the_end();
+                  }) == code);
+        CHECK(exit_code_of(
+                  [&]
+                  {
+                      keep(true);
+                      keep(false);
+                      send(signal);
+                      wait_for_the_end();
+                  }) == code);
     }
-    sigaction(SIGINT, nullptr, &after);
-    CHECK((before.sa_handler == after.sa_handler));
+}
+
+TEST_CASE("interrupt: with something to keep, the first signal asks and the second one ends the program")
+{
+    for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)})
+    {
+        CHECK(exit_code_of(
+                  [&]
+                  {
+                      keep(true);
+                      if (interrupted()) ::_exit(1);
+                      send(signal);
+                      wait_for(interrupted);
+                      if (!interrupted() || to_int(interruption()) != code) ::_exit(2);
+                      keep(false); // too late to change it
+                      if (!interrupted()) ::_exit(3);
+                  }) == 42);
+        CHECK(exit_code_of(
+                  [&]
+                  {
+                      keep(true);
+                      send(signal);
+                      wait_for(interrupted);
+                      send(signal);
+                      wait_for_the_end();
+                  }) == code);
+    }
+}
+
+TEST_CASE("interrupt: the handlers of others are not entered, nor do programs that were started notice")
+{
+    CHECK(exit_code_of(
+              []
+              {
+                  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { ::_exit(1); });
+                  keep(true);
+                  send(SIGINT);
+                  wait_for(interrupted);
+                  const pid_t child = ::fork();
+                  if (child == 0)
+                  {
+                      std::signal(SIGINT, SIG_DFL);
+                      send(SIGINT);
+                      ::_exit(7);
+                  }
+                  int status = 0;
+                  if (::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 7)
+                      ::_exit(2);
+              }) == 42);
+}
+
+TEST_CASE("interrupt: the time limit ends a program that has nothing to keep, and leaves another alone")
+{
+    CHECK(exit_code_of(
+              []
+              {
+                  limit_time(1e-3);
+                  wait_for_the_end();
+              }) == to_int(exit_code::no_valid_map));
+    CHECK(exit_code_of(
+              []
+              {
+                  keep(true);
+                  limit_time(0);
+                  ::usleep(20000);
+                  if (interrupted()) ::_exit(1);
+              }) == 42);
+    CHECK(exit_code_of([] { limit_time(std::numeric_limits<double>::infinity()); }) == 42);
 }
 
 TEST_CASE("exit codes: the documented numbers")
@@ -58,7 +149,9 @@ TEST_CASE("exit codes: the documented numbers")
     CHECK(to_int(exit_code::unsuitable_input) == 4);
     CHECK(to_int(exit_code::no_device) == 5);
     CHECK(to_int(exit_code::no_valid_map) == 6);
+    CHECK(to_int(exit_code::infeasible) == 7);
     CHECK(to_int(exit_code::time_limit) == 8);
     CHECK(to_int(exit_code::device_failure) == 9);
     CHECK(to_int(exit_code::interrupted) == 130);
+    CHECK(to_int(exit_code::terminated) == 143);
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -53,6 +54,17 @@ struct queue_state
     std::uint64_t live_bytes = 0; ///< sum of the sizes of the living buffers
     mutable sole_use::user user;
 
+    /// While it is set, it is called before each kernel is looked up and each launch, once the device is idle: for
+    /// warm-ups, in which drivers compile for seconds. What it throws passes through.
+    std::function<void()> between_builds;
+
+    void ask_between_builds()
+    {
+        if (!between_builds) return;
+        clFinish(commands.get());
+        between_builds();
+    }
+
     [[noreturn]] void fail(const std::string& operation, const std::string& reason, int code = 0) const
     {
         throw device_error(operation, reason, device.label(), code);
@@ -84,6 +96,7 @@ struct queue_state
     event launch(const boost::compute::kernel& kernel, const std::string& name, range r)
     {
         if (r.global == 0) return {};
+        ask_between_builds();
         if (r.local == 0)
         {
             const std::size_t usual = device.is_gpu() ? 128 : 64;

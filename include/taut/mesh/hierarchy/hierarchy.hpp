@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -22,6 +23,9 @@ struct hierarchy_params
     double factor = 8;       ///< vertices of a level / vertices of the next coarser one; 2 to 64
     index min_vertices = 50; ///< of the coarsest level, about; at least 3
     unsigned threads = 0;    ///< at most so many; 0: as many as the machine runs at once. The result does not change
+
+    /// Asked between rounds of thinning: go on? Once it says no, no further level is made.
+    std::function<bool()> proceed = {};
 
     /// Throws parameter_error with the name of a field outside its domain.
     void validate() const
@@ -85,7 +89,8 @@ inline hierarchy make_hierarchy(const mesh<triangle>& m, std::span<const char> k
         detail::thinning work(std::move(surface), params.threads);
         const double size = static_cast<double>(work.alive()), least = params.min_vertices;
         if (!(size > 1.5 * least)) break;
-        work.run(static_cast<std::size_t>(std::lround(std::max(size / params.factor, least))));
+        work.run(static_cast<std::size_t>(std::lround(std::max(size / params.factor, least))), params.proceed);
+        if (params.proceed && !params.proceed()) break;
         if (static_cast<double>(work.alive()) > 0.8 * size) break; // another level would cost more than it helps
 
         surface = work.coarse();

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -47,8 +48,8 @@ public:
 
     std::size_t alive() const { return alive_.size(); }
 
-    /// Removes vertices until `goal` are left or hardly any can go.
-    void run(std::size_t goal)
+    /// Removes vertices until `goal` are left or hardly any can go, or until proceed(), if given, says no.
+    void run(std::size_t goal, const std::function<bool()>& proceed = {})
     {
         // When few qualify the rules are relaxed, for the rest of the level.
         constexpr collapse_rules strictness[] = {{0.12, 4, 0.6, false},
@@ -59,6 +60,7 @@ public:
         std::size_t stage = 0;
         while (alive_.size() > goal)
         {
+            if (proceed && !proceed()) return;
             const std::size_t before = alive_.size();
             round(goal, strictness[stage]);
             if (static_cast<double>(before - alive_.size()) > 0.05 * static_cast<double>(before)) continue;
