@@ -234,7 +234,7 @@ command add_check(CLI::App& program)
     auto& app =
         *program.add_subcommand("check", "Say what is wrong with a surface, a problem or pins, without solving");
     add_path(app, "IN", options->input, standard_input,
-             "Surface (OBJ, OFF, PLY) as `unwrap` takes it, or problem (.prob)")
+             "Surface (OBJ, OFF, PLY) as `unwrap` takes it, or problem (.prob); - is standard input")
         ->required()
         ->type_name("FILE");
     using io::surface_format;

@@ -74,7 +74,8 @@ command add_eval(CLI::App& program)
 {
     const auto options = std::make_shared<eval_options>();
     auto& app = *program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
-    add_path(app, "IN", options->input, standard_input, "OBJ file with texture coordinates; seams are cut open")
+    add_path(app, "IN", options->input, standard_input,
+             "OBJ file with texture coordinates; seams are cut open; - is standard input")
         ->required()
         ->type_name("FILE");
     add_format(app, options->format);

@@ -285,11 +285,11 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
     const auto options = std::make_shared<untangle_options>();
     auto& app = *program.add_subcommand("untangle", "Make a map injective while some vertices stay where they are");
     add_path(app, "PROBLEM", options->input, standard_input,
-             "Problem: rest shape, initial map, cells and fixed vertices, as text")
+             "Problem, - is standard input: rest shape, initial map, cells and fixed vertices, as text")
         ->required()
         ->type_name("FILE.prob");
     add_path(app, "-o,--output", options->output, standard_output,
-             "Map to write: a vertex a line; OUT.invalid if it has flips left")
+             "Map to write: a vertex a line; OUT.invalid if it has flips left; - is standard output")
         ->required()
         ->type_name("OUT");
     add_time_limit(app, options->time_limit, "Give up after S seconds");

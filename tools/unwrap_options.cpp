@@ -105,11 +105,12 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 
 void declare(CLI::App& app, unwrap_options& o)
 {
-    add_path(app, "IN", o.input, standard_input, "Surface: OBJ, OFF or PLY; polygons are split into triangles")
+    add_path(app, "IN", o.input, standard_input,
+             "Surface: OBJ, OFF or PLY; - is standard input; polygons are split into triangles")
         ->required()
         ->type_name("FILE");
     add_path(app, "-o,--output", o.output, standard_output,
-             "OBJ to write: the vertices in their order, one vt a vertex")
+             "OBJ to write: the vertices in their order, one vt a vertex; - is standard output, here and below")
         ->required()
         ->type_name("OUT.obj");
     add_format(app, o.format);
