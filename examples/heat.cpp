@@ -97,8 +97,7 @@ try
     now.upload(hot);
     for (int k = 0; k < 200; ++k)
     {
-        in_c(n, now, next, starts, columns,
-             k < 100 ? 0.05 : 0.1); // arguments are checked by type and number, not by size
+        in_c(n, now, next, starts, columns, k < 100 ? 0.05 : 0.1);
         now.swap(next);
     }
     // [opencl]
