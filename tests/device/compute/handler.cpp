@@ -99,6 +99,7 @@ TEST_CASE("handler: misuse is refused in words")
         h.parallel_for(5, [=](auto i) { y[i] = x[i]; });
     };
     CHECK_THROWS_AS(q.submit(overlapping), taut::device_error);
+    const auto before = b.download();
     const auto beyond = [&](handler& h)
     {
         auto x = b.read_write(h);
@@ -109,7 +110,7 @@ TEST_CASE("handler: misuse is refused in words")
         doctest::Contains("launching doubled: argument 0 is used at [i] for 50 indices, and the buffer "
                           "has 5 elements"),
         taut::device_error);
-    CHECK(b.download() == std::vector<float>(5, 1.0f));
+    CHECK(b.download() == before);
     const auto nothing = [](handler&) {};
     CHECK(q.submit(nothing).complete());
 }
