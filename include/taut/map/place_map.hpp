@@ -40,7 +40,7 @@ inline std::array<std::complex<double>, 3> images_of_axes(const mesh<triangle>& 
     return images;
 }
 
-/// The direction of a map's longer principal axis, from the lighter to the heavier half, as a complex number.
+/// The direction of a map's longer principal axis, from the broad end to the thin one, as a complex number.
 inline std::complex<double> principal_direction(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     struct lump
