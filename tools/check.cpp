@@ -249,6 +249,7 @@ command add_check(CLI::App& program)
              "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
         ->type_name("FILE.csv");
     app.add_flag("--json", options->json, "Print JSON");
+    app.footer("exit codes: 0 nothing wrong; 2 usage; 3 unreadable input; 4 unsuitable input; 7 proved infeasible");
     return [options] { return run(*options); };
 }
 

@@ -80,6 +80,7 @@ command add_eval(CLI::App& program)
         ->type_name("FILE");
     add_format(app, options->format);
     app.add_flag("--json", options->json, "Print JSON");
+    app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");
     return [options] { return evaluate(*options); };
 }
 

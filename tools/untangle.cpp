@@ -181,9 +181,7 @@ private:
                 held = held && (!problem_->holds(v, k) || result.map[v][k] == problem_->initial[v][k]);
         const bool valid = held && report_.inverted == 0;
         report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
-        report_.code = interrupted()          ? interruption()
-                       : valid                ? exit_code::valid
-                                              : exit_code::no_valid_map;
+        report_.code = interrupted() ? interruption() : valid ? exit_code::valid : exit_code::no_valid_map;
         report_.reason = valid ? "" : held ? result.reason : "a pin has moved";
         report_.ids = std::move(result.ids);
         report_.least_det = result.flips.min_det;
@@ -300,6 +298,9 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
     add_path(app, "--picture", options->picture, standard_output, "Draw the map before and after, with its pins")
         ->type_name("FILE.png|.svg");
     add_progress(app, options->progress, options->quiet);
+    app.footer("exit codes: 0 injective map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+               "  6 not found, the best map is in OUT.invalid; 7 proved infeasible; 9 device failure; 130 interrupted, "
+               "143 terminated");
     return [options, launch] { return run(*options, launch); };
 }
 

@@ -37,7 +37,7 @@ namespace
 
 queue open_queue(const unwrap_options& options, std::vector<std::string>& notes)
 {
-    const bool need = options.precision == precision::full || options.precision == precision::mixed;
+    const bool need = options.precision == precision::fp64 || options.precision == precision::mixed;
     queue q =
         tools::open_queue(options.device, need); // a wish for double or mixed precision needs a device with double
     if (options.precision == precision::automatic && !q.device().has_fp64())
@@ -120,7 +120,7 @@ private:
         // The certificate of exactly what is written, taken by other code than the solver's.
         if (report_.after.quality.flips.flipped > 0)
             throw no_valid_map("the map has " + std::to_string(report_.after.quality.flips.flipped) +
-                               " flipped triangles; --precision double may succeed");
+                               " flipped triangles; --precision fp64 may succeed");
     }
 
     /// Never a folded map under the name that was asked for: the best one goes beside it.
@@ -162,14 +162,16 @@ private:
         const auto note_time = [&]
         {
             report_.seconds.total = clock_.now();
-            report_.seconds.write = report_.seconds.total - begin;
+            report_.seconds.write = report_.seconds.total - begin - report_.seconds.draw;
         };
         std::vector<io::file_to_write> files{
             {options_.output, [&](io::atomic_file& file) { io::write_obj(file, file_->surface, uv_, file_->extras); }}};
         if (drawn(options_.picture, report_.notes))
-            files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
+            files.push_back(
+                {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});
         if (drawn(options_.render, report_.notes))
-            files.push_back({options_.render, [&](io::atomic_file& file) { file.write(render()); }});
+            files.push_back(
+                {options_.render, [&](io::atomic_file& file) { file.write(timed([&] { return render(); })); }});
         if (!options_.stats.empty())
             files.push_back({options_.stats, [&](io::atomic_file& file)
                              {
@@ -186,6 +188,15 @@ private:
         writing([&] { io::write_files(files); });
         progress_.finish();
         remove_invalid(options_.output);
+    }
+
+    /// A picture, whose making is no part of the writing.
+    template <class Draw>
+    std::string timed(Draw&& draw)
+    {
+        std::string image;
+        report_.seconds.draw += clock_.timed([&] { image = draw(); });
+        return image;
     }
 
     std::string title() const { return std::filesystem::path(options_.input).filename().string(); }

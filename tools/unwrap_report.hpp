@@ -18,7 +18,7 @@ namespace taut::tools
 /// Wall-clock seconds of the phases that the library does not see.
 struct program_seconds
 {
-    double read = 0, queue = 0, quality = 0, write = 0, total = 0;
+    double read = 0, queue = 0, quality = 0, draw = 0, write = 0, total = 0;
 };
 
 /// Everything that a run of `taut unwrap` has to say.

@@ -8,6 +8,7 @@
 #include <taut/core/types.hpp>
 
 #include <taut/symbolic/differentiate.hpp>
+#include <taut/symbolic/loop.hpp>
 #include <taut/symbolic/recording.hpp>
 
 #include <taut/compute/handler.hpp>

@@ -227,7 +227,9 @@ test_usage()
     expect 2
     error_says 'subcommand' '--help'
     expect 2 flatten in.obj
-    error_says '--help'
+    error_says 'no subcommand flatten' '--help'
+    expect 2 unwarp in.obj
+    error_says 'no subcommand unwarp' 'did you mean unwrap'
     expect 2 unwrap in.obj
     error_says '--output is required' 'taut unwrap --help'
     expect 2 unwrap -o out.obj
@@ -237,10 +239,14 @@ test_usage()
     expect 2 unwrap in.obj -o out.obj --energy warm
     error_says '--energy' 'warm' 'isometric'
     expect 2 unwrap in.obj -o out.obj --iterations many
-    error_says '--iterations'
+    error_says '--iterations' 'many is no whole number'
+    expect 2 unwrap in.obj -o out.obj --time-limit 20,5
+    error_says '--time-limit' '20,5 is no number'
     for wrong in '--iterations -1' '--tolerance -1' '--tolerance 2' '--tolerance nan' '--time-limit 0' \
                  '--time-limit -3' '--time-limit nan' '--boundary circle --start uv' '--precision half' \
-                 '--solver simplex' '--start tube'; do
+                 '--solver simplex' '--start tube' \
+                 '--start conformal --boundary square' '--start coarse --solver lbfgs' '--up +z' '--front -y' \
+                 '--placement here' '--placement unit-square --boundary circle' '--placement as-solved --pins p.csv'; do
         # shellcheck disable=SC2086
         expect 2 unwrap in.obj -o out.obj $wrong
         error_says "${wrong%% *}"
@@ -564,13 +570,22 @@ test_unwrap()
                    '--start mean-value --spacing uniform' '--spacing centripetal' '--solver newton' \
                    '--solver mg-lbfgs' '--solver lbfgs' '--solver cg' '--solver gd --iterations 20' '--start auto' \
                    '--start coarse' '--start stretch' '--start tutte' '--start conformal' \
-                   '--start conformal --boundary circle' '--start coarse --solver lbfgs' '--precision auto' \
-                   '--precision double' '--precision float' '--precision mixed' '--iterations 0'; do
+                   '--precision auto' '--precision fp64' '--precision fp32' '--precision mixed' '--iterations 0'; do
         # shellcheck disable=SC2086
         expect 0 unwrap small.obj -o out.obj --quiet $options
         same_vertices small.obj out.obj
         valid_map out.obj
     done
+
+    # A free map lies with its lower left corner at the origin; in the unit square it fills one side.
+    expect 0 unwrap small.obj -o out.obj --quiet
+    awk '$1 == "vt" { if ($2 < 0 || $3 < 0) bad = 1; if ($2 == 0) ++left; if ($3 == 0) ++low } END { exit bad || !left || !low }' out.obj ||
+        fail "the corner of a free map is not at the origin"
+    expect 0 unwrap small.obj -o out.obj --quiet --placement unit-square --stats stats.json
+    awk '$1 == "vt" { m = $2 > m ? $2 : m; m = $3 > m ? $3 : m; if ($2 < 0 || $3 < 0) bad = 1 } END { exit bad || m != 1 }' out.obj ||
+        fail "a map does not fill the unit square"
+    keys stats.json scale flipped
+    says values '^flipped=0$'
 
     # All solvers that converge find the same minimum.
     least=
@@ -603,7 +618,7 @@ test_reports()
     silent err
     keys stats.json schema vertices faces device precision method.solver method.start stop iterations evaluations \
         gradients hessian_products energy_start energy flipped min_det max_det seconds.read seconds.device \
-        seconds.setup seconds.hierarchy seconds.start seconds.untangle seconds.solve seconds.write seconds.total \
+        seconds.setup seconds.hierarchy seconds.start seconds.untangle seconds.solve seconds.draw seconds.write seconds.total \
         launches waits peak_memory_bytes quality.isometric.by_area quality.isometric.mean \
         quality.shape.by_area quality.area.by_area quality.stretch_l2.rms quality.stretch_linf.max \
         quality.area_ratio.rms quality.angular quality.boundary_crossings
@@ -613,11 +628,11 @@ test_reports()
     for picture in layout.png render.png; do
         [ "$(od -An -tx1 -N8 "$picture" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$picture is no PNG"
     done
-    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision float --solver lbfgs \
+    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision fp32 --solver lbfgs \
         --iterations 3 --quiet
     says layout.svg '<svg ' '</svg>'
     keys stats.json precision stop iterations
-    says values '^precision=float$' '^stop=iterations$' '^iterations=3$'
+    says values '^precision=fp32$' '^stop=iterations$' '^iterations=3$'
 
     # A mesh with levels above the one of the start.
     grid 40 >large.obj

@@ -50,7 +50,7 @@ public:
                 entries += k == l ? D * (D + 1) / 2 : D * D;
             }
         if (entries * cell_stride >= static_cast<std::size_t>(none))
-            throw parameter_error("assembly_lists", "more than 2^31 entries of element blocks");
+            throw size_error("assembly_lists", "more than 2^31 entries of element blocks");
         if (cells.size() > 0) reach = (entries - 1) * cell_stride + cells.size();
 
         const auto is_fixed = [&](index v) { return !fixed.empty() && fixed[static_cast<std::size_t>(v)]; };

@@ -162,7 +162,7 @@ private:
             if (D < 2 || D > 3) throw parameter_error("D", "must be 2 or 3");
             if (host.slice != form.slice) throw parameter_error("pattern", "has other slices than the device wants");
             if (places * static_cast<std::size_t>(D * D) > static_cast<std::size_t>(std::numeric_limits<index>::max()))
-                throw parameter_error("block_matrix", "more than 2^31 values");
+                throw size_error("block_matrix", "more than 2^31 values");
             offsets = buffer<index>(q, host.offsets);
             columns = buffer<index>(q, host.columns);
             detail::load_block_kernel<T>(product, q, "product", D, form);

@@ -204,6 +204,7 @@ private:
                                  : what == slot::sums   ? "sums"
                                  : what == slot::minima ? "minima"
                                                         : "limit";
+        const auto use = queue_.state()->enter();
         auto& kernel = kernels_[std::is_same_v<T, double>][which];
         if (!kernel.get())
         {
@@ -238,7 +239,7 @@ private:
     static std::uint32_t as_uint(std::size_t n)
     {
         if (n > std::numeric_limits<std::int32_t>::max())
-            throw parameter_error("reductions", "more than 2^31 elements");
+            throw size_error("reductions", "more than 2^31 elements");
         return static_cast<std::uint32_t>(n);
     }
 

@@ -12,6 +12,7 @@
 #include <taut/map/level_report.hpp>
 #include <taut/map/level_solver.hpp>
 #include <taut/map/start/robust_start.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut
 {

@@ -43,12 +43,13 @@ struct map_report
     std::string reason;                          ///< why there is no valid map; empty if there is one
     std::vector<index> ids;                      ///< what the reason is about, see outcome
     std::vector<std::string> notes;              ///< what the library decided on its own
-    taut::precision precision = precision::full; ///< that the map was calculated in
+    taut::precision precision = precision::fp64; ///< that the map was calculated in
     start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
     std::vector<level_report> levels; ///< coarser levels, in their order in time
     std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
     std::vector<untangle_stage_report> untangling; ///< what it took to make the start injective
-    certificate flips;                             ///< of the map that is returned, exact: flips and branch points
+    double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
+    certificate flips;   ///< of the map that is returned, exact: flips and branch points
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run
@@ -71,7 +72,7 @@ inline std::ostream& operator<<(std::ostream& out, const map_report& r)
 /// A map and its report; `auto [uv, report] = parameterize(...)`.
 struct map_result
 {
-    std::vector<vec2> uv; ///< one a vertex, in the user's order and the units of the surface
+    std::vector<vec2> uv; ///< one a vertex, in the user's order; units and place by parameterize_params::placement
     map_report report;
 
     /// True if the map is certified: no triangle is flipped, and there is no branch point.

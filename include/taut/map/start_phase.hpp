@@ -11,6 +11,7 @@
 #include <taut/map/run_limits.hpp>
 #include <taut/map/run_surface.hpp>
 #include <taut/map/untangle/untangle.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut::detail
 {
@@ -58,7 +59,7 @@ private:
         {
             limits_.check();
             auto p = params;
-            p.start.proceed = [this] { return limits_.proceed(); };
+            p.barycentric.proceed = [this] { return limits_.proceed(); };
             start() = parameterization_start(in_.surface, in_.ideal, in_.sides, p, in_.unit, report_.notes);
         }
         if (!in_.held.constrained()) return;
@@ -73,6 +74,7 @@ private:
     bool make_without_constraints(parameterize_params p)
     {
         p.constraints = {};
+        p.placement = placement::as_solved;
         p.solve.stopping.gradient_tolerance = std::max(1e-3, p.solve.stopping.gradient_tolerance);
         p.time_limit = limits_.left();
         p.observer = [this](solve::progress now)

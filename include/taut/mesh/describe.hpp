@@ -15,13 +15,19 @@ namespace taut
 namespace detail
 {
 
+/// "1 triangle", "7 triangles"
+inline std::string counted(std::size_t n, const std::string& thing, const std::string& things)
+{
+    return std::to_string(n) + ' ' + (n == 1 ? thing : things);
+}
+
 /// "7 triangles (3, 14, 15, 92, 65, ...)" of n, whose first ids are known.
 inline std::string list_first_ids(const char* thing, const char* things, std::size_t n, const std::vector<index>& ids,
                                   std::size_t group = 1)
 {
     constexpr std::size_t most = 5;
     const std::size_t shown = std::min(ids.size() / group, most);
-    std::string s = std::to_string(n) + ' ' + (n == 1 ? thing : things) + " (";
+    std::string s = counted(n, thing, things) + " (";
     for (std::size_t g = 0; g < shown; ++g)
     {
         if (g > 0) s += ", ";

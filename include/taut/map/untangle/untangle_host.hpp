@@ -14,6 +14,7 @@
 #include <taut/map/untangle/margin.hpp>
 #include <taut/map/untangle/untangle_result.hpp>
 #include <taut/map/untangle/untangle_stages.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut
 {
