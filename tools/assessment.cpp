@@ -83,47 +83,6 @@ assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv)
     return a;
 }
 
-cut_surface cut_seams(const io::surface_file& file)
-{
-    const auto& cells = file.surface.cells();
-    std::vector<vec3> points = file.surface.points();
-    std::vector<vec2> uv(points.size(), vec2(0.0));
-    // Sheets of a vertex: a list through `next`, from the vertex itself on. Corners belong together if their texture
-    // coordinates agree in value; many programs write one `vt` a corner.
-    std::vector<index> next(points.size(), -1);
-    std::vector<char> used(points.size(), 0);
-    std::vector<mesh<triangle>::cell> cut = cells;
-    std::size_t seam_vertices = 0;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-            const index v = cells[c][k];
-            const index t = file.texcoord_cells.empty() ? -1 : file.texcoord_cells[c][k];
-            if (t < 0)
-                throw io::texcoord_error(v,
-                                         "triangle " + std::to_string(c) + " has a corner without texture coordinate");
-            const vec2 x = file.texcoords[at(t)];
-            if (!used[at(v)])
-            {
-                used[at(v)] = 1;
-                uv[at(v)] = x;
-            }
-            index sheet = v;
-            while (uv[at(sheet)] != x && next[at(sheet)] >= 0) sheet = next[at(sheet)];
-            if (uv[at(sheet)] != x)
-            {
-                if (sheet == v) ++seam_vertices;
-                next[at(sheet)] = static_cast<index>(points.size());
-                sheet = next[at(sheet)];
-                points.push_back(vec3(points[at(v)]));
-                uv.push_back(x);
-                next.push_back(-1);
-            }
-            cut[c][k] = sheet;
-        }
-    return {mesh<triangle>(std::move(points), std::move(cut)), std::move(uv), seam_vertices};
-}
-
 nlohmann::ordered_json finite(double x)
 {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);

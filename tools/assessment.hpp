@@ -10,7 +10,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/io/surface_file.hpp>
 #include <taut/map/quality.hpp>
 
 #include "text_table.hpp"
@@ -31,17 +30,6 @@ struct assessment
 
 /// Measures a map with one position a vertex.
 assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv);
-
-/// A surface cut open along the seams of its texture coordinates, so that each vertex has one.
-struct cut_surface
-{
-    mesh<triangle> surface;
-    std::vector<vec2> uv;
-    std::size_t seam_vertices = 0; ///< vertices of the file that lie on a seam
-};
-
-/// Throws io::texcoord_error if a corner has no texture coordinate.
-cut_surface cut_seams(const io::surface_file& file);
 
 /// The quality columns. What is not a finite number becomes null.
 nlohmann::ordered_json to_json(const assessment& a);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include <taut/io/cut_seams.hpp>
 #include <taut/io/read_surface.hpp>
 
 #include "assessment.hpp"
@@ -27,7 +28,7 @@ exit_code evaluate(const eval_options& options)
     const auto file = io::read_surface_file(options.input);
     if (file.texcoords.empty())
         throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
-    const auto cut = cut_seams(file);
+    const auto cut = io::cut_seams(file);
     auto a = assess(cut.surface, cut.uv);
     a.vertices = file.surface.vertex_count();
     a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());

@@ -135,7 +135,7 @@ private:
         if (map.ids.size() > 8) ids += ", ..";
         if (!map.ids.empty()) ids += ')';
         const std::string best = options_.output + ".invalid";
-        writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
+        writing([&] { io::write_obj(best, *file_, result.uv); });
         const std::string what = map.reason + ids + "; the best map is in " + best;
         if (interrupt_.requested()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
@@ -166,7 +166,7 @@ private:
     void write_files()
     {
         const auto& surface = file_->surface;
-        io::write_obj(options_.output, surface, uv_, file_->extras);
+        io::write_obj(options_.output, *file_, uv_);
         const std::string title = std::filesystem::path(options_.input).filename().string();
         if (!options_.picture.empty())
         {
