@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <taut/map/crossings.hpp>
 #include <taut/mesh/validate.hpp>
 
 namespace taut::tools
@@ -43,7 +42,7 @@ void look_at_boundary(assessment& a, const mesh<triangle>& surface, std::span<co
     }
     const auto loops = boundary_loops(surface, sides);
     a.boundaries = loops.size();
-    a.crossings = boundary_crossings(loops, uv);
+    a.crossings = count_boundary_crossings(loops, uv);
 }
 
 nlohmann::ordered_json to_json(const spread& s)
@@ -102,7 +101,9 @@ nlohmann::ordered_json to_json(const assessment& a)
     json["angular"] = finite(q.angular);
     json["scale"] = finite(q.scale);
     json["boundaries"] = a.boundaries;
-    json["boundary_crossings"] = a.crossings ? nlohmann::ordered_json(*a.crossings) : nlohmann::ordered_json(nullptr);
+    json["boundary_crossings"] =
+        a.crossings ? nlohmann::ordered_json(a.crossings->pairs) : nlohmann::ordered_json(nullptr);
+    json["all_crossings_counted"] = a.crossings && a.crossings->all;
     json["left_out"] = a.left_out;
     return json;
 }
@@ -117,8 +118,10 @@ void describe_validity(labelled_lines& lines, const assessment& a)
     lines.add("flipped", count(flips.flipped) + " of " + count(flips.elements) + first + "; det " +
                              number(flips.min_det) + " .. " + number(flips.max_det));
     lines.add("boundary", count(a.boundaries, "loop", "loops") + ", " +
-                              (a.crossings ? count(*a.crossings, "crossing", "crossings") : "crossings unknown") +
-                              (a.crossings.value_or(0) > 0 ? ": the flat parts overlap" : ""));
+                              (a.crossings ? std::string(a.crossings->all ? "" : "at least ") +
+                                                 count(a.crossings->pairs, "crossing", "crossings") +
+                                                 (a.crossings->pairs > 0 ? ": the flat parts overlap" : "")
+                                           : "crossings unknown"));
 }
 
 void print(std::ostream& out, const assessment& a)

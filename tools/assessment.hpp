@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <taut/map/crossings.hpp>
 #include <taut/map/quality.hpp>
 
 #include "text_table.hpp"
@@ -22,10 +23,11 @@ struct assessment
 {
     index vertices = 0; ///< of the surface
     taut::quality quality;
-    std::size_t left_out = 0;             ///< triangles without area at rest: counted in flips only
-    std::size_t boundaries = 0;           ///< boundary loops of the map, seams included
-    std::optional<std::size_t> crossings; ///< pairs of boundary edges that meet; unknown where an edge has 3 triangles
-    std::vector<std::string> notes;       ///< what could not be measured, and why
+    std::size_t left_out = 0;   ///< triangles without area at rest: counted in flips only
+    std::size_t boundaries = 0; ///< boundary loops of the map, seams included
+    std::optional<crossing_count>
+        crossings;                  ///< pairs of boundary edges that meet; unknown where an edge has 3 triangles
+    std::vector<std::string> notes; ///< what could not be measured, and why
 };
 
 /// Measures a map with one position a vertex.

@@ -29,7 +29,8 @@ exit_code evaluate(const eval_options& options)
     if (file.texcoords.empty())
         throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
     const auto cut = io::cut_seams(file);
-    auto a = assess(cut.surface, cut.uv);
+    auto a = cut ? assess(cut->surface, cut->uv) : assess(file.surface, file.vertex_texcoords());
+    const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
     a.vertices = file.surface.vertex_count();
     a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());
     const auto& flips = a.quality.flips;
@@ -41,7 +42,7 @@ exit_code evaluate(const eval_options& options)
         json["input"] = options.input;
         json["vertices"] = a.vertices;
         json["faces"] = flips.elements;
-        json["seam_vertices"] = cut.seam_vertices;
+        json["seam_vertices"] = seam_vertices;
         json["flipped"] = flips.flipped;
         json["flipped_ids"] = flips.ids;
         json["min_det"] = finite(flips.min_det);
@@ -53,10 +54,9 @@ exit_code evaluate(const eval_options& options)
     }
     for (const auto& note : a.notes) std::cerr << "taut: note: " << note << '\n';
     labelled_lines lines;
-    lines.add("mesh",
-              options.input + ": " + count(static_cast<std::size_t>(a.vertices), "vertex", "vertices") + ", " +
-                  count(flips.elements, "triangle", "triangles") +
-                  (cut.seam_vertices > 0 ? ", " + count(cut.seam_vertices, "vertex", "vertices") + " on seams" : ""));
+    lines.add("mesh", options.input + ": " + count(static_cast<std::size_t>(a.vertices), "vertex", "vertices") + ", " +
+                          count(flips.elements, "triangle", "triangles") +
+                          (seam_vertices > 0 ? ", " + count(seam_vertices, "vertex", "vertices") + " on seams" : ""));
     describe_validity(lines, a);
     std::cout << lines;
     print(std::cout, a);

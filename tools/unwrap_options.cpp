@@ -99,10 +99,10 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 
 void declare(CLI::App& app, unwrap_options& o)
 {
-    app.add_option("IN", o.input, "Surface: OBJ, OFF or PLY; polygons are split into triangles")
+    app.add_option("IN", o.input, "Surface: OBJ, OFF or PLY; cut open along the seams of its vt if it is no disk")
         ->required()
         ->type_name("FILE");
-    app.add_option("-o,--output", o.output, "OBJ to write: the vertices in their order, one vt a vertex")
+    app.add_option("-o,--output", o.output, "OBJ to write: the file as it is, with new vt")
         ->required()
         ->type_name("OUT.obj");
     declare_map(app, o);

@@ -162,7 +162,8 @@ void write_rewritten(Out& out, const obj_text& obj, std::span<const index> texco
 template <class Out>
 void write_converted(Out& out, const surface_file& file, std::span<const index> texcoords, std::span<const vec2> uv)
 {
-    const auto& [positions, colours, normals, comments] = file.vertices;
+    const text_list &positions = file.vertices.positions, &comments = file.vertices.comments;
+    const std::vector<vec3>&colours = file.vertices.colours, &normals = file.vertices.normals;
     const auto finite = [](double x) { return std::isfinite(x) ? x : 0.0; };
     write_items(out, comments.size(),
                 [&](std::string& text, std::size_t i)

@@ -102,16 +102,13 @@ struct polygon_soup
     /// Throws mesh_error as the constructor of mesh does.
     surface_file finish(const std::string& path) &&
     {
-        std::vector<std::array<index, 3>> cells, coord_cells;
+        std::vector<std::array<index, 3>> cells, coord_cells, triangles;
         cells.reserve(corners.size() > 2 * sizes.size() ? corners.size() - 2 * sizes.size() : 0);
         const bool coords = !texcoords.empty() && !corner_coords.empty();
-        if (coords)
-        {
-            corner_coords.resize(corners.size(), -1); // the last faces may have had none
-            coord_cells.reserve(cells.capacity());
-        }
-        else
-            corner_coords = {};
+        corner_coords.resize(corners.size(), -1); // the last faces may have had none
+        if (coords) coord_cells.reserve(cells.capacity());
+        const bool polygons = std::any_of(sizes.begin(), sizes.end(), [](index n) { return n != 3; });
+        if (polygons) triangles.reserve(cells.capacity());
 
         std::size_t split = 0, fans = 0, first = 0;
         ear_clipper clipper;
@@ -124,6 +121,9 @@ struct polygon_soup
                 if (coords)
                     coord_cells.push_back(
                         {corner_coords[first + a], corner_coords[first + b], corner_coords[first + c]});
+                if (polygons)
+                    triangles.push_back(
+                        {static_cast<index>(first + a), static_cast<index>(first + b), static_cast<index>(first + c)});
             };
             const auto n = static_cast<std::size_t>(size);
             if (n == 3)
@@ -153,7 +153,7 @@ struct polygon_soup
                     std::move(texcoords),
                     std::move(coord_cells),
                     std::move(notes),
-                    file_faces{std::move(sizes), std::move(corners), std::move(corner_coords)},
+                    file_faces{std::move(sizes), std::move(corners), std::move(triangles)},
                     std::move(carried)};
         }
         catch (const mesh_error& e)

@@ -23,12 +23,18 @@ private:
     index vertex_;
 };
 
-/// Faces as a file has them, before polygons are split.
+/// Faces as a file has them, before polygons are split into triangles.
 struct file_faces
 {
-    std::vector<index> sizes;     ///< corners of each
-    std::vector<index> corners;   ///< the vertex of each corner, one face after the other
-    std::vector<index> texcoords; ///< and its texture coordinate, -1: none; empty if the file has none
+    std::vector<index> sizes;                    ///< corners of each
+    std::vector<index> corners;                  ///< the vertex of each corner, one face after the other
+    std::vector<std::array<index, 3>> triangles; ///< the corners of each triangle; empty if all faces are triangles
+
+    /// The corner that corner k of triangle c is.
+    std::size_t corner(std::size_t c, std::size_t k) const
+    {
+        return triangles.empty() ? 3 * c + k : static_cast<std::size_t>(triangles[c][k]);
+    }
 };
 
 /// The text of an OBJ file, and what write_obj needs to find its way in it.

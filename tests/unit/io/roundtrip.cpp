@@ -137,24 +137,42 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
     // Vertices 1 and 2 lie on a seam; one vt a corner is none.
     const std::string text = head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 1\nvt 5 1\nf 1/1 2/2 3/3\nf 2/4 4/5 3/6\n";
     const auto file = io::parse_obj(text);
-    const auto cut = io::cut_seams(file);
+    const auto cut = io::cut_seams(file).value();
     CHECK(cut.surface.cells() == std::vector<std::array<taut::index, 3>>{{0, 1, 2}, {4, 3, 5}});
     CHECK(cut.surface.points()[5] == vec3(0, 1, 0));
     CHECK(cut.origins == std::vector<taut::index>{0, 1, 2, 3, 1, 2});
     CHECK(cut.uv == std::vector<vec2>{{0, 0}, {1, 0}, {0, 1}, {6, 1}, {5, 0}, {5, 1}});
     CHECK(cut.seam_vertices == 2);
-    const auto whole = io::cut_seams(io::parse_obj(head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt -0 1\n"
-                                                          "f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n"));
-    CHECK(whole.surface.vertex_count() == 4);
-    CHECK(whole.seam_vertices == 0);
+    CHECK_FALSE(io::cut_seams(io::parse_obj(head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt -0 1\n"
+                                                   "f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n")));
+    // Charts that share a texture coordinate at a vertex, but no edge, are apart: here two quads that both have all of
+    // the texture.
+    const auto tiles =
+        io::cut_seams(io::parse_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
+                                    "vt 1 1\nvt 0 1\nf 1/1 2/2 5/3 4/4\nf 2/2 3/1 6/4 5/1\n"))
+            .value();
+    CHECK(tiles.surface.vertex_count() == 8);
+    CHECK(tiles.seam_vertices == 2);
+    CHECK(std::vector<taut::index>(tiles.corners.begin(), tiles.corners.begin() + 4) ==
+          std::vector<taut::index>{0, 1, 4, 3});
+    CHECK(tiles.corners[4] + tiles.corners[7] == 6 + 7);
     CHECK_THROWS_AS(io::cut_seams(io::parse_obj(head + "vt 0 0\nf 1/1 2/1 3/1\nf 2/1 4 3/1\n")), io::texcoord_error);
+
+    // A polygon stays whole, though a third triangle meets its two halves where it is split.
+    const auto crowded =
+        io::parse_obj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 2 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 5 5\n"
+                      "f 1/5 3/5 5/5\nf 1/1 2/2 3/3 4/4\n");
+    const auto whole = io::cut_seams(crowded).value();
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK(whole.corners[crowded.faces.corner(c, k)] == whole.surface.cells()[c][k]);
 
     // The file says where each sheet of a vertex lies, and keeps its vertices.
     const temporary_folder folder;
     io::write_obj(folder / "out.obj", file, cut, numbered(6));
     CHECK(folder.read(folder / "out.obj") ==
           head + "vt 0 -1\nvt 1 -1\nvt 2 -1\nvt 3 -1\nvt 4 -1\nvt 5 -1\nf 1/1 2/2 3/3\nf 2/5 4/4 3/6\n");
-    const auto again = io::cut_seams(io::read_surface_file(folder / "out.obj"));
+    const auto again = io::cut_seams(io::read_surface_file(folder / "out.obj")).value();
     CHECK(again.surface.cells() == cut.surface.cells());
 }
 
