@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@
 #include "png.hpp"
 #include "progress.hpp"
 #include "run_clock.hpp"
+#include "seams.hpp"
 #include "shared_options.hpp"
 #include "unwrap_options.hpp"
 #include "unwrap_report.hpp"
@@ -62,6 +64,8 @@ public:
         tell("read");
         report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
+        cut_ = cut_open(*file_, {.one_boundary = !options_.holes}, options_.start == start_kind::uv);
+        if (cut_) report_.notes.push_back(describe(*cut_));
         read_pins();
         parameterize();
         write();
@@ -71,12 +75,24 @@ public:
 private:
     void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
 
+    /// What is mapped: the surface of the file, or that cut open.
+    const mesh<triangle>& surface() const { return cut_ ? cut_->surface : file_->surface; }
+
+    void write_obj(io::atomic_file& file, std::span<const vec2> uv) const
+    {
+        if (cut_)
+            io::write_obj(file, *file_, *cut_, uv);
+        else
+            io::write_obj(file, *file_, uv);
+    }
+
     void read_pins()
     {
         if (options_.pins.empty()) return;
-        const index count = file_->surface.vertex_count();
-        pins_ = constraints<triangle>(file_->surface);
-        add_pins(pins_, io::read_pins<2>(options_.pins, count));
+        const auto pins = io::read_pins<2>(options_.pins, file_->surface.vertex_count());
+        if (cut_) require_undivided(pins, *cut_);
+        pins_ = constraints<triangle>(surface());
+        add_pins(pins_, pins);
         report_.pins = pins_.pins().size();
         report_.springs = pins_.springs().size();
     }
@@ -109,14 +125,16 @@ private:
         if (std::isfinite(options_.time_limit))
             params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
         tell("start");
-        auto result = taut::parameterize(*q, file_->surface, params);
+        auto result = taut::parameterize(*q, surface(), params);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
         tell("measure");
-        report_.seconds.quality = clock_.timed([&] { report_.assess(options_, params, file_->surface, uv_); });
+        report_.seconds.quality = clock_.timed([&] { report_.assess(options_, params, surface(), uv_); });
+        report_.after.vertices = file_->surface.vertex_count();
+        report_.seam_vertices = cut_ ? cut_->seam_vertices : 0;
         // The certificate of exactly what is written, taken by other code than the solver's.
         if (report_.after.quality.flips.flipped > 0)
             throw no_valid_map("the map has " + std::to_string(report_.after.quality.flips.flipped) +
@@ -140,7 +158,14 @@ private:
         if (map.ids.size() > 8) ids += ", ..";
         if (!map.ids.empty()) ids += ')';
         const std::string best = name_of_invalid(options_.output);
-        if (!best.empty()) writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
+        if (!best.empty())
+            writing(
+                [&]
+                {
+                    io::atomic_file file(best);
+                    write_obj(file, result.uv);
+                    file.commit();
+                });
         const std::string what = map.reason + ids + (best.empty() ? "" : "; the best map is in " + best);
         if (interrupted()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
@@ -151,7 +176,7 @@ private:
         if (file_->texcoords.empty())
             throw unsuitable_input(options_.input +
                                    ": has no texture coordinates (vt) for --start uv; use --start tutte");
-        return file_->vertex_texcoords();
+        return cut_ ? cut_->uv : file_->vertex_texcoords();
     }
 
     /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
@@ -165,7 +190,7 @@ private:
             report_.seconds.write = report_.seconds.total - begin - report_.seconds.draw;
         };
         std::vector<io::file_to_write> files{
-            {options_.output, [&](io::atomic_file& file) { io::write_obj(file, file_->surface, uv_, file_->extras); }}};
+            {options_.output, [&](io::atomic_file& file) { write_obj(file, uv_); }}};
         if (drawn(options_.picture, report_.notes))
             files.push_back(
                 {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});
@@ -203,21 +228,19 @@ private:
 
     std::string picture() const
     {
-        const auto& surface = file_->surface;
-        const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
-        const auto loops = boundary_loops(surface);
+        const auto distortion = io::symmetric_distortion(surface().points(), surface().cells(), uv_);
+        const auto loops = boundary_loops(surface());
         const io::layout_style style{.title = title(), .energy = report_.energy, .note = report_.summary()};
         const auto overlay = constraints_overlay();
         if (extension(options_.picture) == ".svg")
-            return io::layout_svg(uv_, surface.cells(), distortion, loops, style, overlay);
-        return encode_png(io::layout_picture(uv_, surface.cells(), distortion, loops, style, overlay));
+            return io::layout_svg(uv_, surface().cells(), distortion, loops, style, overlay);
+        return encode_png(io::layout_picture(uv_, surface().cells(), distortion, loops, style, overlay));
     }
 
     std::string render() const
     {
-        const auto& surface = file_->surface;
         const io::render_style style{.title = title(), .up = options_.up, .front = options_.front};
-        return encode_png(io::render_picture(surface.points(), surface.cells(), uv_, style));
+        return encode_png(io::render_picture(surface().points(), surface().cells(), uv_, style));
     }
 
     io::layout_overlay constraints_overlay() const
@@ -237,6 +260,7 @@ private:
     run_clock clock_;
     progress progress_;
     std::optional<io::surface_file> file_;
+    std::optional<io::cut_surface> cut_;
     constraints<triangle> pins_;
     std::vector<vec2> uv_;
     unwrap_report report_;

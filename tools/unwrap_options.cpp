@@ -106,11 +106,11 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 void declare(CLI::App& app, unwrap_options& o)
 {
     add_path(app, "IN", o.input, standard_input,
-             "Surface: OBJ, OFF or PLY; - is standard input; polygons are split into triangles")
+             "Surface: OBJ, OFF or PLY; - is standard input; cut open along the seams of its vt if it is no disk")
         ->required()
         ->type_name("FILE");
     add_path(app, "-o,--output", o.output, standard_output,
-             "OBJ to write: the vertices in their order, one vt a vertex; - is standard output, here and below")
+             "OBJ to write: the file as it is, with new vt; - is standard output, here and below")
         ->required()
         ->type_name("OUT.obj");
     add_format(app, o.format);

@@ -116,6 +116,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["output"] = o.output;
     json["vertices"] = r.after.vertices;
     json["faces"] = flips.elements;
+    json["seam_vertices"] = r.seam_vertices;
     json["device"] = r.device;
     json["precision"] = to_string(r.map.precision);
     json["method"] = {{"energy", to_string(o.energy)},
@@ -173,8 +174,10 @@ std::string text_of(const unwrap_report& r, const unwrap_options& o)
     const auto& flips = r.after.quality.flips;
     const auto& s = r.map.solve;
     labelled_lines lines;
-    lines.add("mesh", o.input + ": " + count(static_cast<std::uint64_t>(r.after.vertices), "vertex", "vertices") +
-                          ", " + count(flips.elements, "triangle", "triangles"));
+    lines.add("mesh",
+              o.input + ": " + count(static_cast<std::uint64_t>(r.after.vertices), "vertex", "vertices") + ", " +
+                  count(flips.elements, "triangle", "triangles") +
+                  (r.seam_vertices > 0 ? ", " + count(r.seam_vertices, "vertex", "vertices") + " on seams" : ""));
     lines.add("device", r.device_label + ", " + to_string(r.map.precision));
     lines.add("start", (r.pins + r.springs > 0 ? "brought to the constraints" : describe_start(o)) + ": E " +
                            number(r.energy_before) + ", " + count(r.map.start.flips.flipped, "flip", "flips"));

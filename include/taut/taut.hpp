@@ -24,6 +24,7 @@
 
 #include <taut/solve/minimize.hpp>
 
+#include <taut/io/cut_seams.hpp>
 #include <taut/io/pins.hpp>
 #include <taut/io/prob.hpp>
 #include <taut/io/read_surface.hpp>
