@@ -55,6 +55,16 @@ nlohmann::ordered_json to_json(const means& m)
     return {{"by_area", finite(m.measure)}, {"mean", finite(m.uniform)}};
 }
 
+/// ": 5, 9, 12, ...", the first of n.
+std::string first_ids(const std::vector<index>& ids, std::size_t n)
+{
+    constexpr std::size_t most = 5;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(ids.size(), most); ++k)
+        text += (k == 0 ? ": " : ", ") + std::to_string(ids[k]);
+    return text + (n > most ? ", ..." : "");
+}
+
 } // namespace
 
 assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv)
@@ -72,9 +82,7 @@ assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv)
         const auto all = certify<2>(surface.cells(), uv);
         if (!solid.empty()) a.quality = measure_quality(mesh<triangle>(surface.points(), std::move(solid)), uv);
         // Which triangles are flipped does not depend on the surface; the range of det does.
-        a.quality.flips.elements = all.elements;
-        a.quality.flips.flipped = all.flipped;
-        a.quality.flips.ids = all.ids;
+        a.quality.flips.take_defects(all);
     }
     if (a.quality.flips.flipped == a.quality.flips.elements && a.quality.flips.max_det < 0)
         a.notes.push_back("the map is mirrored as a whole: negate u to turn it over");
@@ -121,12 +129,12 @@ nlohmann::ordered_json to_json(const assessment& a)
 void describe_validity(labelled_lines& lines, const assessment& a)
 {
     const auto& flips = a.quality.flips;
-    std::string first;
-    for (std::size_t k = 0; k < std::min<std::size_t>(flips.ids.size(), 5); ++k)
-        first += (k == 0 ? ": " : ", ") + std::to_string(flips.ids[k]);
-    if (!first.empty() && flips.flipped > 5) first += ", ...";
-    lines.add("flipped", count(flips.flipped) + " of " + count(flips.elements) + first + "; det " +
-                             number(flips.min_det) + " .. " + number(flips.max_det));
+    lines.add("flipped", count(flips.flipped) + " of " + count(flips.elements) + first_ids(flips.ids, flips.flipped) +
+                             "; det " + number(flips.min_det) + " .. " + number(flips.max_det));
+    lines.add("winding", flips.branched == 0
+                             ? "once around every inner vertex"
+                             : "more than once around " + count(flips.branched, "vertex", "vertices") +
+                                   first_ids(flips.branch_ids, flips.branched) + ": the map overlaps there");
     if (!a.measured) return;
     lines.add("boundary", count(a.boundaries, "loop", "loops") + ", " +
                               (a.crossings ? std::string(a.crossings->all ? "" : "at least ") +

@@ -55,7 +55,7 @@ struct check_report
     std::size_t vertices = 0, cells = 0;
     std::string cells_name = triangle::names;
     std::size_t pins = 0, springs = 0;
-    std::size_t inverted = 0; ///< cells of a problem's initial map
+    certificate map; ///< of a problem's initial map
     bool has_map = false;
     std::vector<finding> findings;
     exit_code code = exit_code::valid;
@@ -162,7 +162,7 @@ void check_problem(check_report& report, const check_options& options, io::prob_
     report.vertices = problem.rest.points().size();
     report.cells = problem.rest.cells().size();
     report.has_map = true;
-    report.inverted = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial)).flipped;
+    report.map = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial));
     // Untangling minds the shape of each cell alone; what else a surface may be is no obstacle.
     const mesh_requirements need{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
     for (const auto& f : taut::check(problem.rest, need))
@@ -208,7 +208,8 @@ nlohmann::ordered_json to_json(const check_report& r, const check_options& optio
     json["cells"] = r.cells;
     json["pins"] = r.pins;
     json["springs"] = r.springs;
-    json["inverted"] = r.has_map ? nlohmann::ordered_json(r.inverted) : nlohmann::ordered_json(nullptr);
+    json["inverted"] = r.has_map ? nlohmann::ordered_json(r.map.flipped) : nlohmann::ordered_json(nullptr);
+    json["branch_points"] = r.has_map ? nlohmann::ordered_json(r.map.branched) : nlohmann::ordered_json(nullptr);
     json["exit_code"] = to_int(r.code);
     json["findings"] = nlohmann::ordered_json::array();
     for (const auto& f : r.findings)
@@ -226,7 +227,9 @@ std::string text_of(const check_report& r, const check_options& options)
     if (r.vertices > 0)
         lines.add("input", options.input + ": " + r.kind + ", " + count(r.vertices, "vertex", "vertices") + ", " +
                                count(r.cells) + ' ' + r.cells_name);
-    if (r.has_map) lines.add("map", count(r.inverted) + " of " + count(r.cells) + " inverted at the start");
+    if (r.has_map)
+        lines.add("map", count(r.map.flipped) + " of " + count(r.cells) + " inverted at the start" +
+                             (r.map.branched > 0 ? ", " + count(r.map.branched, "branch point", "branch points") : ""));
     if (r.pins + r.springs > 0)
         lines.add("pins", count(r.pins, "pinned vertex", "pinned vertices") +
                               (r.springs > 0 ? ", " + count(r.springs, "spring", "springs") : ""));

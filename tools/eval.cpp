@@ -49,6 +49,8 @@ exit_code evaluate(const eval_options& options)
         json["seam_vertices"] = seam_vertices;
         json["flipped"] = flips.flipped;
         json["flipped_ids"] = flips.ids;
+        json["branch_points"] = flips.branched;
+        json["branch_point_ids"] = flips.branch_ids;
         json["min_det"] = finite(flips.min_det);
         json["max_det"] = finite(flips.max_det);
         json["quality"] = to_json(a);

@@ -51,6 +51,8 @@ struct layout_input
 io::layout_overlay overlay_of(const untangle_problem<triangle>& p, std::span<const vec2> x)
 {
     io::layout_overlay overlay;
+    for (const index v : branch_points(p.rest.cells(), x))
+        overlay.branch_points.push_back(x[static_cast<std::size_t>(v)]);
     for (std::size_t v = 0; v < x.size(); ++v)
         if (p.held[v] != 0) overlay.pins.push_back({x[v], x[v], true, p.held[v]});
     return overlay;
@@ -114,7 +116,7 @@ public:
         report_.elements = problem_->rest.cells().size();
         report_.pinned =
             static_cast<std::size_t>(std::count(problem_->held.begin(), problem_->held.end(), problem_->all));
-        report_.inverted_before = flips(problem_->initial);
+        report_.before = certified(problem_->initial);
         if (!prove_infeasible()) solve();
         write();
         if (report_.code == exit_code::infeasible) throw infeasible_problem(report_.reason);
@@ -127,7 +129,7 @@ public:
 private:
     void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
 
-    std::size_t flips(std::span<const vec<D>> x) const { return certify<D>(problem_->rest.cells(), x).flipped; }
+    certificate certified(std::span<const vec<D>> x) const { return certify<D>(problem_->rest.cells(), x); }
 
     /// Proofs need no device and no time, so they come first, and all of them are told.
     bool prove_infeasible()
@@ -139,7 +141,7 @@ private:
         if (!found) return false;
         report_.code = exit_code::infeasible;
         report_.outcome = "infeasible";
-        report_.inverted = report_.inverted_before;
+        report_.after = report_.before;
         report_.ids = found.proofs.front().ids;
         for (const auto& proof : found.proofs) report_.reason += (report_.reason.empty() ? "" : "\n  ") + proof.message;
         return true;
@@ -174,12 +176,12 @@ private:
     void take(untangle_result<Element> result)
     {
         // The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.
-        report_.inverted = flips(result.map);
+        report_.after = certified(result.map);
         bool held = true;
         for (std::size_t v = 0; v < problem_->held.size(); ++v)
             for (int k = 0; k < D; ++k)
                 held = held && (!problem_->holds(v, k) || result.map[v][k] == problem_->initial[v][k]);
-        const bool valid = held && report_.inverted == 0;
+        const bool valid = held && report_.after;
         report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
         report_.code = interrupted() ? interruption() : valid ? exit_code::valid : exit_code::no_valid_map;
         report_.reason = valid ? "" : held ? result.reason : "a pin has moved";
@@ -203,7 +205,7 @@ private:
             report_.seconds.write = report_.seconds.total - begin;
         };
         std::vector<io::file_to_write> files;
-        // A map with inverted elements never gets the name that was asked for.
+        // A map with defects never gets the name that was asked for.
         if (!map_.empty()) report_.written = valid_ ? options_.output : name_of_invalid(options_.output);
         if (!report_.written.empty())
             files.push_back({report_.written, [&](io::atomic_file& file) { io::write_map<D>(file, map_); }});
@@ -289,7 +291,7 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
         ->required()
         ->type_name("FILE.prob");
     add_path(app, "-o,--output", options->output, standard_output,
-             "Map to write: a vertex a line; OUT.invalid if it has flips left; - is standard output")
+             "Map to write: a vertex a line; OUT.invalid if it is not injective; - is standard output")
         ->required()
         ->type_name("OUT");
     add_time_limit(app, options->time_limit, "Give up after S seconds");

@@ -26,15 +26,20 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
     json["outcome"] = r.outcome;
     json["reason"] = r.reason;
     json["ids"] = r.ids;
-    json["inverted_start"] = r.inverted_before;
-    json["inverted"] = r.inverted;
+    json["inverted_start"] = r.before.flipped;
+    json["inverted"] = r.after.flipped;
+    json["branch_points_start"] = r.before.branched;
+    json["branch_points"] = r.after.branched;
     json["min_det"] = finite(r.least_det);
     json["min_relative_det"] = finite(r.least_relative_det);
     json["stage"] = r.stage;
     json["stages"] = nlohmann::ordered_json::array();
     for (const auto& s : r.stages)
-        json["stages"].push_back(
-            {{"name", s.name}, {"iterations", s.iterations}, {"seconds", s.seconds}, {"inverted", s.inverted}});
+        json["stages"].push_back({{"name", s.name},
+                                  {"iterations", s.iterations},
+                                  {"seconds", s.seconds},
+                                  {"inverted", s.inverted},
+                                  {"branch_points", s.branched}});
     json["seconds"] = {{"read", r.seconds.read},   {"check", r.seconds.check}, {"device", r.seconds.device},
                        {"solve", r.seconds.solve}, {"write", r.seconds.write}, {"total", r.seconds.total}};
     json["peak_memory_bytes"] = peak_memory();
@@ -49,7 +54,9 @@ std::string text_of(const untangle_report& r, const untangle_options& o)
     lines.add("problem", o.input + ": " + count(r.vertices, "vertex", "vertices") + ", " + count(r.elements) + ' ' +
                              r.element_names + ", " + count(r.pinned) + " vertices pinned");
     if (!r.device_label.empty()) lines.add("device", r.device_label);
-    lines.add("inverted", count(r.inverted_before) + " -> " + count(r.inverted) + " of " + count(r.elements));
+    lines.add("inverted", count(r.before.flipped) + " -> " + count(r.after.flipped) + " of " + count(r.elements));
+    if (r.before.branched + r.after.branched > 0)
+        lines.add("branch points", count(r.before.branched) + " -> " + count(r.after.branched));
     lines.add("outcome", r.outcome + (r.stage.empty() ? "" : ", by " + r.stage));
     std::string stages;
     for (const auto& s : r.stages)

@@ -33,7 +33,8 @@ struct untangle_report
     std::vector<index> ids;
     std::string written; ///< the file with the map; empty: none
     std::string device, device_label;
-    std::size_t vertices = 0, elements = 0, pinned = 0, inverted_before = 0, inverted = 0;
+    std::size_t vertices = 0, elements = 0, pinned = 0;
+    certificate before, after; ///< of the initial map and of the one that is written
     const char *element = "", *element_names = "";
     double least_det = unknown, least_relative_det = unknown; ///< of the map; unknown where nothing was solved
     std::string stage;

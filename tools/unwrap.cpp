@@ -136,9 +136,9 @@ private:
         report_.after.vertices = file_->surface.vertex_count();
         report_.seam_vertices = cut_ ? cut_->seam_vertices : 0;
         // The certificate of exactly what is written, taken by other code than the solver's.
-        if (report_.after.quality.flips.flipped > 0)
-            throw no_valid_map("the map has " + std::to_string(report_.after.quality.flips.flipped) +
-                               " flipped triangles; --precision fp64 may succeed");
+        if (!report_.after.quality.flips)
+            throw no_valid_map("the map has " + describe_defects<triangle>(report_.after.quality.flips) +
+                               "; --precision fp64 may succeed");
     }
 
     /// Never a folded map under the name that was asked for: the best one goes beside it.
@@ -189,8 +189,7 @@ private:
             report_.seconds.total = clock_.now();
             report_.seconds.write = report_.seconds.total - begin - report_.seconds.draw;
         };
-        std::vector<io::file_to_write> files{
-            {options_.output, [&](io::atomic_file& file) { write_obj(file, uv_); }}};
+        std::vector<io::file_to_write> files{{options_.output, [&](io::atomic_file& file) { write_obj(file, uv_); }}};
         if (drawn(options_.picture, report_.notes))
             files.push_back(
                 {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});

@@ -99,12 +99,7 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
     energy = by_area ? energy_end.measure : energy_end.uniform;
     after = tools::assess(surface, sized);
     // The certificate is that of exactly what is written.
-    if (map.scale != 1)
-    {
-        const auto written = certify<2>(surface.cells(), uv);
-        after.quality.flips.flipped = written.flipped;
-        after.quality.flips.ids = written.ids;
-    }
+    if (map.scale != 1) after.quality.flips.take_defects(certify<2>(surface.cells(), uv));
 }
 
 nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
@@ -131,6 +126,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
         json["untangling"].push_back({{"stage", stage.name},
                                       {"iterations", stage.iterations},
                                       {"inverted", stage.inverted},
+                                      {"branch_points", stage.branched},
                                       {"seconds", stage.seconds}});
     json["stop"] = identifier(r.map.solve.stop);
     json["iterations"] = r.map.solve.iterations;
@@ -141,6 +137,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["energy_start"] = finite(r.energy_before);
     json["energy"] = finite(r.energy);
     json["flipped"] = flips.flipped;
+    json["branch_points"] = flips.branched;
     json["min_det"] = finite(flips.min_det);
     json["max_det"] = finite(flips.max_det);
     json["seconds"] = {{"read", r.seconds.read},       {"device", r.seconds.queue + r.map.seconds.device},

@@ -34,6 +34,17 @@ struct certificate
     double max_det = 0; ///< largest det S
 
     std::size_t defects() const { return flipped + branched; }
+
+    /// Takes over what another one counted; the range of det stays.
+    void take_defects(const certificate& other)
+    {
+        elements = other.elements;
+        flipped = other.flipped;
+        ids = other.ids;
+        branched = other.branched;
+        branch_ids = other.branch_ids;
+    }
+
     explicit operator bool() const { return defects() == 0; }
 };
 

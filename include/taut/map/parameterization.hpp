@@ -94,9 +94,11 @@ private:
             result_.uv = report().start.uv;
         if (!certified_ && !result_.uv.empty())
         {
-            const means e = mean_over<triangle>(
-                in_.surface, in_.ideal, result_.uv, [this](const element<double, 2>& here)
-                { return here.det > 0 ? params_.energy(here) : std::numeric_limits<double>::infinity(); });
+            const means e = mean_over<triangle>(in_.surface, in_.ideal, result_.uv,
+                                                [this](const element<double, 2>& here) {
+                                                    return here.det > 0 ? params_.energy(here)
+                                                                        : std::numeric_limits<double>::infinity();
+                                                });
             report().solve.value = params_.weights == energy::weighting::measure ? e.measure : e.uniform;
             report().solve.value_start = report().solve.value;
             certify_map();
@@ -386,11 +388,8 @@ private:
             for (vec2& p : *points) p /= in_.unit;
         if (!result_.uv.empty()) in_.held.impose(result_.uv, 1);
         if (report().outcome != outcome::valid) return;
-        auto final = certify<2>(in_.surface.cells(), result_.uv);
-        if (final) return;
-        final.min_det = report().flips.min_det;
-        final.max_det = report().flips.max_det;
-        report().flips = std::move(final);
+        report().flips.take_defects(certify<2>(in_.surface.cells(), result_.uv));
+        if (report().flips) return;
         report().outcome = outcome::gave_up;
         report().refuse("the map in the units of the surface, which are too large or small for double precision,",
                         report().flips);

@@ -145,5 +145,3 @@ TEST_CASE("write_obj: a large surface comes back the same")
     CHECK(back.surface.points() == m.points());
     CHECK(back.vertex_texcoords() == flattened(m));
 }
-
-}

@@ -30,6 +30,9 @@ struct layout_pin
 struct layout_overlay
 {
     std::vector<layout_pin> pins = {};
+    std::vector<vec2> branch_points = {}; ///< places in uv that the map winds around more than once: magenta targets
+
+    bool empty() const { return pins.empty() && branch_points.empty(); }
 };
 
 namespace detail
@@ -86,6 +89,16 @@ inline std::vector<std::pair<bool, std::string>> pin_legend(const layout_overlay
     if (hard) entries.emplace_back(true, "pin");
     if (soft) entries.emplace_back(false, "spring");
     return entries;
+}
+
+/// Centres of the targets at branch points, in pixels.
+template <class Place>
+std::vector<vec2> branch_marks(const layout_overlay& overlay, const Place& place)
+{
+    std::vector<vec2> marks;
+    for (const vec2& p : overlay.branch_points)
+        if (drawable(p)) marks.push_back(place(p));
+    return marks;
 }
 
 /// The points that have to lie within the plot.

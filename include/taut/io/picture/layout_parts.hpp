@@ -70,19 +70,22 @@ inline std::string tick_label(const distortion_scale& scale, double tick)
 }
 
 /// Swatches below the legend's bar, only of colours that the picture contains.
-inline std::vector<std::pair<rgb, std::string>> legend_entries(const face_survey& faces)
+inline std::vector<std::pair<rgb, std::string>> legend_entries(const face_survey& faces, const layout_overlay& overlay)
 {
     std::vector<std::pair<rgb, std::string>> entries;
     if (!faces.flipped.empty()) entries.emplace_back(magenta, "flipped");
+    if (!overlay.branch_points.empty()) entries.emplace_back(magenta, "winds twice");
     if (faces.unknown > 0) entries.emplace_back(distortion_scale::unknown, "unknown");
     return entries;
 }
 
 /// The second line of a layout: "22,704 faces, 3 flipped, energy 4.12; distortion median ...".
-inline std::string layout_caption(const face_survey& faces, const layout_style& style)
+inline std::string layout_caption(const face_survey& faces, const layout_style& style, const layout_overlay& overlay)
 {
     std::string text = format_count(faces.faces) + (faces.faces == 1 ? " face, " : " faces, ");
     text += format_count(faces.flipped.size()) + " flipped";
+    if (const std::size_t n = overlay.branch_points.size(); n > 0)
+        text += ", " + format_count(n) + (n == 1 ? " branch point" : " branch points");
     if (style.energy) text += ", energy " + format_number(*style.energy);
     if (faces.undrawable > 0) text += ", " + format_count(faces.undrawable) + " not finite";
     if (faces.measured)

@@ -86,6 +86,11 @@ inline void draw_overlay(canvas& paper, const layout_frame& frame, const layout_
     for (const auto& mark : marks)
         if (mark.moved) paper.line(mark.from, mark.at, std::max(1.4 * frame.unit, 1.0), pin_color, 0.7);
     for (const auto& mark : marks) draw_mark(paper, mark, frame.unit);
+    for (const vec2& at : branch_marks(overlay, frame))
+    {
+        paper.line(at, at, 5 * frame.unit, magenta);
+        paper.ring(at, 9 * frame.unit, std::max(2.4 * frame.unit, 1.0), magenta);
+    }
 }
 
 inline void draw_legend(canvas& paper, const layout_frame& frame, const face_survey& faces,
@@ -110,7 +115,7 @@ inline void draw_legend(canvas& paper, const layout_frame& frame, const face_sur
     }
 
     double y = high.y + 40 * u;
-    for (const auto& [color, text] : legend_entries(faces))
+    for (const auto& [color, text] : legend_entries(faces, overlay))
     {
         paper.fill_rectangle(vec2(low.x, y - 15 * u), vec2(high.x, y + 3 * u), color);
         draw_text(paper, {high.x + 14 * u, y}, text, {.size = 17 * u, .color = ink});
@@ -134,8 +139,8 @@ inline void draw_legend(canvas& paper, const layout_frame& frame, const face_sur
 /// symmetric_distortion), or empty to draw plain faces. boundary_loops: closed vertex loops (see boundary_loops).
 /// A face is flipped when its determinant in uv, in double precision, is not positive. What is not finite is left out
 /// and counted in the caption; no input of the right shape is an error. overlay: constraints, drawn on top: pins
-/// filled, springs hollow, each at its target with a line from where its vertex is. Errors: parameter_error for a wrong
-/// number of distortions or a style outside its limits.
+/// filled, springs hollow, each at its target with a line from where its vertex is, branch points as magenta targets.
+/// Errors: parameter_error for a wrong number of distortions or a style outside its limits.
 inline image layout_picture(std::span<const vec2> uv, std::span<const std::array<index, 3>> cells,
                             std::span<const double> distortion, const std::vector<std::vector<index>>& boundary_loops,
                             const layout_style& style = {}, const layout_overlay& overlay = {})
@@ -158,10 +163,10 @@ inline image layout_picture(std::span<const vec2> uv, std::span<const std::array
 
     const double u = frame.unit;
     draw_text(paper, vec2(36, 48) * u, style.title, {.size = 28 * u, .weight = 0.1, .color = detail::ink});
-    draw_text(paper, vec2(36, 80) * u, detail::layout_caption(faces, style),
+    draw_text(paper, vec2(36, 80) * u, detail::layout_caption(faces, style, overlay),
               {.size = 17 * u, .color = detail::soft_ink});
     draw_text(paper, vec2(36, 106) * u, style.note, {.size = 17 * u, .color = detail::soft_ink});
-    if (!distortion.empty() || !faces.flipped.empty() || !overlay.pins.empty())
+    if (!distortion.empty() || !faces.flipped.empty() || !overlay.empty())
         detail::draw_legend(paper, frame, faces, scale, style, overlay);
     return paper.resolve();
 }

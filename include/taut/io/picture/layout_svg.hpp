@@ -134,6 +134,11 @@ inline void svg_mark(svg_writer& svg, const pin_mark& mark, double unit)
 /// Lines of displacement first, so that none runs over a pin.
 inline void svg_overlay(svg_writer& svg, const layout_frame& frame, const layout_overlay& overlay)
 {
+    for (const vec2& at : branch_marks(overlay, frame))
+        svg.raw("<circle cx=\"" + svg_writer::pixels(at.x) + "\" cy=\"" + svg_writer::pixels(at.y) + "\" r=\"" +
+                svg_writer::pixels(9 * frame.unit) + "\" fill=\"" + svg_writer::hex(magenta) +
+                "\" fill-opacity=\".4\" stroke=\"" + svg_writer::hex(magenta) + "\" stroke-width=\"" +
+                svg_writer::pixels(2.4 * frame.unit) + "\"/>\n");
     const auto marks = pin_marks(overlay, frame, frame.unit);
     if (marks.empty()) return;
     svg.begin_path("fill=\"none\" stroke-opacity=\".7\" stroke=\"" + svg_writer::hex(pin_color) + "\" stroke-width=\"" +
@@ -171,7 +176,7 @@ inline void svg_legend(svg_writer& svg, const layout_frame& frame, const face_su
         svg.words({high.x + 14 * u, y + 6 * u}, tick_label(scale, tick), 17 * u, ink);
     }
     double y = high.y + 40 * u;
-    for (const auto& [color, text] : legend_entries(faces))
+    for (const auto& [color, text] : legend_entries(faces, overlay))
     {
         svg.rectangle(vec2(low.x, y - 15 * u), vec2(high.x, y + 3 * u), color);
         svg.words({high.x + 14 * u, y}, text, 17 * u, ink);
@@ -211,9 +216,9 @@ inline std::string layout_svg(std::span<const vec2> uv, std::span<const std::arr
 
     const double u = frame.unit;
     svg.words(vec2(36, 48) * u, style.title, 28 * u, detail::ink, true);
-    svg.words(vec2(36, 80) * u, detail::layout_caption(faces, style), 17 * u, detail::soft_ink);
+    svg.words(vec2(36, 80) * u, detail::layout_caption(faces, style, overlay), 17 * u, detail::soft_ink);
     svg.words(vec2(36, 106) * u, style.note, 17 * u, detail::soft_ink);
-    if (!distortion.empty() || !faces.flipped.empty() || !overlay.pins.empty())
+    if (!distortion.empty() || !faces.flipped.empty() || !overlay.empty())
         detail::svg_legend(svg, frame, faces, scale, style, overlay);
     return svg.finish();
 }
