@@ -118,10 +118,11 @@ public:
         if (!prove_infeasible()) solve();
         write();
         if (report_.code == exit_code::infeasible) throw infeasible_problem(report_.reason);
-        if (report_.code == exit_code::no_valid_map)
-            throw no_valid_map(report_.reason +
-                               (report_.written.empty() ? "" : "; the best map is in " + report_.written));
-        return report_.code;
+        if (valid_) return report_.code;
+        const std::string why =
+            report_.reason + (report_.written.empty() ? "" : "; the best map is in " + report_.written);
+        if (interrupted()) throw interrupted_run(why);
+        throw no_valid_map(why);
     }
 
 private:
@@ -181,9 +182,7 @@ private:
                 held = held && (!problem_->holds(v, k) || result.map[v][k] == problem_->initial[v][k]);
         const bool valid = held && report_.inverted == 0;
         report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
-        report_.code = interrupted()          ? interruption()
-                       : valid                ? exit_code::valid
-                                              : exit_code::no_valid_map;
+        report_.code = interrupted() ? interruption() : valid ? exit_code::valid : exit_code::no_valid_map;
         report_.reason = valid ? "" : held ? result.reason : "a pin has moved";
         report_.ids = std::move(result.ids);
         report_.least_det = result.flips.min_det;

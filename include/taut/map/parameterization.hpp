@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -92,9 +93,11 @@ private:
             result_.uv = report().start.uv;
         if (!certified_ && !result_.uv.empty())
         {
-            const means e = mean_over<triangle>(
-                in_.surface, in_.ideal, result_.uv, [this](const element<double, 2>& here)
-                { return here.det > 0 ? params_.energy(here) : std::numeric_limits<double>::infinity(); });
+            const means e = mean_over<triangle>(in_.surface, in_.ideal, result_.uv,
+                                                [this](const element<double, 2>& here) {
+                                                    return here.det > 0 ? params_.energy(here)
+                                                                        : std::numeric_limits<double>::infinity();
+                                                });
             report().solve.value = params_.weights == energy::weighting::measure ? e.measure : e.uniform;
             report().solve.value_start = report().solve.value;
             certify_map();
