@@ -96,15 +96,15 @@ inline std::vector<solver> library_solvers(taut::queue& q)
     add("newton", true,                               // the same from the plain barycentric map
         [=](parameterize_params& p)
         {
-            p.first = taut::start_method::barycentric;
-            p.start = tutte;
+            p.start = taut::start_method::barycentric;
+            p.barycentric = tutte;
         });
     add("nested lbfgs", false, // the V-cycle of the start's Hessian as H0
         [=](parameterize_params& p)
         {
             p.solve.method = taut::solve::method::lbfgs;
             p.multigrid = true;
-            p.first = taut::start_method::coarse;
+            p.start = taut::start_method::coarse;
             without_end(p);
         });
     add("lbfgs", false,
@@ -117,7 +117,7 @@ inline std::vector<solver> library_solvers(taut::queue& q)
         [=](parameterize_params& p)
         {
             p.solve.method = taut::solve::method::conjugate_gradient;
-            p.start = tutte;
+            p.barycentric = tutte;
             without_end(p);
         });
     return table;

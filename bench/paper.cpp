@@ -39,7 +39,7 @@ nlohmann::ordered_json measure(queue& q, const std::string& name, const mesh<tri
     usage u;
     parameterize_params p;
     p.weights = energy::weighting::uniform;
-    p.start = {.boundary = {.shape = boundary_shape::circle, .spacing = boundary_spacing::chord},
+    p.barycentric = {.boundary = {.shape = boundary_shape::circle, .spacing = boundary_spacing::chord},
                .weights = barycentric_weights::uniform};
     p.precision = how.precision;
     p.solve.line_search.method = how.line_search;
@@ -94,10 +94,10 @@ try
     // at every trial (strong Wolfe), are what the same launches can buy.
     using enum solve::line_search_method;
     const variant variants[] = {
-        {"hybrid, 5 pairs", precision::full, hybrid, 5}, // the library's default for this method
+        {"hybrid, 5 pairs", precision::fp64, hybrid, 5}, // the library's default for this method
         {"the same, mixed", precision::mixed, hybrid, 5},
-        {"hybrid, 1 pair", precision::full, hybrid, 1}, // as in the authors' released code
-        {"Wolfe, 5 pairs", precision::full, strong_wolfe, 5}};
+        {"hybrid, 1 pair", precision::fp64, hybrid, 1}, // as in the authors' released code
+        {"Wolfe, 5 pairs", precision::fp64, strong_wolfe, 5}};
     std::printf("mesh             triangles  variant          its      E - 1  seconds    ms/it enqueues   waits  "
                 "values  stop\n");
     for (const auto& [name, m] : surfaces)

@@ -10,6 +10,7 @@ configure_package_config_file(cmake/taut-config.cmake.in ${PROJECT_BINARY_DIR}/t
                               INSTALL_DESTINATION ${taut_config_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/taut-config-version.cmake
                                  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
-install(FILES cmake/dependencies.cmake ${PROJECT_BINARY_DIR}/taut-config.cmake
+install(FILES cmake/dependencies.cmake cmake/separate.cmake cmake/separate.cpp
+              ${PROJECT_BINARY_DIR}/taut-config.cmake
               ${PROJECT_BINARY_DIR}/taut-config-version.cmake
         DESTINATION ${taut_config_dir})

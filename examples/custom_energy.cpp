@@ -24,6 +24,24 @@ struct mips_power
 };
 // [energy]
 
+// [plane]
+/// As rigid as possible, for triangles alone: |S - R|^2 with R the rotation that is nearest to S, and a barrier where S
+/// shrinks.
+struct rigid
+{
+    static constexpr bool barrier = true;
+
+    template <class T>
+    T operator()(const element<T, 2>& e) const
+    {
+        using std::log, std::sqrt;
+        const T square = norm2(e.S);
+        const T away = square - 2.0 * sqrt(square + 2.0 * e.det) + 2.0;
+        return away + select(e.det < T(1), e.det - 1.0 - log(e.det), T(0));
+    }
+};
+// [plane]
+
 /// A paraboloid over a square, as a grid of n x n quads, two triangles each.
 mesh<triangle> bowl(int n)
 {
@@ -52,11 +70,17 @@ int main()
 
     // [use]
     const auto mixed = 0.8 * isometric{} + 0.2 * mips_power{.p = 3};
-    if (!check_gradient<2>(mixed)) return 1; // derivative = function? only needed while you write the energy
+    if (const auto found = check_gradient<2>(mixed); !found) // only needed while you write the energy
+    {
+        std::cerr << found << '\n'; // which check failed, and how
+        return 1;
+    }
 
     auto [uv, report] =
         parameterize(q, surface, {.energy = mixed, .solve = {.stopping = {.gradient_tolerance = 1e-5}}});
     // [use]
-    std::cout << report << '\n';
+    const auto stiff = parameterize(q, surface, {.energy = rigid{}});
+    if (!check_gradient<2>(rigid{}) || !stiff) return 1;
+    std::cout << "rigid: " << stiff.report << '\n' << report << '\n';
     return report.outcome == outcome::valid ? 0 : 1;
 }

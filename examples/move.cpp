@@ -37,6 +37,7 @@ std::vector<taut::index> spread_out(const std::vector<vec2>& uv, const std::vect
 }
 
 int main(int argc, char** argv)
+try
 {
     if (argc < 2)
     {
@@ -91,4 +92,9 @@ int main(int argc, char** argv)
         io::write_file(argv[2], io::side_by_side_svg(pictures, size.width, size.height, 24));
     }
     std::cout << inside.size() << " vertices moved, " << folded << " triangles folded before; " << moved.report << '\n';
+}
+catch (const error& e)
+{
+    std::cerr << e.what() << '\n';
+    return 1;
 }

@@ -41,6 +41,7 @@ struct frame
 };
 
 int main(int argc, char** argv)
+try
 {
     if (argc < 3)
     {
@@ -75,4 +76,9 @@ int main(int argc, char** argv)
     }
     if (argc > 3) io::write_obj(argv[3], source, pasted.uv);
     std::cout << pasted.report << ", " << pins.pins().size() << " pins\n";
+}
+catch (const error& e)
+{
+    std::cerr << e.what() << '\n';
+    return 1;
 }

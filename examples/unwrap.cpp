@@ -4,6 +4,7 @@
 #include <taut/taut.hpp>
 
 int main(int argc, char** argv)
+try
 {
     auto mesh = taut::io::read_surface(argc > 1 ? argv[1] : "surface.obj");
     taut::queue queue; // $TAUT_DEVICE, else the best device
@@ -11,5 +12,10 @@ int main(int argc, char** argv)
     auto [uv, report] = taut::parameterize(queue, mesh); // certified: no triangle is flipped
     std::cout << queue.device() << '\n' << report << '\n';
     taut::io::write_obj("flat.obj", mesh, uv);
+}
+catch (const taut::error& e) // of the file, the mesh, the device: what is wrong, and the remedy
+{
+    std::cerr << e.what() << '\n';
+    return 1;
 }
 // [unwrap]

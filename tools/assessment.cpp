@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <taut/map/crossings.hpp>
 #include <taut/mesh/validate.hpp>
 
 namespace taut::tools
@@ -43,7 +42,7 @@ void look_at_boundary(assessment& a, const mesh<triangle>& surface, std::span<co
     }
     const auto loops = boundary_loops(surface, sides);
     a.boundaries = loops.size();
-    a.crossings = boundary_crossings(loops, uv);
+    a.crossings = count_boundary_crossings(loops, uv);
 }
 
 nlohmann::ordered_json to_json(const spread& s)
@@ -92,47 +91,6 @@ assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv)
     return a;
 }
 
-cut_surface cut_seams(const io::surface_file& file)
-{
-    const auto& cells = file.surface.cells();
-    std::vector<vec3> points = file.surface.points();
-    std::vector<vec2> uv(points.size(), vec2(0.0));
-    // Sheets of a vertex: a list through `next`, from the vertex itself on. Corners belong together if their texture
-    // coordinates agree in value; many programs write one `vt` a corner.
-    std::vector<index> next(points.size(), -1);
-    std::vector<char> used(points.size(), 0);
-    std::vector<mesh<triangle>::cell> cut = cells;
-    std::size_t seam_vertices = 0;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-            const index v = cells[c][k];
-            const index t = file.texcoord_cells.empty() ? -1 : file.texcoord_cells[c][k];
-            if (t < 0)
-                throw io::texcoord_error(v,
-                                         "triangle " + std::to_string(c) + " has a corner without texture coordinate");
-            const vec2 x = file.texcoords[at(t)];
-            if (!used[at(v)])
-            {
-                used[at(v)] = 1;
-                uv[at(v)] = x;
-            }
-            index sheet = v;
-            while (uv[at(sheet)] != x && next[at(sheet)] >= 0) sheet = next[at(sheet)];
-            if (uv[at(sheet)] != x)
-            {
-                if (sheet == v) ++seam_vertices;
-                next[at(sheet)] = static_cast<index>(points.size());
-                sheet = next[at(sheet)];
-                points.push_back(vec3(points[at(v)]));
-                uv.push_back(x);
-                next.push_back(-1);
-            }
-            cut[c][k] = sheet;
-        }
-    return {mesh<triangle>(std::move(points), std::move(cut)), std::move(uv), seam_vertices};
-}
-
 nlohmann::ordered_json finite(double x)
 {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
@@ -153,7 +111,9 @@ nlohmann::ordered_json to_json(const assessment& a)
     json["angular"] = finite(q.angular);
     json["scale"] = finite(q.scale);
     json["boundaries"] = a.boundaries;
-    json["boundary_crossings"] = a.crossings ? nlohmann::ordered_json(*a.crossings) : nlohmann::ordered_json(nullptr);
+    json["boundary_crossings"] =
+        a.crossings ? nlohmann::ordered_json(a.crossings->pairs) : nlohmann::ordered_json(nullptr);
+    json["all_crossings_counted"] = a.crossings && a.crossings->all;
     json["left_out"] = a.left_out;
     return json;
 }
@@ -169,8 +129,10 @@ void describe_validity(labelled_lines& lines, const assessment& a)
                              number(flips.min_det) + " .. " + number(flips.max_det));
     if (!a.measured) return;
     lines.add("boundary", count(a.boundaries, "loop", "loops") + ", " +
-                              (a.crossings ? count(*a.crossings, "crossing", "crossings") : "crossings unknown") +
-                              (a.crossings.value_or(0) > 0 ? ": the flat parts overlap" : ""));
+                              (a.crossings ? std::string(a.crossings->all ? "" : "at least ") +
+                                                 count(a.crossings->pairs, "crossing", "crossings") +
+                                                 (a.crossings->pairs > 0 ? ": the flat parts overlap" : "")
+                                           : "crossings unknown"));
 }
 
 void print(std::ostream& out, const assessment& a)

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/io/surface_file.hpp>
+#include <taut/map/crossings.hpp>
 #include <taut/map/quality.hpp>
 
 #include "text_table.hpp"
@@ -24,10 +24,11 @@ struct assessment
     index vertices = 0;   ///< of the surface
     bool measured = true; ///< false: nothing but quality.flips is known
     taut::quality quality;
-    std::size_t left_out = 0;             ///< triangles without area at rest: counted in flips only
-    std::size_t boundaries = 0;           ///< boundary loops of the map, seams included
-    std::optional<std::size_t> crossings; ///< pairs of boundary edges that meet; unknown where an edge has 3 triangles
-    std::vector<std::string> notes;       ///< what could not be measured, and why
+    std::size_t left_out = 0;   ///< triangles without area at rest: counted in flips only
+    std::size_t boundaries = 0; ///< boundary loops of the map, seams included
+    std::optional<crossing_count>
+        crossings;                  ///< pairs of boundary edges that meet; unknown where an edge has 3 triangles
+    std::vector<std::string> notes; ///< what could not be measured, and why
 };
 
 /// Measures a map with one position a vertex.
@@ -35,17 +36,6 @@ assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv);
 
 /// Counts its flips alone, for those in a hurry.
 assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv);
-
-/// A surface cut open along the seams of its texture coordinates, so that each vertex has one.
-struct cut_surface
-{
-    mesh<triangle> surface;
-    std::vector<vec2> uv;
-    std::size_t seam_vertices = 0; ///< vertices of the file that lie on a seam
-};
-
-/// Throws io::texcoord_error if a corner has no texture coordinate.
-cut_surface cut_seams(const io::surface_file& file);
 
 /// The quality columns, null if nothing was measured. What is not a finite number becomes null.
 nlohmann::ordered_json to_json(const assessment& a);

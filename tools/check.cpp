@@ -20,6 +20,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "outputs.hpp"
+#include "seams.hpp"
 #include "shared_options.hpp"
 #include "text_table.hpp"
 #include "writing.hpp"
@@ -81,19 +82,42 @@ void report_pins(check_report& report, const constraint_error& e, const io::pin<
     report.add({true, "pins", to_string(e.fault()), e.ids(), where + e.what()}, exit_code::unsuitable_input);
 }
 
-/// Adds the pins of the file one by one, so that each fault is found.
+/// Adds the pins of the file one by one, so that each fault is found. cut: of a surface that is cut open.
 template <class Element>
-void read_constraints(check_report& report, const std::string& path, constraints<Element>& pins, index vertices)
+void read_constraints(check_report& report, const std::string& path, constraints<Element>& pins, index vertices,
+                      const std::optional<io::cut_surface>& cut = {})
 {
     if (path.empty()) return;
     for (const auto& pin : io::read_pins<Element::dimension>(path, vertices)) try
         {
+            if constexpr (Element::dimension == 2)
+                if (cut) require_undivided({&pin, 1}, *cut);
             add_pins(pins, {pin});
         }
         catch (const constraint_error& e)
         {
             report_pins<Element>(report, e, &pin);
         }
+        catch (const unsuitable_input& e)
+        {
+            report.add({true, "pins", "seam", {pin.vertex}, e.what()}, exit_code::unsuitable_input);
+        }
+}
+
+/// The cut that `taut unwrap` makes. One that leaves no disk is a finding.
+std::optional<io::cut_surface> find_cut(check_report& report, const io::surface_file& file)
+{
+    try
+    {
+        auto cut = cut_open(file, {}, false);
+        if (cut) report.add({false, "file", "note", {}, describe(*cut)}, exit_code::valid);
+        return cut;
+    }
+    catch (const unsuitable_input& e)
+    {
+        report.add({true, "mesh", "seams", {}, e.what()}, exit_code::unsuitable_input);
+        return std::nullopt;
+    }
 }
 
 template <class Element>
@@ -114,13 +138,14 @@ void check_surface(check_report& report, const check_options& options)
 {
     report.kind = "surface";
     const auto file = io::read_surface_file(options.input, *options.format);
-    const auto& m = file.surface;
-    report.vertices = m.points().size();
-    report.cells = m.cells().size();
+    report.vertices = file.surface.points().size();
+    report.cells = file.surface.cells().size();
     for (const auto& note : file.notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
+    const auto cut = find_cut(report, file);
+    const auto& m = cut ? cut->surface : file.surface;
     for (const auto& f : taut::check(m)) report_mesh(report, f, true);
     auto pins = taut::constraints(m);
-    read_constraints(report, options.pins, pins, m.vertex_count());
+    read_constraints(report, options.pins, pins, file.surface.vertex_count(), cut);
     judge(report, m, std::vector<vec2>(m.points().size(), vec2(0.0)), pins);
 }
 
@@ -234,7 +259,7 @@ command add_check(CLI::App& program)
     auto& app =
         *program.add_subcommand("check", "Say what is wrong with a surface, a problem or pins, without solving");
     add_path(app, "IN", options->input, standard_input,
-             "Surface (OBJ, OFF, PLY) as `unwrap` takes it, or problem (.prob)")
+             "Surface (OBJ, OFF, PLY) as `unwrap` takes it, or problem (.prob); - is standard input")
         ->required()
         ->type_name("FILE");
     using io::surface_format;
@@ -249,6 +274,7 @@ command add_check(CLI::App& program)
              "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
         ->type_name("FILE.csv");
     app.add_flag("--json", options->json, "Print JSON");
+    app.footer("exit codes: 0 nothing wrong; 2 usage; 3 unreadable input; 4 unsuitable input; 7 proved infeasible");
     return [options] { return run(*options); };
 }
 

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include <taut/io/cut_seams.hpp>
 #include <taut/io/read_surface.hpp>
 
 #include "assessment.hpp"
@@ -31,8 +32,9 @@ exit_code evaluate(const eval_options& options)
     const auto file = io::read_surface_file(options.input, options.format);
     if (file.texcoords.empty())
         throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
-    const auto cut = cut_seams(file);
-    auto a = assess(cut.surface, cut.uv);
+    const auto cut = io::cut_seams(file);
+    auto a = cut ? assess(cut->surface, cut->uv) : assess(file.surface, file.vertex_texcoords());
+    const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
     a.vertices = file.surface.vertex_count();
     a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());
     const auto& flips = a.quality.flips;
@@ -44,7 +46,7 @@ exit_code evaluate(const eval_options& options)
         json["input"] = options.input;
         json["vertices"] = a.vertices;
         json["faces"] = flips.elements;
-        json["seam_vertices"] = cut.seam_vertices;
+        json["seam_vertices"] = seam_vertices;
         json["flipped"] = flips.flipped;
         json["flipped_ids"] = flips.ids;
         json["min_det"] = finite(flips.min_det);
@@ -56,10 +58,9 @@ exit_code evaluate(const eval_options& options)
     }
     for (const auto& note : a.notes) std::cerr << "taut: note: " << note << '\n';
     labelled_lines lines;
-    lines.add("mesh",
-              options.input + ": " + count(static_cast<std::size_t>(a.vertices), "vertex", "vertices") + ", " +
-                  count(flips.elements, "triangle", "triangles") +
-                  (cut.seam_vertices > 0 ? ", " + count(cut.seam_vertices, "vertex", "vertices") + " on seams" : ""));
+    lines.add("mesh", options.input + ": " + count(static_cast<std::size_t>(a.vertices), "vertex", "vertices") + ", " +
+                          count(flips.elements, "triangle", "triangles") +
+                          (seam_vertices > 0 ? ", " + count(seam_vertices, "vertex", "vertices") + " on seams" : ""));
     describe_validity(lines, a);
     std::ostringstream out;
     out << lines;
@@ -74,11 +75,13 @@ command add_eval(CLI::App& program)
 {
     const auto options = std::make_shared<eval_options>();
     auto& app = *program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
-    add_path(app, "IN", options->input, standard_input, "OBJ file with texture coordinates; seams are cut open")
+    add_path(app, "IN", options->input, standard_input,
+             "OBJ file with texture coordinates; seams are cut open; - is standard input")
         ->required()
         ->type_name("FILE");
     add_format(app, options->format);
     app.add_flag("--json", options->json, "Print JSON");
+    app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");
     return [options] { return evaluate(*options); };
 }
 

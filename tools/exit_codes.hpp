@@ -10,7 +10,7 @@ namespace taut::tools
 enum class exit_code : int
 {
     valid = 0,            ///< a valid map was written
-    usage = 2,            ///< unknown option, missing or wrong argument
+    usage = 2,            ///< unknown option, wrong argument, or an output that cannot be written; no file has changed
     unreadable_input = 3, ///< a file does not exist or cannot be understood
     unsuitable_input = 4, ///< a mesh or constraints that no map exists for: not a disk, contradicting pins, ...
     no_device = 5,        ///< no OpenCL device, or none that can do the work

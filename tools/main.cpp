@@ -23,6 +23,7 @@
 
 #include "commands.hpp"
 #include "failure.hpp"
+#include "help.hpp"
 #include "interrupt.hpp"
 #include "writing.hpp"
 
@@ -68,6 +69,10 @@ int guarded(const command& run)
     catch (const infeasible_problem& e)
     {
         return fail(exit_code::infeasible, "infeasible", e.what());
+    }
+    catch (const size_error& e)
+    {
+        return fail(exit_code::unsuitable_input, e.what());
     }
     catch (const parameter_error& e)
     {
@@ -122,12 +127,15 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     CLI::App program("Injective, low-distortion maps of triangle meshes to the plane, on any OpenCL device.", "taut");
     program.set_version_flag("--version", "taut " TAUT_VERSION_STRING);
     program.require_subcommand(1);
+    program.formatter(std::make_shared<wrapped_help>());
     program.footer("exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                    "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure;\n"
                    "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one by then");
 
     std::vector<command> commands{add_unwrap(program, launch), add_untangle(program, launch), add_check(program),
                                   add_eval(program), add_devices(program)};
+    if (const auto wrong = wrong_subcommand(program, argc, argv); !wrong.empty())
+        return fail(exit_code::usage, wrong, "`taut --help` lists them");
     try
     {
         program.parse(argc, argv);

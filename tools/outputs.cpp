@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <taut/io/atomic_file.hpp>
@@ -75,6 +76,26 @@ void outputs::protect(const std::string& what, const fs::path& input, const std:
     for (const auto& o : outputs_)
         if (o.option != but_for && same_file(o.path, input))
             throw usage_error(o.option + ' ' + o.path.string() + ": would overwrite " + what);
+}
+
+const char* outputs::place_of_report() const
+{
+    const char* place = standard_output_taken_ ? "/dev/stderr" : standard_output;
+    try
+    {
+        io::require_writable(place);
+    }
+    catch (const io::io_error& e)
+    {
+        throw usage_error(std::string(e.what()) + "; leave out the report with --quiet");
+    }
+    return place;
+}
+
+bool has_reader(const char* place_of_report)
+{
+    pollfd stream = {io::detail::resolve_target(place_of_report).number, POLLOUT, 0};
+    return ::poll(&stream, 1, 0) < 1 || (stream.revents & (POLLERR | POLLHUP)) == 0;
 }
 
 std::string extension(const fs::path& path)

@@ -25,8 +25,9 @@ public:
     /// what: "the input"; but_for: an option that may replace it.
     void protect(const std::string& what, const std::filesystem::path& input, const std::string& but_for = {}) const;
 
-    /// Where a report for people goes: standard output, or standard error if a file goes there.
-    const char* place_of_report() const { return standard_output_taken_ ? "/dev/stderr" : standard_output; }
+    /// Where a report for people goes: standard output, or standard error if a file goes there. Throws usage_error if
+    /// that is closed.
+    const char* place_of_report() const;
 
 private:
     struct output
@@ -37,6 +38,10 @@ private:
     std::vector<output> outputs_;
     bool standard_output_taken_ = false;
 };
+
+/// Whether somebody may read what is written to place_of_report(): who has closed the terminal or ended the pager must
+/// not lose the map.
+bool has_reader(const char* place_of_report);
 
 /// The extension in lower case, ".png".
 std::string extension(const std::filesystem::path& path);

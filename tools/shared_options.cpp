@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shared_options.hpp"
 
+#include <limits>
+
 #include "choices.hpp"
 #include "failure.hpp"
 
@@ -12,7 +14,19 @@ CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
     return {[=](const std::string& text)
             {
                 double x = 0;
-                return CLI::detail::lexical_cast(text, x) && holds(x) ? std::string() : text + ' ' + otherwise;
+                if (!CLI::detail::lexical_cast(text, x)) return text + " is no number";
+                return holds(x) ? std::string() : text + ' ' + otherwise;
+            },
+            ""};
+}
+
+CLI::Validator whole_number()
+{
+    return {[](const std::string& text)
+            {
+                int n = 0;
+                if (CLI::detail::lexical_cast(text, n) && n >= 0) return std::string();
+                return text + " is no whole number from 0 to " + std::to_string(std::numeric_limits<int>::max());
             },
             ""};
 }
@@ -46,9 +60,10 @@ void add_format(CLI::App& app, io::surface_format& format)
 
 void add_device(CLI::App& app, std::string& device)
 {
-    app.add_option("--device", device, "Number or part of the name of an OpenCL device, see `taut devices`")
-        ->type_name("D")
-        ->envname("TAUT_DEVICE");
+    app.add_option(
+           "--device", device,
+           "Number or part of the name of an OpenCL device, see `taut devices`; without it, $TAUT_DEVICE counts")
+        ->type_name("D");
 }
 
 void add_time_limit(CLI::App& app, double& seconds, const std::string& help)

@@ -14,8 +14,9 @@
 namespace taut::tools
 {
 
-/// A check whose message is a sentence; CLI11's own writes the range out to the last digit.
+/// Checks whose messages are sentences; CLI11's own write the range out to the last digit.
 CLI::Validator number_that(bool (*holds)(double), const char* otherwise);
+CLI::Validator whole_number();
 
 /// The name of a file; - stands for `stream`, standard_input or standard_output.
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& path, const char* stream,

@@ -217,7 +217,7 @@ private:
                                  note_time();
                                  file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
                              }});
-        if (!options_.quiet)
+        if (place_of_report_ && has_reader(place_of_report_))
             files.push_back({place_of_report_, [&](io::atomic_file& file)
                              {
                                  note_time();
@@ -248,7 +248,7 @@ private:
     run_clock clock_;
     progress& progress_;
     untangle_report report_;
-    const char* place_of_report_;
+    const char* place_of_report_; ///< null: there is none
     std::optional<untangle_problem<Element>> problem_;
     std::vector<vec<D>> map_;
     bool valid_ = false;
@@ -262,6 +262,7 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
     files.add("--stats", options.stats, {".json"});
     files.add("--picture", options.picture, {".png", ".svg"});
     files.protect("the input", options.input);
+    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
 
     const run_clock clock(launch);
     limit_time(options.time_limit - clock.now());
@@ -271,10 +272,9 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
     std::optional<decltype(io::read_any_prob({}))> file;
     report.seconds.read = clock.timed([&] { file = io::read_any_prob(options.input); });
     return std::visit(
-        [&]<class Element>(io::prob_file<Element>& problem)
-        {
+        [&]<class Element>(io::prob_file<Element>& problem) {
             return untangle_run<Element>(options, clock, progress, std::move(report),
-                                         files.place_of_report())(std::move(problem));
+                                         place_of_report)(std::move(problem));
         },
         *file);
 }
@@ -286,11 +286,11 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
     const auto options = std::make_shared<untangle_options>();
     auto& app = *program.add_subcommand("untangle", "Make a map injective while some vertices stay where they are");
     add_path(app, "PROBLEM", options->input, standard_input,
-             "Problem: rest shape, initial map, cells and fixed vertices, as text")
+             "Problem, - is standard input: rest shape, initial map, cells and fixed vertices, as text")
         ->required()
         ->type_name("FILE.prob");
     add_path(app, "-o,--output", options->output, standard_output,
-             "Map to write: a vertex a line; OUT.invalid if it has flips left")
+             "Map to write: a vertex a line; OUT.invalid if it has flips left; - is standard output")
         ->required()
         ->type_name("OUT");
     add_time_limit(app, options->time_limit, "Give up after S seconds");
@@ -299,6 +299,9 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
     add_path(app, "--picture", options->picture, standard_output, "Draw the map before and after, with its pins")
         ->type_name("FILE.png|.svg");
     add_progress(app, options->progress, options->quiet);
+    app.footer("exit codes: 0 injective map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+               "  6 not found, the best map is in OUT.invalid; 7 proved infeasible; 9 device failure; 130 interrupted, "
+               "143 terminated");
     return [options, launch] { return run(*options, launch); };
 }
 

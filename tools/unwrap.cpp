@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@
 #include "png.hpp"
 #include "progress.hpp"
 #include "run_clock.hpp"
+#include "seams.hpp"
 #include "shared_options.hpp"
 #include "unwrap_options.hpp"
 #include "unwrap_report.hpp"
@@ -37,7 +39,7 @@ namespace
 
 queue open_queue(const unwrap_options& options, std::vector<std::string>& notes)
 {
-    const bool need = options.precision == precision::full || options.precision == precision::mixed;
+    const bool need = options.precision == precision::fp64 || options.precision == precision::mixed;
     queue q =
         tools::open_queue(options.device, need); // a wish for double or mixed precision needs a device with double
     if (options.precision == precision::automatic && !q.device().has_fp64())
@@ -57,25 +59,40 @@ public:
     exit_code operator()()
     {
         const auto outputs = check(options_);
+        if (!options_.quiet) place_of_report_ = outputs.place_of_report();
         limit_time(options_.time_limit - clock_.now());
         tell("read");
         report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
+        cut_ = cut_open(*file_, {.one_boundary = !options_.holes}, options_.start == start_kind::uv);
+        if (cut_) report_.notes.push_back(describe(*cut_));
         read_pins();
         parameterize();
-        write(outputs.place_of_report());
+        write();
         return report_.code;
     }
 
 private:
     void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
 
+    /// What is mapped: the surface of the file, or that cut open.
+    const mesh<triangle>& surface() const { return cut_ ? cut_->surface : file_->surface; }
+
+    void write_obj(io::atomic_file& file, std::span<const vec2> uv) const
+    {
+        if (cut_)
+            io::write_obj(file, *file_, *cut_, uv);
+        else
+            io::write_obj(file, *file_, uv);
+    }
+
     void read_pins()
     {
         if (options_.pins.empty()) return;
-        const index count = file_->surface.vertex_count();
-        pins_ = constraints<triangle>(file_->surface);
-        add_pins(pins_, io::read_pins<2>(options_.pins, count));
+        const auto pins = io::read_pins<2>(options_.pins, file_->surface.vertex_count());
+        if (cut_) require_undivided(pins, *cut_);
+        pins_ = constraints<triangle>(surface());
+        add_pins(pins_, pins);
         report_.pins = pins_.pins().size();
         report_.springs = pins_.springs().size();
     }
@@ -108,18 +125,20 @@ private:
         if (std::isfinite(options_.time_limit))
             params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
         tell("start");
-        auto result = taut::parameterize(*q, file_->surface, params);
+        auto result = taut::parameterize(*q, surface(), params);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
         tell("measure");
-        report_.seconds.quality = clock_.timed([&] { report_.assess(options_, params, file_->surface, uv_); });
+        report_.seconds.quality = clock_.timed([&] { report_.assess(options_, params, surface(), uv_); });
+        report_.after.vertices = file_->surface.vertex_count();
+        report_.seam_vertices = cut_ ? cut_->seam_vertices : 0;
         // The certificate of exactly what is written, taken by other code than the solver's.
         if (report_.after.quality.flips.flipped > 0)
             throw no_valid_map("the map has " + std::to_string(report_.after.quality.flips.flipped) +
-                               " flipped triangles; --precision double may succeed");
+                               " flipped triangles; --precision fp64 may succeed");
     }
 
     /// Never a folded map under the name that was asked for: the best one goes beside it.
@@ -139,7 +158,14 @@ private:
         if (map.ids.size() > 8) ids += ", ..";
         if (!map.ids.empty()) ids += ')';
         const std::string best = name_of_invalid(options_.output);
-        if (!best.empty()) writing([&] { io::write_obj(best, file_->surface, result.uv, file_->extras); });
+        if (!best.empty())
+            writing(
+                [&]
+                {
+                    io::atomic_file file(best);
+                    write_obj(file, result.uv);
+                    file.commit();
+                });
         const std::string what = map.reason + ids + (best.empty() ? "" : "; the best map is in " + best);
         if (interrupted()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
@@ -150,33 +176,35 @@ private:
         if (file_->texcoords.empty())
             throw unsuitable_input(options_.input +
                                    ": has no texture coordinates (vt) for --start uv; use --start tutte");
-        return file_->vertex_texcoords();
+        return cut_ ? cut_->uv : file_->vertex_texcoords();
     }
 
     /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
-    void write(const char* place_of_report)
+    void write()
     {
         tell("write");
         const double begin = clock_.now();
         const auto note_time = [&]
         {
             report_.seconds.total = clock_.now();
-            report_.seconds.write = report_.seconds.total - begin;
+            report_.seconds.write = report_.seconds.total - begin - report_.seconds.draw;
         };
         std::vector<io::file_to_write> files{
-            {options_.output, [&](io::atomic_file& file) { io::write_obj(file, file_->surface, uv_, file_->extras); }}};
+            {options_.output, [&](io::atomic_file& file) { write_obj(file, uv_); }}};
         if (drawn(options_.picture, report_.notes))
-            files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
+            files.push_back(
+                {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});
         if (drawn(options_.render, report_.notes))
-            files.push_back({options_.render, [&](io::atomic_file& file) { file.write(render()); }});
+            files.push_back(
+                {options_.render, [&](io::atomic_file& file) { file.write(timed([&] { return render(); })); }});
         if (!options_.stats.empty())
             files.push_back({options_.stats, [&](io::atomic_file& file)
                              {
                                  note_time();
                                  file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
                              }});
-        if (!options_.quiet)
-            files.push_back({place_of_report, [&](io::atomic_file& file)
+        if (place_of_report_ && has_reader(place_of_report_))
+            files.push_back({place_of_report_, [&](io::atomic_file& file)
                              {
                                  note_time();
                                  progress_.finish();
@@ -187,25 +215,32 @@ private:
         remove_invalid(options_.output);
     }
 
+    /// A picture, whose making is no part of the writing.
+    template <class Draw>
+    std::string timed(Draw&& draw)
+    {
+        std::string image;
+        report_.seconds.draw += clock_.timed([&] { image = draw(); });
+        return image;
+    }
+
     std::string title() const { return std::filesystem::path(options_.input).filename().string(); }
 
     std::string picture() const
     {
-        const auto& surface = file_->surface;
-        const auto distortion = io::symmetric_distortion(surface.points(), surface.cells(), uv_);
-        const auto loops = boundary_loops(surface);
+        const auto distortion = io::symmetric_distortion(surface().points(), surface().cells(), uv_);
+        const auto loops = boundary_loops(surface());
         const io::layout_style style{.title = title(), .energy = report_.energy, .note = report_.summary()};
         const auto overlay = constraints_overlay();
         if (extension(options_.picture) == ".svg")
-            return io::layout_svg(uv_, surface.cells(), distortion, loops, style, overlay);
-        return encode_png(io::layout_picture(uv_, surface.cells(), distortion, loops, style, overlay));
+            return io::layout_svg(uv_, surface().cells(), distortion, loops, style, overlay);
+        return encode_png(io::layout_picture(uv_, surface().cells(), distortion, loops, style, overlay));
     }
 
     std::string render() const
     {
-        const auto& surface = file_->surface;
         const io::render_style style{.title = title(), .up = options_.up, .front = options_.front};
-        return encode_png(io::render_picture(surface.points(), surface.cells(), uv_, style));
+        return encode_png(io::render_picture(surface().points(), surface().cells(), uv_, style));
     }
 
     io::layout_overlay constraints_overlay() const
@@ -225,9 +260,11 @@ private:
     run_clock clock_;
     progress progress_;
     std::optional<io::surface_file> file_;
+    std::optional<io::cut_surface> cut_;
     constraints<triangle> pins_;
     std::vector<vec2> uv_;
     unwrap_report report_;
+    const char* place_of_report_ = nullptr; ///< null: there is none
 };
 
 } // namespace

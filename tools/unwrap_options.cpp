@@ -28,7 +28,7 @@ void declare_map(CLI::App& app, unwrap_options& o)
         {{"free", boundary_kind::free}, {"circle", boundary_kind::circle}, {"square", boundary_kind::square}},
         "Let the boundary move, or keep it on a circle or square");
     add_choice<energy::weighting>(app, "--weights", o.weights,
-                                  {{"area", energy::weighting::measure}, {"uniform", energy::weighting::uniform}},
+                                  {{"measure", energy::weighting::measure}, {"uniform", energy::weighting::uniform}},
                                   "Weight of a triangle: its area, or 1");
     add_choice<start_kind>(
         app, "--start", o.start,
@@ -46,6 +46,11 @@ void declare_map(CLI::App& app, unwrap_options& o)
                                   {"uniform", boundary_spacing::uniform},
                                   {"centripetal", boundary_spacing::centripetal}},
                                  "Gaps on the circle or square: as edge lengths, equal, as their roots");
+    add_choice<taut::placement>(
+        app, "--placement", o.placement,
+        {{"upright", placement::upright}, {"unit-square", placement::unit_square}, {"as-solved", placement::as_solved}},
+        "Where a map that nothing holds comes to lie: y up or x to the right, the lower left corner at 0,0; the same "
+        "scaled into the unit square; anywhere");
     add_path(app, "--pins", o.pins, standard_input,
              "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
              "file; without a weight exactly, with one as a spring; an empty u or v is free")
@@ -65,19 +70,20 @@ void declare_solver(CLI::App& app, unwrap_options& o)
                             "conjugate gradient; gradient descent");
     app.add_option("--iterations", o.iterations, "Stop after N steps")
         ->type_name("N")
-        ->check(CLI::Range(0, std::numeric_limits<int>::max()).description(""))
+        ->check(whole_number())
         ->capture_default_str();
     app.add_option("--tolerance", o.tolerance, "Stop at this relative gradient, below 1; 0: never")
         ->type_name("T")
         ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
         ->capture_default_str();
     add_time_limit(app, o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)");
-    add_choice<taut::precision>(app, "--precision", o.precision,
-                                {{"auto", precision::automatic},
-                                 {"double", precision::full},
-                                 {"float", precision::single},
-                                 {"mixed", precision::mixed}},
-                                "Arithmetic of the optimisation; the check for flips is exact in any case");
+    add_choice<taut::precision>(
+        app, "--precision", o.precision,
+        {{"auto", precision::automatic},
+         {"fp64", precision::fp64},
+         {"mixed", precision::mixed},
+         {"fp32", precision::fp32}},
+        "Arithmetic of the optimisation: double, mixed, float; the check for flips is exact in any case");
     add_device(app, o.device);
 }
 
@@ -99,11 +105,12 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 
 void declare(CLI::App& app, unwrap_options& o)
 {
-    add_path(app, "IN", o.input, standard_input, "Surface: OBJ, OFF or PLY; polygons are split into triangles")
+    add_path(app, "IN", o.input, standard_input,
+             "Surface: OBJ, OFF or PLY; - is standard input; cut open along the seams of its vt if it is no disk")
         ->required()
         ->type_name("FILE");
     add_path(app, "-o,--output", o.output, standard_output,
-             "OBJ to write: the vertices in their order, one vt a vertex")
+             "OBJ to write: the file as it is, with new vt; - is standard output, here and below")
         ->required()
         ->type_name("OUT.obj");
     add_format(app, o.format);
@@ -117,6 +124,17 @@ outputs check(const unwrap_options& o)
     if (o.start == start_kind::uv && o.boundary != boundary_kind::free)
         throw usage_error("--boundary circle and square lay the boundary anew, which --start uv does not; "
                           "leave out one of them");
+    if (o.start == start_kind::conformal && o.boundary != boundary_kind::free)
+        throw usage_error(
+            "--start conformal moves the boundary, which --boundary circle and square hold; leave out one "
+            "of them");
+    if (o.start == start_kind::coarse && !to_params(o).uses_levels())
+        throw usage_error("--start coarse needs --solver newton or mg-lbfgs, which work on coarser meshes");
+    if (o.placement != placement::upright && (o.boundary != boundary_kind::free || !o.pins.empty()))
+        throw usage_error(
+            "--placement: --boundary circle and square and --pins hold the map where it is; leave it out");
+    if ((o.up || o.front) && o.render.empty())
+        throw usage_error("--up and --front turn the picture of --render; name one");
     if (!(o.tolerance < 1)) throw usage_error("--tolerance: must be below 1");
     if (!(o.time_limit > 0)) throw usage_error("--time-limit: must be positive");
     outputs files;
@@ -148,14 +166,17 @@ parameterize_params to_params(const unwrap_options& o)
     }
     p.weights = o.weights;
     p.boundary = o.boundary == boundary_kind::free ? boundary_mode::free : boundary_mode::fixed;
-    p.start.boundary.shape = o.boundary == boundary_kind::square ? boundary_shape::square : boundary_shape::circle;
-    p.start.boundary.spacing = o.spacing;
-    p.start.weights = o.start == start_kind::tutte ? barycentric_weights::uniform : barycentric_weights::mean_value;
-    if (o.start == start_kind::tutte || o.start == start_kind::mean_value) p.start.stretch_rounds = 0;
-    p.first = o.start == start_kind::automatic   ? start_method::automatic
+    p.barycentric.boundary.shape =
+        o.boundary == boundary_kind::square ? boundary_shape::square : boundary_shape::circle;
+    p.barycentric.boundary.spacing = o.spacing;
+    p.barycentric.weights =
+        o.start == start_kind::tutte ? barycentric_weights::uniform : barycentric_weights::mean_value;
+    if (o.start == start_kind::tutte || o.start == start_kind::mean_value) p.barycentric.stretch_rounds = 0;
+    p.start = o.start == start_kind::automatic   ? start_method::automatic
               : o.start == start_kind::coarse    ? start_method::coarse
               : o.start == start_kind::conformal ? start_method::conformal
                                                  : start_method::barycentric;
+    p.placement = o.placement;
     p.holes = o.holes;
     p.precision = o.precision;
     p.multigrid = o.solver == solver_kind::multigrid_lbfgs;
@@ -194,10 +215,7 @@ std::string to_string(solver_kind kind)
 
 std::string to_string(taut::precision p)
 {
-    return p == precision::full     ? "double"
-           : p == precision::mixed  ? "mixed"
-           : p == precision::single ? "float"
-                                    : "auto";
+    return p == precision::fp64 ? "fp64" : p == precision::mixed ? "mixed" : p == precision::fp32 ? "fp32" : "auto";
 }
 
 std::string describe_start(const unwrap_options& o)

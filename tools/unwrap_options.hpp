@@ -61,8 +61,9 @@ struct unwrap_options
     boundary_spacing spacing{};
     solver_kind solver{};
     taut::precision precision{};
-    int iterations = 10000;
-    double tolerance = 1e-6;
+    taut::placement placement{};
+    int iterations = solve::stopping_params{}.max_iterations;
+    double tolerance = solve::stopping_params{}.gradient_tolerance;
     double time_limit = std::numeric_limits<double>::infinity();
     std::optional<vec3> up, front; ///< of the render; guessed if not given
     bool holes = false, quiet = false;

@@ -86,7 +86,10 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
     }
     const ideal_elements<triangle> ideal(surface);
     const bool by_area = options.weights == energy::weighting::measure;
-    energy_end = mean_energy(params.energy, surface, ideal, uv);
+    // Energies and distortion are those at the size of the surface.
+    std::vector<vec2> sized(uv.begin(), uv.end());
+    for (vec2& p : sized) p /= map.scale;
+    energy_end = mean_energy(params.energy, surface, ideal, sized);
     energy_before = map.solve.value_start;
     if (!map.start.uv.empty())
     {
@@ -94,7 +97,14 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
         energy_before = by_area ? start.measure : start.uniform;
     }
     energy = by_area ? energy_end.measure : energy_end.uniform;
-    after = tools::assess(surface, uv);
+    after = tools::assess(surface, sized);
+    // The certificate is that of exactly what is written.
+    if (map.scale != 1)
+    {
+        const auto written = certify<2>(surface.cells(), uv);
+        after.quality.flips.flipped = written.flipped;
+        after.quality.flips.ids = written.ids;
+    }
 }
 
 nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
@@ -106,13 +116,15 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["output"] = o.output;
     json["vertices"] = r.after.vertices;
     json["faces"] = flips.elements;
+    json["seam_vertices"] = r.seam_vertices;
     json["device"] = r.device;
     json["precision"] = to_string(r.map.precision);
     json["method"] = {{"energy", to_string(o.energy)},
-                      {"weights", o.weights == energy::weighting::measure ? "area" : "uniform"},
+                      {"weights", o.weights == energy::weighting::measure ? "measure" : "uniform"},
                       {"boundary", boundary_name(o.boundary)},
                       {"solver", to_string(o.solver)},
                       {"start", r.pins + r.springs > 0 ? "brought to the constraints" : describe_start(o)}};
+    json["scale"] = r.map.scale;
     json["constraints"] = {{"pins", r.pins}, {"springs", r.springs}};
     json["untangling"] = nlohmann::ordered_json::array();
     for (const auto& stage : r.map.untangling)
@@ -135,7 +147,8 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                        {"setup", r.map.seconds.setup}, {"hierarchy", r.map.seconds.hierarchy},
                        {"start", r.map.seconds.start}, {"untangle", r.map.seconds.untangle},
                        {"solve", r.map.seconds.solve}, {"quality", r.seconds.quality},
-                       {"write", r.seconds.write},     {"total", r.seconds.total}};
+                       {"draw", r.seconds.draw},       {"write", r.seconds.write},
+                       {"total", r.seconds.total}};
     json["levels"] = nlohmann::ordered_json::array();
     for (const auto& l : r.map.levels)
         json["levels"].push_back({{"level", l.level},
@@ -161,8 +174,10 @@ std::string text_of(const unwrap_report& r, const unwrap_options& o)
     const auto& flips = r.after.quality.flips;
     const auto& s = r.map.solve;
     labelled_lines lines;
-    lines.add("mesh", o.input + ": " + count(static_cast<std::uint64_t>(r.after.vertices), "vertex", "vertices") +
-                          ", " + count(flips.elements, "triangle", "triangles"));
+    lines.add("mesh",
+              o.input + ": " + count(static_cast<std::uint64_t>(r.after.vertices), "vertex", "vertices") + ", " +
+                  count(flips.elements, "triangle", "triangles") +
+                  (r.seam_vertices > 0 ? ", " + count(r.seam_vertices, "vertex", "vertices") + " on seams" : ""));
     lines.add("device", r.device_label + ", " + to_string(r.map.precision));
     lines.add("start", (r.pins + r.springs > 0 ? "brought to the constraints" : describe_start(o)) + ": E " +
                            number(r.energy_before) + ", " + count(r.map.start.flips.flipped, "flip", "flips"));
@@ -179,12 +194,13 @@ std::string text_of(const unwrap_report& r, const unwrap_options& o)
                            count(static_cast<std::uint64_t>(s.evaluations), "evaluation", "evaluations") + ", " +
                            count(static_cast<std::uint64_t>(s.gradients), "gradient", "gradients"));
     describe_validity(lines, r.after);
-    lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
-                          duration(r.seconds.queue + r.map.seconds.device) + ", setup " +
-                          duration(r.map.seconds.setup) + ", hierarchy " + duration(r.map.seconds.hierarchy) +
-                          ", start " + duration(r.map.seconds.start) +
-                          (r.map.untangling.empty() ? "" : ", untangle " + duration(r.map.seconds.untangle)) +
-                          ", solve " + duration(r.map.seconds.solve) + ", write " + duration(r.seconds.write));
+    lines.add("time",
+              duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
+                  duration(r.seconds.queue + r.map.seconds.device) + ", setup " + duration(r.map.seconds.setup) +
+                  ", hierarchy " + duration(r.map.seconds.hierarchy) + ", start " + duration(r.map.seconds.start) +
+                  (r.map.untangling.empty() ? "" : ", untangle " + duration(r.map.seconds.untangle)) + ", solve " +
+                  duration(r.map.seconds.solve) + (r.seconds.draw > 0 ? ", draw " + duration(r.seconds.draw) : "") +
+                  ", write " + duration(r.seconds.write));
     lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
     std::string files = o.output;
     for (const auto& file : {o.picture, o.render, o.stats})

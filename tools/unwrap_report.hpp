@@ -18,7 +18,7 @@ namespace taut::tools
 /// Wall-clock seconds of the phases that the library does not see.
 struct program_seconds
 {
-    double read = 0, queue = 0, quality = 0, write = 0, total = 0;
+    double read = 0, queue = 0, quality = 0, draw = 0, write = 0, total = 0;
 };
 
 /// Everything that a run of `taut unwrap` has to say.
@@ -28,6 +28,7 @@ struct unwrap_report
     std::string device, device_label;
     std::vector<std::string> notes;
     std::size_t pins = 0, springs = 0; ///< vertices that have one
+    std::size_t seam_vertices = 0;     ///< vertices of the file along which it was cut open
     map_report map;
     means energy_end;                     ///< of the energy that was minimised, in double on the host
     double energy_before = 0, energy = 0; ///< at the start and at the end, by the chosen weights

@@ -8,10 +8,11 @@
 #include <taut/core/types.hpp>
 
 #include <taut/symbolic/differentiate.hpp>
+#include <taut/symbolic/loop.hpp>
 #include <taut/symbolic/recording.hpp>
 
-#include <taut/compute/queue.hpp>
 #include <taut/compute/handler.hpp>
+#include <taut/compute/queue.hpp>
 #include <taut/compute/vector_space.hpp>
 
 #include <taut/mesh/hierarchy/hierarchy.hpp>
@@ -23,9 +24,11 @@
 
 #include <taut/solve/minimize.hpp>
 
+#include <taut/io/cut_seams.hpp>
 #include <taut/io/pins.hpp>
 #include <taut/io/prob.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/write_files.hpp>
 #include <taut/io/write_map.hpp>
 #include <taut/io/write_obj.hpp>
 

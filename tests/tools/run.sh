@@ -124,7 +124,7 @@ same_vertices()
 
 lines_of() { grep -c "^$1 " "$2"; }
 
-# valid_map FILE: `taut eval` finds no flipped triangle and no crossing.
+# valid_map FILE: `taut eval` finds no flipped triangle.
 valid_map()
 {
     expect 0 eval "$1" --json
@@ -227,7 +227,9 @@ test_usage()
     expect 2
     error_says 'subcommand' '--help'
     expect 2 flatten in.obj
-    error_says '--help'
+    error_says 'no subcommand flatten' '--help'
+    expect 2 unwarp in.obj
+    error_says 'no subcommand unwarp' 'did you mean unwrap'
     expect 2 unwrap in.obj
     error_says '--output is required' 'taut unwrap --help'
     expect 2 unwrap -o out.obj
@@ -237,10 +239,14 @@ test_usage()
     expect 2 unwrap in.obj -o out.obj --energy warm
     error_says '--energy' 'warm' 'isometric'
     expect 2 unwrap in.obj -o out.obj --iterations many
-    error_says '--iterations'
+    error_says '--iterations' 'many is no whole number'
+    expect 2 unwrap in.obj -o out.obj --time-limit 20,5
+    error_says '--time-limit' '20,5 is no number'
     for wrong in '--iterations -1' '--tolerance -1' '--tolerance 2' '--tolerance nan' '--time-limit 0' \
                  '--time-limit -3' '--time-limit nan' '--boundary circle --start uv' '--precision half' \
-                 '--solver simplex' '--start tube'; do
+                 '--solver simplex' '--start tube' \
+                 '--start conformal --boundary square' '--start coarse --solver lbfgs' '--up +z' '--front -y' \
+                 '--placement here' '--placement unit-square --boundary circle' '--placement as-solved --pins p.csv'; do
         # shellcheck disable=SC2086
         expect 2 unwrap in.obj -o out.obj $wrong
         error_says "${wrong%% *}"
@@ -333,7 +339,7 @@ test_streams()
     expect 0 unwrap in.obj -o out.obj --quiet
     mkfifo pipe
     for options in 'in.obj -o copy.obj --picture' 'in.obj -o copy.obj --render'; do
-        cat pipe >from_pipe &
+        timeout 60 cat pipe >from_pipe &
         # shellcheck disable=SC2086
         expect 0 unwrap $options pipe --quiet
         wait
@@ -347,6 +353,21 @@ test_streams()
     else
         echo "without a device of our own: only root makes one"
     fi
+    # Whatever ends a run before all is written leaves nothing: here it waits for a reader of the pipe.
+    ls -A >before
+    "$taut" unwrap in.obj -o new.obj --render pipe --quiet --progress json 2>err &
+    program=$!
+    until grep -q '"phase":"write"' err; do
+        kill -0 $program || fail "ended before it was killed"
+        sleep 0.1
+    done
+    sleep 0.5
+    kill -KILL $program
+    wait $program 2>/dev/null
+    case $(stat -f -c %T . 2>/dev/null) in
+    ext2/ext3 | xfs | btrfs | tmpfs) ls -A | diff before - >out || fail "a killed run has left files" ;;
+    *) echo "this file system may have no files without a name" ;;
+    esac
     ln -s picture.png link.png
     chmod 640 out.obj
     expect 0 unwrap in.obj -o out.obj --picture link.png --quiet
@@ -409,6 +430,14 @@ test_streams()
         done
     fi
     "$taut" check in.obj >&- 2>err && fail "succeeds without a standard output"
+    "$taut" unwrap nothing.obj -o new.obj >&- 2>err
+    [ $? = 2 ] || fail "a closed standard output is not found before the run"
+    error_says '/dev/stdout: .*--quiet'
+    # But who has stopped reading the report does not lose the map.
+    { sleep 0.5; "$taut" unwrap in.obj -o new.obj 2>err; echo $? >code; } | true
+    [ "$(cat code)" = 0 ] || fail "no map where nobody reads the report"
+    valid_map new.obj
+    rm new.obj
 
     # What a run without a valid map has left is gone when there is one.
     echo stale >out.obj.invalid
@@ -504,6 +533,93 @@ test_surfaces()
     absent out.obj
 }
 
+# A closed cube of quads as a modelling program writes it, its vt a cross of six squares, or `apart`: six charts.
+cube()
+{
+    printf '%s\n' '# by hand' 'mtllib cube.mtl' 'o cube' 'v 0 0 0 1 0 0' 'v 1 0 0 1 0 0' 'v 1 1.000 0 1 0 0' \
+        'v 0 1 0 1 0 0' 'v 0 0 1 0 0 1' 'v 1 0 1 0 0 1' 'v 1 1 1 0 0 1' 'v 0 1 1 0 0 1' 'vn 0 0 -1'
+    if [ "${1:-cross}" = apart ]; then
+        printf 'vt %s\n' '0 0' '1 0' '1 1' '0 1' '2 0' '3 0' '3 1' '2 1'
+        printf '%s\n' 'f 4/1 3/2 2/3 1/4' 'f 1/5 2/6 6/7 5/8' 'f 5/1 6/2 7/3 8/4' 'f 8/5 7/6 3/7 4/8' 'f 2/1 3/2 7/3 6/4' \
+            'f 4/5 1/6 5/7 8/8'
+        return
+    fi
+    printf 'vt %s\n' '1 0' '2 0' '1 1' '2 1' '1 2' '2 2' '1 3' '2 3' '1 4' '2 4' '0 2' '0 3' '3 2' '3 3'
+    printf '%s\n' 'usemtl bottom' 's off' 'f 4/1/1 3/2/1 2/4/1 1/3/1' 'usemtl front' 'f -8/3 -7/4 -3/6 -4/5' 'g top' \
+        'f 5/5 6/6 7/8 8/7' 'f 8/7 7/8 3/10 4/9' 'f 2/13 3/14 7/8 6/6' 'f 4/12 1/11 5/5 8/7 # left'
+}
+
+# all_but_vt FILE: its lines without vt, and without what faces say of them.
+all_but_vt() { awk '$1 != "vt" { if ($1 == "f") gsub("/[0-9]*", "/"); gsub("/+", ""); print }' "$1"; }
+
+test_roundtrip()
+{
+    # A closed surface is cut open along the seams that the file has; all it says stays, line by line.
+    cube >cube.obj
+    expect 0 unwrap cube.obj -o out.obj --stats stats.json
+    says err 'note: cut open along the seams of its vt, on which 4 vertices lie' '6 polygons were split'
+    says out '8 vertices, 12 triangles, 4 vertices on seams' '1 loop'
+    keys stats.json vertices seam_vertices flipped
+    says values '^vertices=8$' '^seam_vertices=4$' '^flipped=0$'
+    all_but_vt cube.obj >before
+    all_but_vt out.obj >after
+    cmp -s before after || fail "more than vt has changed: $(diff before after)"
+    [ "$(lines_of vt out.obj)" = 14 ] || fail "not one vt a vertex of the sheet"
+    says out.obj '^f -8/[0-9]+ -7/[0-9]+ -3/[0-9]+ -4/[0-9]+$' '^f 4/[0-9]+/1 ' '# left$'
+    valid_map out.obj
+    expect 0 check cube.obj
+    says out 'cut open along the seams' 'nothing wrong'
+
+    # Again from its own output, and on from it.
+    expect 0 unwrap out.obj -o again.obj --start uv --quiet
+    all_but_vt again.obj >after
+    cmp -s before after || fail "more than vt has changed"
+    valid_map again.obj
+    expect 0 unwrap cube.obj -o uv.obj --start uv --stats stats.json --quiet
+    keys stats.json seam_vertices
+    says values '^seam_vertices=4$'
+
+    # Pins name vertices of the file; one that is cut apart has no single place.
+    printf '4,0,0\n' >whole.csv
+    printf '4,0,0\n0,1,1\n' >seam.csv
+    expect 0 unwrap cube.obj -o out.obj --pins whole.csv --quiet
+    says out.obj '^vt 0 0$'
+    expect 4 unwrap cube.obj -o none.obj --pins seam.csv
+    error_says 'the pin of vertex 0: it lies on a seam, which divides it into 2 vertices'
+    expect 4 check cube.obj --pins seam.csv
+    says out 'pin of vertex 0: it lies on a seam'
+
+    cube apart >apart.obj
+    expect 4 unwrap apart.obj -o none.obj
+    error_says 'the surface is 6 charts with 6 boundary loops, not one disk'
+    expect 4 check apart.obj
+    says out '6 charts'
+    absent none.obj
+
+    # What is a disk already is mapped whole, unless its vt are the start.
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 2 0.5 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 5 0\nvt 6 0.5\nvt 5 1\n' >seam.obj
+    printf 'f 1/1 2/2 4/4 3/3\nf 2/5 5/6 4/7\n' >>seam.obj
+    expect 0 unwrap seam.obj -o out.obj --quiet
+    [ "$(lines_of vt out.obj)" = 5 ] || fail "cut without need"
+    expect 4 unwrap seam.obj -o none.obj --start uv
+    error_says '2 charts with 2 boundary loops'
+
+    # Line ends, continued lines, a file without a last line end.
+    printf '# a\r\nv 0 0 0 c\\\r\nv 9 9 9\r\nv 1 0 0\r\nv 0 \\\r\n1 0\r\ng all\r\nf 1// 2 \\\r\n3 # end' >lines.obj
+    expect 0 unwrap lines.obj -o out.obj --quiet
+    valid_map out.obj
+    all_but_vt lines.obj >before
+    all_but_vt out.obj >after
+    cmp -s before after || fail "more than vt has changed: $(diff before after)"
+    [ "$(grep -c "$(printf '\r')\$" out.obj)" = 10 ] || fail "line ends have changed"
+
+    # OFF and PLY: colours, normals, polygons and comments.
+    printf 'CNOFF\n# mine\n4 1 0\n0 0.00 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 0 0 0 0\n1 1 0 0 0 1 0 0 0 0\n0 1 0 0 0 1 0 0 0 0\n4 0 1 2 3\n' >in.off
+    expect 0 unwrap in.off -o out.obj --quiet
+    says out.obj '^# mine$' '^v 0 0.00 0 1 0 0$' '^vn 0 0 1$' '^f 1/1/1 2/2/2 3/3/3 4/4/4$'
+    valid_map out.obj
+}
+
 test_unwrap()
 {
     grid 12 >in.obj
@@ -526,7 +642,7 @@ test_unwrap()
     expect 0 unwrap quads.obj -o out.obj
     says err '^taut: note: 36 polygons were split into triangles'
     same_vertices quads.obj out.obj
-    [ "$(lines_of f out.obj)" = 72 ] || fail "36 quads are not 72 triangles"
+    [ "$(lines_of f out.obj)" = 36 ] || fail "36 quads do not stay 36 quads"
     valid_map out.obj
     expect 0 unwrap quads.obj -o out.obj --quiet
     silent err
@@ -541,13 +657,22 @@ test_unwrap()
                    '--start mean-value --spacing uniform' '--spacing centripetal' '--solver newton' \
                    '--solver mg-lbfgs' '--solver lbfgs' '--solver cg' '--solver gd --iterations 20' '--start auto' \
                    '--start coarse' '--start stretch' '--start tutte' '--start conformal' \
-                   '--start conformal --boundary circle' '--start coarse --solver lbfgs' '--precision auto' \
-                   '--precision double' '--precision float' '--precision mixed' '--iterations 0'; do
+                   '--precision auto' '--precision fp64' '--precision fp32' '--precision mixed' '--iterations 0'; do
         # shellcheck disable=SC2086
         expect 0 unwrap small.obj -o out.obj --quiet $options
         same_vertices small.obj out.obj
         valid_map out.obj
     done
+
+    # A free map lies with its lower left corner at the origin; in the unit square it fills one side.
+    expect 0 unwrap small.obj -o out.obj --quiet
+    awk '$1 == "vt" { if ($2 < 0 || $3 < 0) bad = 1; if ($2 == 0) ++left; if ($3 == 0) ++low } END { exit bad || !left || !low }' out.obj ||
+        fail "the corner of a free map is not at the origin"
+    expect 0 unwrap small.obj -o out.obj --quiet --placement unit-square --stats stats.json
+    awk '$1 == "vt" { m = $2 > m ? $2 : m; m = $3 > m ? $3 : m; if ($2 < 0 || $3 < 0) bad = 1 } END { exit bad || m != 1 }' out.obj ||
+        fail "a map does not fill the unit square"
+    keys stats.json scale flipped
+    says values '^flipped=0$'
 
     # All solvers that converge find the same minimum.
     least=
@@ -580,7 +705,7 @@ test_reports()
     silent err
     keys stats.json schema vertices faces device precision method.solver method.start stop iterations evaluations \
         gradients hessian_products energy_start energy flipped min_det max_det seconds.read seconds.device \
-        seconds.setup seconds.hierarchy seconds.start seconds.untangle seconds.solve seconds.write seconds.total \
+        seconds.setup seconds.hierarchy seconds.start seconds.untangle seconds.solve seconds.draw seconds.write seconds.total \
         launches waits peak_memory_bytes quality.isometric.by_area quality.isometric.mean \
         quality.shape.by_area quality.area.by_area quality.stretch_l2.rms quality.stretch_linf.max \
         quality.area_ratio.rms quality.angular quality.boundary_crossings
@@ -590,11 +715,11 @@ test_reports()
     for picture in layout.png render.png; do
         [ "$(od -An -tx1 -N8 "$picture" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$picture is no PNG"
     done
-    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision float --solver lbfgs \
+    expect 0 unwrap in.obj -o out.obj --picture layout.svg --stats stats.json --precision fp32 --solver lbfgs \
         --iterations 3 --quiet
     says layout.svg '<svg ' '</svg>'
     keys stats.json precision stop iterations
-    says values '^precision=float$' '^stop=iterations$' '^iterations=3$'
+    says values '^precision=fp32$' '^stop=iterations$' '^iterations=3$'
 
     # A mesh with levels above the one of the start.
     grid 40 >large.obj

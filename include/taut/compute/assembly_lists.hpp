@@ -50,7 +50,7 @@ public:
                 entries += k == l ? D * (D + 1) / 2 : D * D;
             }
         if (entries * cell_stride >= static_cast<std::size_t>(none))
-            throw parameter_error("assembly_lists", "more than 2^31 entries of element blocks");
+            throw size_error("assembly_lists", "more than 2^31 entries of element blocks");
         if (cells.size() > 0) reach = (entries - 1) * cell_stride + cells.size();
 
         const auto is_fixed = [&](index v) { return !fixed.empty() && fixed[static_cast<std::size_t>(v)]; };
@@ -121,12 +121,12 @@ private:
             starts_.clear();
             for (std::size_t p = 0; p < counts_.size(); p += C_)
             {
-                auto& [items, sizes] = p == 0 ? diagonal : others;
+                auto& list = p == 0 ? diagonal : others;
                 const auto* count = counts_.data() + p;
                 const index size = *std::max_element(count, count + C_) * static_cast<index>(C_);
-                starts_.push_back(items.size());
-                items.resize(items.size() + static_cast<std::size_t>(size), none);
-                sizes.push_back(size);
+                starts_.push_back(list.items.size());
+                list.items.resize(list.items.size() + static_cast<std::size_t>(size), none);
+                list.sizes.push_back(size);
                 if (p == 0) others.sizes.push_back(0); // its places have a number among all places
             }
             for (const auto& [place, number, slot] : all_)

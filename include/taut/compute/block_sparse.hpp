@@ -21,12 +21,6 @@ namespace taut
 namespace detail
 {
 
-/// Items that invert a dense matrix together.
-inline index dense_team(const device& d)
-{
-    return quirks::wants_serial_items(d) ? 1 : 64;
-}
-
 /// A kernel of kernels/block_sparse.cl for D x D blocks of T.
 template <class T, class... Args>
 void load_block_kernel(typed_kernel<Args...>& kernel, queue& q, const char* name, int D, lane_form form)
@@ -35,7 +29,7 @@ void load_block_kernel(typed_kernel<Args...>& kernel, queue& q, const char* name
     kernel = {q, kernels::block_sparse, name,
               std::string("-DREAL=") + cl_name<T>() + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
                   " -DD=" + std::to_string(D) + " -DC=" + std::to_string(form.slice) +
-                  " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(dense_team(q.device())) +
+                  " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
                   " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f")};
 }
 
@@ -168,7 +162,7 @@ private:
             if (D < 2 || D > 3) throw parameter_error("D", "must be 2 or 3");
             if (host.slice != form.slice) throw parameter_error("pattern", "has other slices than the device wants");
             if (places * static_cast<std::size_t>(D * D) > static_cast<std::size_t>(std::numeric_limits<index>::max()))
-                throw parameter_error("block_matrix", "more than 2^31 values");
+                throw size_error("block_matrix", "more than 2^31 values");
             offsets = buffer<index>(q, host.offsets);
             columns = buffer<index>(q, host.columns);
             detail::load_block_kernel<T>(product, q, "product", D, form);

@@ -86,7 +86,8 @@ public:
         state_->counters.bytes_read += values.size_bytes();
     }
 
-    /// The same without the wait: values are there after the next one.
+    /// Elements 0, 1, ... without the wait: values are there, and must live, until the next command of this queue that
+    /// waits: a download, an upload, finish().
     void begin_download(std::span<T> values) const
     {
         check("download from a buffer", 0, values.size());

@@ -31,7 +31,7 @@ cell_incidence incidence_of_cells(const Cells& cells, std::size_t rows)
 {
     constexpr std::size_t K = cell_corners<Cells>;
     if (cells.size() > static_cast<std::size_t>(std::numeric_limits<index>::max()) / K)
-        throw parameter_error("cells", "more than 2^31 corners");
+        throw size_error("cells", "more than 2^31 corners");
     cell_incidence around;
     around.offsets.assign(rows + 1, 0);
     for (std::size_t c = 0; c < cells.size(); ++c)

@@ -93,6 +93,15 @@ inline auto device_rank(const device& d)
     return std::tuple(d.has_fp64(), kind, d.compute_units() * std::max<std::size_t>(d.clock(), 1));
 }
 
+/// The device with the form of kernels that TAUT_FORM asks for. Throws parameter_error.
+inline device in_wanted_form(const device& d)
+{
+    const char* form = std::getenv("TAUT_FORM");
+    if (!form || !*form) return d;
+    if (std::string(form) != "gpu") throw parameter_error("TAUT_FORM", "is \"" + std::string(form) + "\", not \"gpu\"");
+    return d.as_gpu();
+}
+
 [[noreturn]] inline void refuse(const std::string& headline, const std::vector<listed_device>& all)
 {
     std::string text = headline + "\n";
@@ -122,14 +131,14 @@ inline auto device_rank(const device& d)
 
 } // namespace detail
 
-/// The device to use: TAUT_DEVICE if set (an index into devices(), or a part of a device's, vendor's or platform's
-/// name, in any case), else the best one: double precision before none, then GPU before CPU, then the largest. Throws
-/// no_device if none fits.
-inline device choose_device(const device_requirements& needs = {})
+/// The device that a wish names: an index into devices(), or a part of a device's, vendor's or platform's name, in any
+/// case. Of several that fit, and for an empty wish, the best one: double precision before none, then GPU before CPU,
+/// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits; what the message then calls the wish is `said` and the wish.
+inline device find_device(const std::string& wish, const device_requirements& needs = {},
+                          const std::string& said = "the wish ")
 {
     const auto all = devices(needs);
-    const char* wish = std::getenv("TAUT_DEVICE");
-    const std::string wanted = wish ? detail::lower(wish) : std::string();
+    const std::string wanted = detail::lower(wish);
     const auto number = detail::as_number(wanted);
 
     const device* best = nullptr;
@@ -142,10 +151,15 @@ inline device choose_device(const device_requirements& needs = {})
         if (!number && names.find(wanted) == std::string::npos) continue;
         if (!best || detail::device_rank(*best) < detail::device_rank(d)) best = &d;
     }
-    if (best) return *best;
-    detail::refuse(wanted.empty() ? std::string("no OpenCL device fits")
-                                  : "no OpenCL device fits TAUT_DEVICE=" + std::string(wish),
-                   all);
+    if (best) return detail::in_wanted_form(*best);
+    detail::refuse("no OpenCL device fits" + (wanted.empty() ? "" : ' ' + said + wish), all);
+}
+
+/// The device that TAUT_DEVICE names if it is set, else the best one; see find_device.
+inline device choose_device(const device_requirements& needs = {})
+{
+    const char* wish = std::getenv("TAUT_DEVICE");
+    return find_device(wish ? wish : "", needs, "TAUT_DEVICE=");
 }
 
 } // namespace taut

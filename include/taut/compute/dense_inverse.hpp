@@ -42,7 +42,7 @@ public:
         work_ = buffer<T>(q, (size + 2) * pitch);
         inverse_ = buffer<T>(q, size * pitch);
         items_ = form.items(padded(pitch, static_cast<std::size_t>(form.lanes)));
-        const auto team = static_cast<std::size_t>(dense_team(q.device()));
+        const auto team = static_cast<std::size_t>(form.team());
         team_ = {team, team};
         load_block_kernel<T>(invert_, q, "invert_dense", A.block_size(), form);
         load_block_kernel<T>(apply_, q, "dense", A.block_size(), form);

@@ -55,6 +55,13 @@ public:
         d.max_allocation_ = largest;
         return d;
     }
+    /// The same device as if it were a GPU and nothing else: kernels take the forms that GPUs get.
+    device as_gpu() const
+    {
+        device d = *this;
+        d.type_ = CL_DEVICE_TYPE_GPU;
+        return d;
+    }
 
     cl_device_id native() const { return handle_.id(); }
     cl_platform_id native_platform() const { return handle_.platform().id(); }

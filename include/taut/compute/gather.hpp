@@ -158,7 +158,7 @@ private:
     static index to_int(std::size_t n)
     {
         if (n > static_cast<std::size_t>(std::numeric_limits<index>::max()))
-            throw parameter_error("gather", "more than 2^31 contributions");
+            throw size_error("gather", "more than 2^31 contributions");
         return static_cast<index>(n);
     }
 

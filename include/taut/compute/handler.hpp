@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -34,7 +35,8 @@ public:
     template <traceable T>
     sym<T> uniform(T value)
     {
-        bind(nullptr, [value](const auto& state, cl_kernel k, const auto& name, cl_uint i)
+        bind(nullptr, detail::elements_of(value),
+             [value](const auto& state, cl_kernel k, const auto& name, cl_uint i)
              { detail::set_argument(state, k, name, i, value); });
         return recording_.scalar<T>();
     }
@@ -76,6 +78,8 @@ public:
         const kernel_text text = recording_.finish(name, detail::form_for(state_->device));
         detail::require_fp64(*state_, text);
         detail::require_distinct(*state_, text, memory_);
+        detail::require_range(*state_, text, r, elements_);
+        const auto use = state_->enter();
         const auto& kernel = state_->cache.find(text.source, text.name, {});
         cl_uint i = 0;
         for (const binding& b : bindings_) b(*state_, kernel.get(), name, i++);
@@ -89,21 +93,24 @@ public:
 private:
     using binding = std::function<void(const detail::queue_state&, cl_kernel, const std::string&, cl_uint)>;
 
-    void bind(cl_mem memory, binding b)
+    void bind(cl_mem memory, std::size_t elements, binding b)
     {
         memory_.push_back(memory);
+        elements_.push_back(elements);
         bindings_.push_back(std::move(b));
     }
     template <class T>
     void bind(const buffer<T>& b)
     {
-        bind(b.native(), [&b](const auto& state, cl_kernel k, const auto& name, cl_uint i)
+        bind(b.native(), b.size(),
+             [&b](const auto& state, cl_kernel k, const auto& name, cl_uint i)
              { detail::set_argument(state, k, name, i, b); });
     }
 
     std::shared_ptr<detail::queue_state> state_;
     recording recording_;
     std::vector<cl_mem> memory_;
+    std::vector<std::size_t> elements_;
     std::vector<binding> bindings_;
     bool launched_ = false;
     event done_;

@@ -79,6 +79,7 @@ public:
     typed_kernel(queue& q, const std::string& source, std::string name, const std::string& options = {})
         : state_(q.state()), name_(std::move(name))
     {
+        const auto use = state_->enter();
         (detail::require_fp64<typename detail::argument_traits<Args>::element>(*state_, "kernel " + name_), ...);
         state_->ask_between_builds();
         kernel_ = state_->cache.find(source, name_, options);
@@ -90,6 +91,7 @@ public:
 
     event operator()(range r, typename detail::argument_traits<Args>::passed... args) const
     {
+        const auto use = state_->enter();
         cl_uint i = 0;
         (detail::set_argument(*state_, kernel_.get(), name_, i++, args), ...);
         return state_->launch(kernel_, name_, r);

@@ -25,6 +25,9 @@ struct lane_form
         return quirks::wants_serial_items(d) ? lane_form{16, 16} : lane_form{32, 1};
     }
 
+    /// Items that invert a dense matrix together.
+    constexpr index team() const { return lanes == 1 ? 64 : 1; }
+
     /// The items of so many rows (a multiple of the slice), padded to whole groups.
     range items(std::size_t rows) const
     {

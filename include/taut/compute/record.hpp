@@ -88,6 +88,30 @@ cl_mem memory_of(const T&)
     return nullptr;
 }
 
+/// The elements of an argument; any number of them for numbers.
+template <class T>
+std::size_t elements_of(const buffer<T>& b)
+{
+    return b.size();
+}
+template <device_scalar T>
+std::size_t elements_of(const T&)
+{
+    return std::numeric_limits<std::size_t>::max();
+}
+
+/// Refuses a range that runs beyond a buffer which the kernel reads or writes at the index itself. elements: by
+/// argument.
+inline void require_range(const queue_state& state, const kernel_text& text, const range& r,
+                          const std::vector<std::size_t>& elements)
+{
+    for (const std::size_t i : text.by_index)
+        if (r.global > elements[i])
+            state.fail("launching " + text.name, "argument " + std::to_string(i) + " is used at [i] for " +
+                                                     std::to_string(r.global) + " indices, and the buffer has " +
+                                                     std::to_string(elements[i]) + " elements");
+}
+
 /// Recorded kernels assume that what they write overlaps nothing else, so a buffer that is written is bound once.
 inline void require_distinct(const queue_state& state, const kernel_text& text, const std::vector<cl_mem>& memory)
 {
@@ -183,6 +207,7 @@ public:
                      typename detail::argument_traits<typename detail::tag_traits<Tags>::typed>::passed... args) const
     {
         detail::require_distinct(*state_, text_, {detail::memory_of(args)...});
+        detail::require_range(*state_, text_, r, {detail::elements_of(args)...});
         return kernel_(detail::items_for(text_.form, r), args..., detail::count_of(*state_, text_.name, r));
     }
 

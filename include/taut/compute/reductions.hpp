@@ -93,7 +93,7 @@ public:
             launch<T>(slot::limit, 1, 1, 1, 1, as_uint(j.first), as_uint(j.groups), partials_,
                       decltype(number)(fraction), decltype(number)(most), out);
         };
-        partials_.wide() ? run(double()) : run(float());
+        partials_.wide() ? run(double()) : run(float()); // NOLINT(bugprone-branch-clone): of different types
     }
 
     /// Every left times every right vector over their first n elements: result i * right.size() + j. Tiles of up to
@@ -204,6 +204,7 @@ private:
                                  : what == slot::sums   ? "sums"
                                  : what == slot::minima ? "minima"
                                                         : "limit";
+        const auto use = queue_.state()->enter();
         auto& kernel = kernels_[std::is_same_v<T, double>][which];
         if (!kernel.get())
         {
@@ -238,7 +239,7 @@ private:
     static std::uint32_t as_uint(std::size_t n)
     {
         if (n > std::numeric_limits<std::int32_t>::max())
-            throw parameter_error("reductions", "more than 2^31 elements");
+            throw size_error("reductions", "more than 2^31 elements");
         return static_cast<std::uint32_t>(n);
     }
 

@@ -39,7 +39,7 @@ inline std::vector<index> slice_offsets(const std::vector<list_chunk>& chunks, s
         {
             end += static_cast<std::size_t>(size);
             if (end > static_cast<std::size_t>(std::numeric_limits<index>::max()))
-                throw parameter_error("sliced lists", "more than 2^31 items in a list");
+                throw size_error("sliced lists", "more than 2^31 items in a list");
             offsets.push_back(static_cast<index>(end));
         }
     offsets.resize(slices + 1, static_cast<index>(end));

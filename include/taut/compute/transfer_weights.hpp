@@ -40,7 +40,7 @@ struct transfer_weights
             (offsets.size() != coarse + 1 || static_cast<std::size_t>(offsets.back()) != places.size()))
             throw parameter_error("transfer_weights.offsets", "is not the transpose");
         if (columns.size() > static_cast<std::size_t>(std::numeric_limits<index>::max()) / 3)
-            throw parameter_error("transfer_weights.columns", "more than 2^31 places");
+            throw size_error("transfer_weights.columns", "more than 2^31 places");
         for (std::size_t i = 0; i < columns.size(); ++i)
             for (const index J : columns[i])
                 if (J < 0 || static_cast<std::size_t>(J) >= coarse)

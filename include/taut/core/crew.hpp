@@ -6,8 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
-#include <system_error>
+#include <exception>
 #include <thread>
 
 namespace taut::detail
@@ -30,8 +29,7 @@ public:
     template <class Job>
     void run(std::size_t helpers, Job& job)
     {
-        const std::unique_lock<std::mutex> lock(in_use_, std::try_to_lock);
-        if (!lock)
+        if (in_use_.test_and_set(std::memory_order_acquire))
         {
             job();
             return;
@@ -49,6 +47,7 @@ public:
         {
         }
         while (places_.load(std::memory_order_acquire) != 0) std::this_thread::yield();
+        in_use_.clear(std::memory_order_release);
     }
 
 private:
@@ -60,7 +59,7 @@ private:
         {
             for (; hired_ < helpers; ++hired_) std::thread(&crew::help, this).detach();
         }
-        catch (const std::system_error&)
+        catch (const std::exception&)
         {
             // No more threads to be had: those that run share the work.
         }
@@ -95,7 +94,7 @@ private:
 
     static constexpr std::uint64_t one_at_work = std::uint64_t{1} << 32U, open_places = one_at_work - 1;
 
-    std::mutex in_use_;
+    std::atomic_flag in_use_; // not a mutex: a job that calls run() asks for it on the thread that holds it
     std::size_t hired_ = 0;
     void (*call_)(void*) = nullptr;
     void* job_ = nullptr;

@@ -31,4 +31,11 @@ private:
     std::string field_;
 };
 
+/// An input of more parts than 32-bit numbers can count.
+class size_error : public parameter_error
+{
+public:
+    using parameter_error::parameter_error;
+};
+
 } // namespace taut

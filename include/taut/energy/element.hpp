@@ -4,6 +4,7 @@
 #include <concepts>
 
 #include <taut/core/linalg.hpp>
+#include <taut/core/select.hpp> // energies write it in place of `if`
 
 namespace taut
 {
@@ -12,9 +13,12 @@ namespace taut
 template <class T, int D>
 struct element
 {
-    glm::mat<D, D, T> S; ///< shape matrix A W^-1 from the ideal to the physical element (eq. 3); the identity at rest
-    T det;               ///< det S = signed mapped measure / rest measure
-    T measure;           ///< rest area or volume, in the units of the normalised mesh (total = number of elements)
+    /// Shape matrix A W^-1 from the ideal to the physical element (eq. 3); a rotation at rest. Its frame is the
+    /// element's own (the first column is the image of the first edge), so an energy must not see turns of it:
+    /// E(S R) = E(S) for every rotation R.
+    glm::mat<D, D, T> S;
+    T det;     ///< det S = signed mapped measure / rest measure
+    T measure; ///< rest area or volume, in the units of the normalised mesh (total = number of elements)
 };
 
 namespace energy

@@ -46,13 +46,15 @@ public:
     void commit()
     {
         finish();
+        link();
         rename();
         sync_folder();
     }
 
-    /// The steps of commit(), for several files that are to appear together: whatever may fail, fails in finish(), as
-    /// far as can be known. otherwise: added to the message if it fails.
+    /// The steps of commit(), for several files that are to appear together: all is on the disk; it has a hidden name,
+    /// where it had none; it has its own. otherwise: added to the message if that fails.
     void finish() { file_.finish(); }
+    void link() { file_.link(); }
     void rename(const std::string& otherwise = {}) { file_.rename(otherwise); }
     void sync_folder() { file_.sync_folder(); }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <taut/core/parallel.hpp>
+#include <taut/io/obj_statements.hpp>
 #include <taut/io/polygon_soup.hpp>
 #include <taut/io/scanner.hpp>
 
@@ -30,26 +31,21 @@ public:
     {
         // What a file of triangles has, about; memory that is not used costs nothing.
         soup_.reserve(in_.remaining() / 64, in_.remaining() / 10);
-        while (!in_.done())
-        {
-            const std::string_view key = in_.word();
-            if (key.size() == 1 && key[0] == 'v')
-            {
-                soup_.add_point(in_.numbers<3>(), in_.path(), in_.here());
-                if (!in_.line_ends()) read_extra();
-            }
-            else if (key.size() == 1 && key[0] == 'f')
-                read_face();
-            else if (key == "vt")
-            {
-                const double u = in_.number();
-                // A texture of one dimension has no v.
-                soup_.add_texcoord({u, in_.line_ends() ? 0.0 : in_.number()}, in_.path(), in_.here());
-            }
-            // Comments end with their line; every other statement may be joined to the next line.
-            in_.next_line(!key.starts_with('#'));
-        }
+        for_each_statement(in_,
+                           [this](std::string_view key, const char* begin)
+                           {
+                               if (key.size() == 1 && key[0] == 'v')
+                                   soup_.add_point(in_.numbers<3>(), in_.path(), in_.here());
+                               else if (key.size() == 1 && key[0] == 'f')
+                                   read_face(begin);
+                               else if (key == "vt")
+                                   read_texcoord(begin);
+                           });
     }
+
+    /// The first byte of the first vt or f statement; null if there is none.
+    const char* body() const { return body_; }
+    std::size_t corner_count() const { return soup_.corners.size(); }
 
     /// False if some statement counts back from its place, which a piece does not know.
     bool absolute() const { return absolute_; }
@@ -96,42 +92,32 @@ private:
         std::size_t face = 0;
     };
 
-    /// What a v line holds behind the position: a weight or a colour, kept as it is written.
-    void read_extra()
+    void read_texcoord(const char* begin)
     {
-        std::string extra;
-        while (!in_.line_ends() && !in_.at('#')) extra.append(extra.empty() ? "" : " ").append(in_.word());
-        if (extra.empty()) return;
-        soup_.extras.resize(soup_.points.size());
-        soup_.extras.back() = std::move(extra);
+        if (body_ == nullptr) body_ = begin;
+        const double u = in_.number();
+        // A texture of one dimension has no v.
+        soup_.add_texcoord({u, in_.content_ends() ? 0.0 : in_.number()}, in_.path(), in_.here());
     }
 
-    void read_face()
+    void read_face(const char* begin)
     {
+        if (body_ == nullptr) body_ = begin;
         const std::size_t first = soup_.corners.size();
-        while (!in_.line_ends()) read_corner();
+        while (!in_.content_ends())
+        {
+            const char* const position = in_.position();
+            const obj_corner c = read_obj_corner(in_);
+            soup_.corners.push_back(resolve(c.vertex, soup_.points.size(), vertices_, position));
+            soup_.corner_coords.push_back(
+                c.has_texcoord ? resolve(c.texcoord, soup_.texcoords.size(), coords_, position) : -1);
+        }
         soup_.end_polygon(first, in_.path(), in_.here());
     }
 
-    /// v, v/vt, v//vn or v/vt/vn. The normal is not used.
-    void read_corner()
-    {
-        soup_.corners.push_back(read_reference(soup_.points.size(), vertices_));
-        index coord = -1;
-        if (in_.take('/'))
-        {
-            if (!in_.at('/') && !in_.word_ends()) coord = read_reference(soup_.texcoords.size(), coords_);
-            if (in_.take('/') && !in_.word_ends()) in_.integer("a normal");
-        }
-        if (!in_.word_ends()) in_.fail_at_word("a blank after the corner of a face");
-        soup_.corner_coords.push_back(coord);
-    }
-
     /// A number counted from 1, or back from -1, the last of `count`. The result is counted from 0.
-    index read_reference(std::size_t count, largest& most)
+    index resolve(long long i, std::size_t count, largest& most, const char* position)
     {
-        const char* position = in_.position();
-        const long long i = in_.integer("a corner such as 7, 7/7 or 7//7");
         absolute_ = absolute_ && i > 0;
         const long long zero_based = i > 0 ? i - 1 : static_cast<long long>(count) + i;
         if (i == 0 || zero_based < 0 || zero_based > static_cast<long long>(polygon_soup::limit))
@@ -153,31 +139,9 @@ private:
     scanner in_;
     polygon_soup soup_;
     largest vertices_, coords_;
+    const char* body_ = nullptr;
     bool absolute_ = true;
 };
-
-/// The text in pieces of about `size` bytes that end with a statement.
-inline std::vector<std::string_view> cut_statements(std::string_view text, std::size_t size)
-{
-    std::vector<std::string_view> pieces;
-    std::size_t begin = 0;
-    while (text.size() - begin > size)
-    {
-        std::size_t end = begin + size;
-        const auto joined = [&]
-        {
-            const std::size_t last = text[end - 1] == '\r' ? end - 2 : end - 1;
-            return text[last] == '\\';
-        };
-        do end = text.find('\n', end + 1);
-        while (end != text.npos && joined());
-        if (end == text.npos) break;
-        pieces.push_back(text.substr(begin, end + 1 - begin));
-        begin = end + 1;
-    }
-    pieces.push_back(text.substr(begin));
-    return pieces;
-}
 
 /// Reads the pieces of a large file at the same time. Nothing where that is not possible, or the file is faulty: the
 /// place of a fault is known to who reads from the start.
@@ -210,24 +174,40 @@ inline std::optional<surface_file> read_pieces(std::string_view text, const std:
         if (!reader.absolute()) return std::nullopt;
     obj_reader whole({}, path);
     whole.reserve(readers);
-    for (auto& reader : readers)
-        if (!whole.append(std::move(reader))) return std::nullopt;
-    if (!whole.in_range()) return std::nullopt;
-    return whole.finish();
+    obj_text found;
+    const char* body = nullptr;
+    for (std::size_t i = 0; i < readers.size(); ++i)
+    {
+        found.pieces.push_back({static_cast<std::size_t>(pieces[i].data() - text.data()), whole.corner_count()});
+        if (body == nullptr) body = readers[i].body();
+        if (!whole.append(std::move(readers[i]))) return std::nullopt;
+    }
+    if (body == nullptr || !whole.in_range()) return std::nullopt;
+    found.body = static_cast<std::size_t>(body - text.data());
+    surface_file file = whole.finish();
+    file.obj = std::move(found);
+    return file;
 }
 
 } // namespace detail
 
 /// Reads OBJ text: v, vt and f (with any of v, v/vt, v//vn, v/vt/vn, from 1 or from the end by negative numbers), lines
-/// joined by a backslash. All else is skipped. Polygons are split into triangles, which the notes say. `path` is named
-/// in errors. Throws io_error, mesh_error.
-inline surface_file parse_obj(std::string_view text, const std::string& path = "OBJ text")
+/// joined by a backslash. All else is kept for write_obj. Polygons are split into triangles, which the notes say.
+/// `path` is named in errors. Throws io_error, mesh_error.
+inline surface_file parse_obj(std::string text, const std::string& path = "OBJ text")
 {
     detail::obj_reader reader(text, path);
     reader.require_text();
-    if (auto file = detail::read_pieces(text, path)) return std::move(*file);
-    reader.read();
-    return reader.finish();
+    auto file = detail::read_pieces(text, path);
+    if (!file)
+    {
+        reader.read();
+        file = reader.finish();
+        file->obj.body = static_cast<std::size_t>(reader.body() - text.data()); // a surface has a face
+        file->obj.pieces = {{0, 0}};
+    }
+    file->obj.bytes = std::move(text);
+    return std::move(*file);
 }
 
 } // namespace taut::io

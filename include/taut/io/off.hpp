@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <taut/io/polygon_soup.hpp>
 #include <taut/io/scanner.hpp>
@@ -25,7 +27,7 @@ public:
         read_header();
         const std::size_t vertices = read_count("the number of vertices"), faces = read_count("the number of faces");
         // The number of edges is often wrong and never needed; it may be missing.
-        in_.next_line();
+        end_line();
         // The shortest vertex is "0 0 0\n". A count beyond the file is refused before memory is asked for.
         if (vertices > in_.remaining() / 5 || faces > in_.remaining() / 5) in_.fail("the file ends too early");
         soup_.points.reserve(vertices);
@@ -34,6 +36,7 @@ public:
         for (std::size_t v = 0; v < vertices; ++v) read_vertex();
         for (std::size_t f = 0; f < faces; ++f) read_face();
         if (has_texcoords_) soup_.corner_coords = soup_.corners;
+        scale_colours();
         return std::move(soup_).finish(in_.path());
     }
 
@@ -41,66 +44,112 @@ private:
     /// [ST][C][N]OFF, or nothing: the header may be missing.
     void read_header()
     {
-        in_.skip_space_and_comments();
+        skip_to_content();
         if (in_.at_digit()) return;
         const std::string_view key = in_.word();
         const std::string_view kind = key.ends_with("OFF") ? key.substr(0, key.size() - 3) : "?";
         has_texcoords_ = kind.starts_with("ST");
         const std::string_view rest = has_texcoords_ ? kind.substr(2) : kind;
+        has_colours_ = rest.starts_with('C');
+        has_normals_ = rest.ends_with('N');
         if (!rest.empty() && rest != "C" && rest != "N" && rest != "CN")
             in_.fail("not an OFF file of points in space: '" + std::string(key.substr(0, 40)) + "'");
-        in_.skip_space_and_comments();
+        skip_to_content();
         if (!in_.at_digit()) in_.fail("expected the number of vertices; binary OFF is not supported");
     }
 
     std::size_t read_count(const char* what)
     {
-        in_.skip_space_and_comments();
+        skip_to_content();
         const long long n = in_.integer(what);
         if (n < 0) in_.fail(std::string(what) + " is negative");
         return static_cast<std::size_t>(n);
     }
 
-    /// x y z, then normal and colour, then s t at the end of the line.
+    /// Goes to the next number or word, past empty lines and comments.
+    void skip_to_content()
+    {
+        while (in_.content_ends() && !in_.done()) end_line();
+    }
+
+    /// Goes to the next line. A comment is kept.
+    void end_line()
+    {
+        while (!in_.content_ends()) in_.word();
+        if (in_.take('#')) soup_.carried.comments.add(in_.rest_of_line());
+        in_.next_line();
+    }
+
+    /// x y z, then the normal, the colour with or without its opacity, and s t, as the header says.
     void read_vertex()
     {
-        in_.skip_space_and_comments();
-        soup_.add_point(in_.numbers<3>(), in_.path(), in_.here());
-        if (has_texcoords_)
+        skip_to_content();
+        auto& carried = soup_.carried;
+        vec3 p;
+        for (int k = 0; k < 3; ++k)
         {
-            vec2 last(0.0);
-            int more = 0;
-            for (; !in_.line_ends() && !in_.at('#'); ++more) last = {last.y, in_.number()};
-            if (more < 2) in_.fail("expected the texture coordinates of the vertex");
-            soup_.add_texcoord(last, in_.path(), in_.here());
+            in_.skip_blanks();
+            const char* const begin = in_.position();
+            p[k] = in_.number();
+            if (k > 0) carried.positions.append(" ");
+            carried.positions.append(in_.since(begin));
         }
-        in_.next_line();
+        carried.positions.end();
+        soup_.add_point(p, in_.path(), in_.here());
+        if (has_normals_ || has_colours_ || has_texcoords_) read_attributes();
+        end_line();
+    }
+
+    void read_attributes()
+    {
+        values_.clear();
+        while (!in_.content_ends()) values_.push_back(in_.number());
+        const std::size_t normal = has_normals_ ? 3 : 0, colour = has_colours_ ? 3 : 0, coords = has_texcoords_ ? 2 : 0;
+        if (values_.size() < normal + colour + coords)
+            in_.fail("expected " + std::to_string(normal + colour + coords) +
+                     " numbers behind the position of a vertex, which the header says has" +
+                     (has_normals_ ? " a normal" : "") + (has_colours_ ? " a colour" : "") +
+                     (has_texcoords_ ? " texture coordinates" : ""));
+        const auto three = [this](std::size_t i) { return vec3(values_[i], values_[i + 1], values_[i + 2]); };
+        if (has_normals_) soup_.carried.normals.push_back(three(0));
+        if (has_colours_) soup_.carried.colours.push_back(three(normal));
+        if (has_texcoords_) soup_.add_texcoord({values_[values_.size() - 2], values_.back()}, in_.path(), in_.here());
+    }
+
+    /// Colours from 0 to 255 are as common as those from 0 to 1.
+    void scale_colours()
+    {
+        auto& colours = soup_.carried.colours;
+        const auto beyond = [](const vec3& c) { return c.x > 1 || c.y > 1 || c.z > 1; };
+        if (std::any_of(colours.begin(), colours.end(), beyond))
+            for (vec3& c : colours) c /= 255.0;
     }
 
     /// n, then n vertices, then perhaps a colour.
     void read_face()
     {
-        in_.skip_space_and_comments();
+        skip_to_content();
         const std::size_t first = soup_.corners.size();
         for (long long n = in_.integer("the number of corners of a face"); n > 0; --n)
         {
-            in_.skip_space_and_comments();
+            skip_to_content();
             soup_.add_corner(in_.integer("a vertex number"), in_.path(), in_.here());
         }
         soup_.end_polygon(first, in_.path(), in_.here());
-        in_.next_line();
+        end_line();
     }
 
     scanner in_;
     polygon_soup soup_;
-    bool has_texcoords_ = false;
+    std::vector<double> values_; // of a vertex, behind its position
+    bool has_texcoords_ = false, has_colours_ = false, has_normals_ = false;
 };
 
 } // namespace detail
 
 /// Reads OFF text: OFF, COFF, NOFF, STOFF and their combinations, one vertex a line, with comments, and with the counts
-/// beside or below the header. Normals and colours are skipped. Polygons are split into triangles, which the notes
-/// say. `path` is named in errors. Throws io_error, mesh_error.
+/// beside or below the header. Normals, colours and comments are kept for write_obj. Polygons are split into triangles,
+/// which the notes say. `path` is named in errors. Throws io_error, mesh_error.
 inline surface_file parse_off(std::string_view text, const std::string& path = "OFF text")
 {
     return detail::off_reader(text, path).read();

@@ -126,7 +126,8 @@ pin<D> read_pin(const pin_reader& in)
 {
     const auto& cells = in.cells();
     if (cells.size() < D + 1 || cells.size() > D + 2)
-        in.fail(std::to_string(cells.size()) + " columns; write " + pin_columns<D>());
+        in.fail(std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns") + "; write " +
+                pin_columns<D>() + ", and nothing between two commas or after the last where a coordinate is free");
     pin<D> p;
     p.vertex = in.number<index>(cells[0], "the number of a vertex");
     if (p.vertex < 0) in.fail("vertex " + std::to_string(p.vertex) + "; vertices count from 0");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -25,8 +26,9 @@ class ply_reader
 public:
     ply_reader(Source source, const std::string& path) : in_(source), path_(path) {}
 
-    surface_file read(const ply_header& header)
+    surface_file read(ply_header& header)
     {
+        soup_.carried.comments = std::move(header.comments);
         for (const ply_element& e : header.elements)
         {
             if (e.properties.empty()) continue; // its rows take no bytes, however many there are
@@ -76,43 +78,87 @@ private:
         for (; n > 0; --n) f(in_.next(p.type));
     }
 
-    /// 0, 1, 2 for x, y, z; 3, 4 for the texture coordinates under the names that programs give them; -1 for all else.
+    /// What the properties of a vertex are, by the first of each group; -1 for all else.
+    enum : std::size_t
+    {
+        position = 0,
+        texcoord = 3,
+        normal = 5,
+        colour = 8,
+        role_count = 11
+    };
+
     static int role_of(std::string_view name)
     {
-        if (name == "x") return 0;
-        if (name == "y") return 1;
-        if (name == "z") return 2;
-        if (name == "s" || name == "u" || name == "texture_u") return 3;
-        if (name == "t" || name == "v" || name == "texture_v") return 4;
+        using names = std::array<std::string_view, 3>; // programs have several for some
+        constexpr std::array<names, role_count> known = {names{"x"},
+                                                         {"y"},
+                                                         {"z"},
+                                                         {"s", "u", "texture_u"},
+                                                         {"t", "v", "texture_v"},
+                                                         {"nx"},
+                                                         {"ny"},
+                                                         {"nz"},
+                                                         {"red", "diffuse_red"},
+                                                         {"green", "diffuse_green"},
+                                                         {"blue", "diffuse_blue"}};
+        for (std::size_t r = 0; r < known.size(); ++r)
+            if (!name.empty() && std::find(known[r].begin(), known[r].end(), name) != known[r].end())
+                return static_cast<int>(r);
         return -1;
     }
+
+    /// What stands for full colour: integers count to the end of their range.
+    static double full(ply_type t) { return t == ply_type::uint8 ? 255 : t == ply_type::uint16 ? 65535 : 1; }
 
     void read_vertices(const ply_element& e)
     {
         std::vector<int> roles;
-        std::array<bool, 5> present{};
+        std::array<double, role_count> unit{}; // 0: there is no such property
         for (const ply_property& p : e.properties)
         {
-            const int role = p.counts ? -1 : role_of(p.name);
-            const bool first = role >= 0 && !present[static_cast<std::size_t>(role)];
-            if (first) present[static_cast<std::size_t>(role)] = true;
-            roles.push_back(first ? role : -1);
+            int role = p.counts ? -1 : role_of(p.name);
+            if (role >= 0 && unit[static_cast<std::size_t>(role)] != 0) role = -1; // the first one counts
+            if (role >= 0)
+                unit[static_cast<std::size_t>(role)] = static_cast<std::size_t>(role) >= colour ? full(p.type) : 1;
+            roles.push_back(role);
         }
-        if (!present[0] || !present[1] || !present[2]) fail("the vertices have no x, y, z");
-        const bool textured = present[3] && present[4];
+        const auto has = [&](std::size_t first, std::size_t count)
+        { return std::all_of(&unit[first], &unit[first] + count, [](double u) { return u != 0; }); };
+        if (!has(position, 3)) fail("the vertices have no x, y, z");
+        const bool textured = has(texcoord, 2), normals = has(normal, 3), colours = has(colour, 3);
         soup_.points.reserve(e.rows);
+        std::array<double, role_count> value{};
+        std::array<std::string_view, 3> text;
+        const auto three = [&value](std::size_t i) { return vec3(value[i], value[i + 1], value[i + 2]); };
         for (std::size_t r = 0; r < e.rows; ++r)
         {
-            std::array<double, 5> value{};
             for (std::size_t k = 0; k < roles.size(); ++k)
                 read_property(e.properties[k],
                               [&](double x)
                               {
-                                  if (roles[k] >= 0) value[static_cast<std::size_t>(roles[k])] = x;
+                                  if (roles[k] < 0) return;
+                                  const auto role = static_cast<std::size_t>(roles[k]);
+                                  value[role] = x / unit[role];
+                                  if (role < text.size()) text[role] = in_.text();
                               });
-            soup_.add_point({value[0], value[1], value[2]}, path_, here());
-            if (textured) soup_.add_texcoord({value[3], value[4]}, path_, here());
+            soup_.add_point(three(position), path_, here());
+            if (textured) soup_.add_texcoord({value[texcoord], value[texcoord + 1]}, path_, here());
+            if (normals) soup_.carried.normals.push_back(three(normal));
+            if (colours) soup_.carried.colours.push_back(three(colour));
+            if (!text[0].empty()) add_position(text);
         }
+    }
+
+    void add_position(const std::array<std::string_view, 3>& text)
+    {
+        auto& positions = soup_.carried.positions;
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            if (k > 0) positions.append(" ");
+            positions.append(text[k]);
+        }
+        positions.end();
     }
 
     void read_faces(const ply_element& e)
@@ -162,12 +208,13 @@ private:
 } // namespace detail
 
 /// Reads a PLY file: ASCII or binary of either byte order; vertices with x, y, z and perhaps s, t (or u, v), faces as
-/// lists vertex_indices (or vertex_index) and perhaps texcoord. Other elements and properties are skipped. Polygons
-/// are split into triangles, which the notes say. `path` is named in errors. Throws io_error, mesh_error.
+/// lists vertex_indices (or vertex_index) and perhaps texcoord. Normals, colours and comments are kept for write_obj;
+/// other elements and properties are skipped. Polygons are split into triangles, which the notes say. `path` is named
+/// in errors. Throws io_error, mesh_error.
 inline surface_file parse_ply(std::string_view bytes, const std::string& path = "PLY data")
 {
     detail::scanner in(bytes, path);
-    const auto header = detail::read_ply_header(in);
+    auto header = detail::read_ply_header(in);
     const auto read = [&](auto source) { return detail::ply_reader(source, path).read(header); };
     switch (header.format)
     {

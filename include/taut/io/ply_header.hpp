@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <taut/io/scanner.hpp>
+#include <taut/io/text_list.hpp>
 
 namespace taut::io::detail
 {
@@ -57,6 +58,7 @@ struct ply_header
     };
     encoding format;
     std::vector<ply_element> elements; ///< in the order of the data
+    text_list comments;
 };
 
 inline ply_type read_ply_type(scanner& in)
@@ -102,6 +104,7 @@ inline ply_header read_ply_header(scanner& in)
     if (in.word() != "ply") in.fail("not a PLY file: it does not start with 'ply'");
     std::optional<ply_header::encoding> format;
     std::vector<ply_element> elements;
+    text_list comments;
     for (;;)
     {
         in.next_line();
@@ -124,6 +127,8 @@ inline ply_header read_ply_header(scanner& in)
             std::string name(in.word());
             const long long rows = in.integer("the number of elements");
             if (rows < 0) in.fail("a negative number of elements");
+            for (const ply_element& e : elements)
+                if (e.name == name) in.fail("element " + name.substr(0, 40) + " is declared twice; join the two");
             elements.push_back({std::move(name), static_cast<std::size_t>(rows), {}});
         }
         else if (key == "property")
@@ -133,12 +138,14 @@ inline ply_header read_ply_header(scanner& in)
         }
         else if (key == "end_header")
             break;
-        else if (key != "comment" && key != "obj_info" && !key.empty())
+        else if (key == "comment" || key == "obj_info")
+            comments.add(in.rest_of_line());
+        else if (!key.empty())
             in.fail("unknown header line '" + std::string(key.substr(0, 40)) + "'");
     }
     in.next_line();
     if (!format) in.fail("the header has no format");
-    return {*format, std::move(elements)};
+    return {*format, std::move(elements), std::move(comments)};
 }
 
 } // namespace taut::io::detail

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 #include <taut/io/ply_header.hpp>
 
@@ -21,14 +22,17 @@ public:
     double next(ply_type)
     {
         in_.skip_space();
+        begin_ = in_.position();
         return in_.number();
     }
+    std::string_view text() const { return in_.since(begin_); }   ///< the last value as it is written
     std::size_t smallest(ply_type) const { return 2; }            ///< bytes of the shortest value: "0\n"
     std::size_t remaining() const { return in_.remaining() + 1; } // the last line end may be missing
     file_place place() const { return in_.line_of(in_.position()); }
 
 private:
     scanner& in_;
+    const char* begin_ = nullptr;
 };
 
 /// Values of a binary body.
@@ -64,6 +68,7 @@ public:
         }
         return 0;
     }
+    std::string_view text() const { return {}; }
     std::size_t smallest(ply_type type) const { return size_of(type); }
     std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
     file_place place() const { return {file_place::byte, static_cast<std::size_t>(at_ - begin_)}; }

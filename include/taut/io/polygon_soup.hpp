@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <span>
 #include <string>
@@ -24,7 +23,7 @@ struct polygon_soup
 {
     std::vector<vec3> points;
     std::vector<vec2> texcoords;
-    std::vector<std::string> extras;  // further text of v lines; may end before the points do
+    file_vertices carried;            // what else the vertices have
     std::vector<index> corners;       // vertices of all polygons, one after the other
     std::vector<index> corner_coords; // texcoords of the corners, -1 or missing at the end: none
     std::vector<index> sizes;         // corners of each polygon
@@ -89,11 +88,6 @@ struct polygon_soup
         if (points.size() + next.points.size() > limit || texcoords.size() + next.texcoords.size() > limit ||
             corners.size() + next.corners.size() > limit)
             return false;
-        if (!next.extras.empty())
-        {
-            extras.resize(points.size());
-            std::move(next.extras.begin(), next.extras.end(), std::back_inserter(extras));
-        }
         const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
         add(points, next.points);
         add(texcoords, next.texcoords);
@@ -108,11 +102,13 @@ struct polygon_soup
     /// Throws mesh_error as the constructor of mesh does.
     surface_file finish(const std::string& path) &&
     {
-        std::vector<std::array<index, 3>> cells, coord_cells;
+        std::vector<std::array<index, 3>> cells, coord_cells, triangles;
         cells.reserve(corners.size() > 2 * sizes.size() ? corners.size() - 2 * sizes.size() : 0);
         const bool coords = !texcoords.empty() && !corner_coords.empty();
         corner_coords.resize(corners.size(), -1); // the last faces may have had none
         if (coords) coord_cells.reserve(cells.capacity());
+        const bool polygons = std::any_of(sizes.begin(), sizes.end(), [](index n) { return n != 3; });
+        if (polygons) triangles.reserve(cells.capacity());
 
         std::size_t split = 0, fans = 0, first = 0;
         ear_clipper clipper;
@@ -125,6 +121,9 @@ struct polygon_soup
                 if (coords)
                     coord_cells.push_back(
                         {corner_coords[first + a], corner_coords[first + b], corner_coords[first + c]});
+                if (polygons)
+                    triangles.push_back(
+                        {static_cast<index>(first + a), static_cast<index>(first + b), static_cast<index>(first + c)});
             };
             const auto n = static_cast<std::size_t>(size);
             if (n == 3)
@@ -150,8 +149,12 @@ struct polygon_soup
         if (!coords) texcoords.clear();
         try
         {
-            return {mesh<triangle>(std::move(points), std::move(cells)), std::move(texcoords), std::move(coord_cells),
-                    std::move(extras), std::move(notes)};
+            return {mesh<triangle>(std::move(points), std::move(cells)),
+                    std::move(texcoords),
+                    std::move(coord_cells),
+                    std::move(notes),
+                    file_faces{std::move(sizes), std::move(corners), std::move(triangles)},
+                    std::move(carried)};
         }
         catch (const mesh_error& e)
         {

@@ -161,7 +161,6 @@ private:
     index read_vertex()
     {
         const long long v = in_.integer("the number of a vertex");
-        if (!in_.word_ends()) in_.fail_at_word("a blank after the number of a vertex");
         if (v < 0 || v >= static_cast<long long>(initial_count_))
             in_.fail("vertex " + std::to_string(v) + " of " + std::to_string(initial_count_) +
                      "; vertices count from 0");

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <taut/io/obj.hpp>
 #include <taut/io/off.hpp>
@@ -77,11 +78,11 @@ inline surface_file read_surface_file(const std::filesystem::path& path,
     if (format == surface_format::automatic && !detail::is_stream_to_read(path))
         throw io_error(name, "unknown kind of file; surfaces are read from .obj, .off and .ply, from other names if "
                              "the format is given");
-    const std::string text = read_file(path);
+    std::string text = read_file(path);
     if (format == surface_format::automatic) format = detail::format_of_text(text);
     return format == surface_format::off   ? parse_off(text, name)
            : format == surface_format::ply ? parse_ply(text, name)
-                                           : parse_obj(text, name);
+                                           : parse_obj(std::move(text), name);
 }
 
 /// The surface alone.

@@ -34,11 +34,37 @@ public:
     std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
     const std::string& path() const { return path_; }
 
+    /// Skips blanks and joined line ends.
+    void skip_blanks()
+    {
+        for (;;)
+        {
+            const char* p = at_;
+            while (p != end_ && is_blank(*p)) ++p;
+            at_ = p;
+            if (end_ - at_ < 2 || *at_ != '\\' || !is_line_end(at_[1])) return;
+            ++at_;
+            skip_line_end();
+        }
+    }
+
     /// Whether nothing but blanks is left on the line.
     bool line_ends()
     {
         skip_blanks();
         return done() || is_line_end(*at_);
+    }
+
+    /// Whether no more than blanks and a comment from # on are left on the line.
+    bool content_ends() { return line_ends() || at('#'); }
+
+    /// What is left on the line, which is taken, without blanks before it.
+    std::string_view rest_of_line()
+    {
+        while (at_ != end_ && is_blank(*at_)) ++at_;
+        const char* const first = at_;
+        while (at_ != end_ && !is_line_end(*at_)) ++at_;
+        return since(first);
     }
 
     /// Goes to the start of the next line. With `joined`, lines joined by a backslash count as one.
@@ -55,12 +81,6 @@ public:
         }
     }
 
-    /// Skips blanks, line ends and comments from # to the end of the line.
-    void skip_space_and_comments()
-    {
-        while (!line_ends() ? *at_ == '#' : !done()) next_line();
-    }
-
     /// Skips blanks and line ends.
     void skip_space()
     {
@@ -72,7 +92,7 @@ public:
     {
         skip_blanks();
         const char *const first = at_, *p = first;
-        while (p != end_ && !is_blank(*p) && !is_line_end(*p)) ++p;
+        while (!ends_word(p)) ++p;
         at_ = p;
         return {first, static_cast<std::size_t>(p - first)};
     }
@@ -83,7 +103,7 @@ public:
     bool at_digit() const { return !done() && *at_ >= '0' && *at_ <= '9'; }
 
     /// Whether the word ends here.
-    bool word_ends() const { return done() || is_blank(*at_) || is_line_end(*at_); }
+    bool word_ends() const { return ends_word(at_); }
 
     /// Whether the next character is c; if so it is taken.
     bool take(char c)
@@ -99,10 +119,9 @@ public:
         skip_blanks();
         double value = 0;
         if (short_number(value)) return value;
-        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
+        const char* first = after_plus();
         const auto [last, failure] = std::from_chars(first, end_, value);
-        if (failure == std::errc::invalid_argument || (last != end_ && !is_blank(*last) && !is_line_end(*last)))
-            fail_at_word("a number");
+        if (failure == std::errc::invalid_argument || !ends_word(last)) fail_at_word("a number");
         if (failure == std::errc::result_out_of_range) value = beyond_range({first, last});
         at_ = last;
         return value;
@@ -117,8 +136,19 @@ public:
         return x;
     }
 
+    /// A decimal integer as a word of its own. Throws io_error.
+    long long integer(const char* what)
+    {
+        skip_blanks();
+        const char* const first = at_;
+        const long long value = leading_integer(what);
+        if (word_ends()) return value;
+        at_ = first;
+        fail_at_word(what);
+    }
+
     /// A decimal integer, which may be followed by anything. Throws io_error.
-    long long integer(const char* what = "a whole number")
+    long long leading_integer(const char* what)
     {
         skip_blanks();
         long long value = 0;
@@ -129,18 +159,20 @@ public:
             at_ = p;
             return value;
         }
-        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
-        const auto [last, failure] = std::from_chars(first, end_, value);
+        const auto [last, failure] = std::from_chars(after_plus(), end_, value);
         if (failure != std::errc{}) fail_at_word(what);
         at_ = last;
         return value;
     }
 
+    /// What stands between an earlier position and this one.
+    std::string_view since(const char* position) const { return {position, static_cast<std::size_t>(at_ - position)}; }
+
     /// Fails if this is a binary file.
     void require_text() const
     {
-        const std::string_view head(at_, std::min<std::size_t>(remaining(), 4096));
-        if (head.find('\0') != head.npos) throw io_error(path_, "not a text file");
+        if (std::string_view(at_, remaining()).find('\0') != std::string_view::npos)
+            throw io_error(path_, "not a text file");
     }
 
     /// The present line. Slow (it counts), hence a function to hand on, called for errors.
@@ -173,25 +205,21 @@ private:
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
+    /// Whether p is the end, a blank, a line end, or the backslash of one.
+    bool ends_word(const char* p) const
+    {
+        return p == end_ || is_blank(*p) || is_line_end(*p) || (*p == '\\' && p + 1 != end_ && is_line_end(p[1]));
+    }
+
+    /// Where the digits start: behind a plus sign that no minus sign follows.
+    const char* after_plus() const { return end_ - at_ > 1 && *at_ == '+' && at_[1] != '-' ? at_ + 1 : at_; }
+
     void skip_line_end()
     {
         if (at_ != end_ && *at_ == '\r')
             ++at_, take('\n');
         else if (at_ != end_ && *at_ == '\n')
             ++at_;
-    }
-
-    void skip_blanks()
-    {
-        for (;;)
-        {
-            const char* p = at_;
-            while (p != end_ && is_blank(*p)) ++p;
-            at_ = p;
-            if (end_ - at_ < 2 || *at_ != '\\' || !is_line_end(at_[1])) return;
-            ++at_;
-            skip_line_end();
-        }
     }
 
     /// Takes a number of the form -1.25, as most are, if its digits fit a double: it is then the quotient of two
@@ -221,21 +249,28 @@ private:
             ++p;
             fraction = take_digits();
         }
-        if (digits > exact || fraction >= powers.size() || (p != end_ && !is_blank(*p) && !is_line_end(*p)))
-            return false;
+        if (digits > exact || fraction >= powers.size() || !ends_word(p)) return false;
         value = static_cast<double>(digits) / powers[fraction];
         if (negative) value = -value;
         at_ = p;
         return true;
     }
 
-    /// What a number that fits no double stands for: 0 if it is tiny, else infinity.
+    /// What a number that fits no double stands for: 0 if it is below 1, else infinity.
     static double beyond_range(std::string_view digits)
     {
-        const auto exponent = digits.find_first_of("eE");
-        const bool tiny = exponent != digits.npos ? digits.substr(exponent + 1).starts_with('-')
-                                                  : digits.find_first_of("123456789") > digits.find('.');
-        return tiny ? 0.0 : std::numeric_limits<double>::infinity();
+        const auto e = std::min(digits.find_first_of("eE"), digits.size());
+        const std::string_view mantissa = digits.substr(0, e);
+        const auto point = std::min(mantissa.find('.'), e);
+        const auto leading = mantissa.find_first_of("123456789");
+        if (leading == mantissa.npos) return 0.0;
+        long long exponent = 0;
+        std::string_view power = digits.substr(std::min(e + 1, digits.size()));
+        if (power.starts_with('+')) power.remove_prefix(1);
+        if (std::from_chars(power.data(), power.data() + power.size(), exponent).ec == std::errc::result_out_of_range)
+            return power.starts_with('-') ? 0.0 : std::numeric_limits<double>::infinity();
+        const auto before_point = static_cast<long long>(point) - static_cast<long long>(leading);
+        return before_point + exponent > 0 ? std::numeric_limits<double>::infinity() : 0.0;
     }
 
     const char *begin_, *at_, *end_;

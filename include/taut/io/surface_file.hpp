@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <taut/io/text_list.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut::io
@@ -22,18 +23,72 @@ private:
     index vertex_;
 };
 
+/// Faces as a file has them, before polygons are split into triangles.
+struct file_faces
+{
+    std::vector<index> sizes;                    ///< corners of each
+    std::vector<index> corners;                  ///< the vertex of each corner, one face after the other
+    std::vector<std::array<index, 3>> triangles; ///< the corners of each triangle; empty if all faces are triangles
+
+    /// The corner that corner k of triangle c is.
+    std::size_t corner(std::size_t c, std::size_t k) const
+    {
+        return triangles.empty() ? 3 * c + k : static_cast<std::size_t>(triangles[c][k]);
+    }
+};
+
+/// The text of an OBJ file, and what write_obj needs to find its way in it.
+struct obj_text
+{
+    /// Statements that can be read by themselves.
+    struct piece
+    {
+        std::size_t begin;        ///< the first byte
+        std::size_t first_corner; ///< how many corners of faces stand before
+    };
+
+    std::string bytes;         ///< all of the file
+    std::size_t body = 0;      ///< where the first vt or f statement starts
+    std::vector<piece> pieces; ///< in their order
+};
+
+/// What vertices of OFF and PLY files carry that OBJ can hold.
+struct file_vertices
+{
+    text_list positions;       ///< coordinates as they are written; none of a binary file
+    std::vector<vec3> colours; ///< red, green, blue from 0 to 1; empty if the file has none
+    std::vector<vec3> normals; ///< empty if the file has none
+    text_list comments;        ///< of the file, without the sign they start with
+};
+
 /// What a file of a surface holds. Vertices and faces are in the order of the file, unreferenced vertices included.
 struct surface_file
 {
     mesh<triangle> surface;
     std::vector<vec2> texcoords; ///< as in the file; empty if it has none
     std::vector<std::array<index, 3>>
-        texcoord_cells;                   ///< one triple a triangle, into texcoords; -1: that corner has none
-    std::vector<std::string> extras = {}; ///< OBJ: what stands on v lines behind the position (colours); else empty
-    std::vector<std::string> notes = {};  ///< what was changed in reading, in sentences
+        texcoord_cells;                  ///< one triple a triangle, into texcoords; -1: that corner has none
+    std::vector<std::string> notes = {}; ///< what was changed in reading, in sentences
+    file_faces faces = {};               ///< what the triangles were made from
+    file_vertices vertices = {};         ///< OFF and PLY
+    obj_text obj = {};                   ///< OBJ; else empty
+
+    /// The texture coordinate of corner k of triangle c.
+    /// Throws texcoord_error if it has none, or one that is not there.
+    vec2 texcoord(std::size_t c, std::size_t k) const
+    {
+        const index t = texcoord_cells.empty() ? -1 : texcoord_cells[c][k];
+        if (t >= 0 && static_cast<std::size_t>(t) < texcoords.size()) return texcoords[static_cast<std::size_t>(t)];
+        const index v = surface.cells()[c][k];
+        throw texcoord_error(
+            v, "triangle " + std::to_string(c) + " has " +
+                   (t < 0 ? "no texture coordinate"
+                          : "texture coordinate " + std::to_string(t) + " of " + std::to_string(texcoords.size())) +
+                   " at vertex " + std::to_string(v));
+    }
 
     /// The texture coordinate of each vertex; 0 for a vertex without a triangle.
-    /// Throws texcoord_error if a vertex has none, or lies on a seam: corners with different ones.
+    /// Throws texcoord_error if a corner has none, or if a vertex lies on a seam: corners with different ones.
     std::vector<vec2> vertex_texcoords() const
     {
         const auto n = static_cast<std::size_t>(surface.vertex_count());
@@ -43,11 +98,8 @@ struct surface_file
             for (std::size_t k = 0; k < 3; ++k)
             {
                 const index vertex = surface.cells()[c][k];
-                const index t = texcoord_cells.empty() ? -1 : texcoord_cells[c][k];
-                if (t < 0)
-                    throw texcoord_error(vertex, "vertex " + std::to_string(vertex) + " has no texture coordinate");
                 const auto v = static_cast<std::size_t>(vertex);
-                const vec2 x = texcoords[static_cast<std::size_t>(t)];
+                const vec2 x = texcoord(c, k);
                 if (known[v] && result[v] != x)
                     throw texcoord_error(vertex, "vertex " + std::to_string(vertex) +
                                                      " has several texture coordinates: it lies on a seam");

@@ -36,6 +36,7 @@ inline void write_files(std::span<const file_to_write> files)
         file->write(open.emplace_back(file->path));
         open.back().finish();
     }
+    for (auto& file : open) file.link();
     std::string replaced;
     for (std::size_t k = 0; k < open.size(); ++k)
     {

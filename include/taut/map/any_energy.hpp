@@ -16,7 +16,8 @@ namespace taut
 /// and functions that take one need not be templates. Converts from every energy_function.
 ///
 /// An energy may exist for triangles, for tetrahedra or for both; calling it in a dimension that it does not have
-/// throws parameter_error.
+/// throws parameter_error. One for triangles alone takes element<T, 2>; one that takes element<T, D> is compiled for D
+/// = 2 and 3, and its errors in one of them are reported from call() below.
 class any_energy
 {
 public:

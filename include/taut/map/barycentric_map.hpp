@@ -78,10 +78,10 @@ inline void weaken_stretched(std::span<double> pull, const mesh<triangle>& m, co
         if (area[v] > 0) pull[v] /= std::sqrt(stretch2[v] / area[v]);
 }
 
-/// True if `a` is a better start than `b`: fewer flips, then less distortion by the given factor.
+/// True if `a` is a better start than `b`: fewer defects, then less distortion by the given factor.
 inline bool better(const start_map& a, const start_map& b, double factor = 1)
 {
-    if (a.flips.flipped != b.flips.flipped) return a.flips.flipped < b.flips.flipped;
+    if (a.flips.defects() != b.flips.defects()) return a.flips.defects() < b.flips.defects();
     return a.distortion.measure < factor * b.distortion.measure;
 }
 

@@ -7,27 +7,34 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <taut/core/parallel.hpp>
 #include <taut/core/types.hpp>
+#include <taut/map/branch_points.hpp>
 #include <taut/map/predicates.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut
 {
 
-/// Whether a piecewise linear map keeps every element's orientation.
+/// Whether a piecewise linear map is locally injective: no element is flipped, and in the plane no inner vertex is a
+/// branch point, one that the map winds around more than once (branch_points.hpp). With a simple boundary image the map
+/// is injective as a whole.
 struct certificate
 {
     std::size_t elements = 0; ///< elements examined
     std::size_t flipped = 0;  ///< elements whose determinant is not positive: turned over, flat or not finite; exact
-    std::vector<index> ids;   ///< the first flipped elements, in ascending order
+    std::vector<index> ids{}; ///< the first flipped elements, in ascending order
+    std::size_t branched = 0; ///< branch points of a map to the plane; exact
+    std::vector<index> branch_ids{}; ///< the first of these vertices, in ascending order
     double min_det = 0; ///< smallest det S = mapped / rest measure, signed; 0 if there is no element, NaN if not finite
     double max_det = 0; ///< largest det S
 
-    /// True if no element is flipped: with a simple boundary image the map is injective (locally, otherwise).
-    explicit operator bool() const { return flipped == 0; }
+    std::size_t defects() const { return flipped + branched; }
+    explicit operator bool() const { return defects() == 0; }
 };
 
 namespace detail
@@ -67,12 +74,12 @@ struct flip_count
 
 } // namespace detail
 
-/// Counts flipped elements in exact arithmetic.
+/// Counts flipped elements and branch points in exact arithmetic.
 ///
 /// cells:   #F by D + 1 vertex indices, in range; positive orientation means det[x1 - x0, ..., xD - x0] > 0
 /// x:       #V image points
 /// measure: #F rest areas or volumes, in the same units as x; empty: det is not divided by anything
-/// max_ids: how many flipped elements to list
+/// max_ids: how many flipped elements and how many branch points to list
 template <int D>
 certificate certify(std::span<const std::array<index, D + 1>> cells, std::span<const vec<D>> x,
                     std::span<const double> measure = {}, std::size_t max_ids = 16)
@@ -101,7 +108,31 @@ certificate certify(std::span<const std::array<index, D + 1>> cells, std::span<c
     detail::flip_count all;
     for (const auto& part : parts) all.add(part, max_ids);
     if (!all.finite) all.least = all.most = std::numeric_limits<double>::quiet_NaN();
-    return {cells.size(), all.flipped, std::move(all.ids), all.least, all.most};
+    certificate result{.elements = cells.size(),
+                       .flipped = all.flipped,
+                       .ids = std::move(all.ids),
+                       .min_det = all.least,
+                       .max_det = all.most};
+    if constexpr (D == 2)
+    {
+        result.branch_ids = branch_points(cells, x);
+        result.branched = result.branch_ids.size();
+        result.branch_ids.resize(std::min(max_ids, result.branched));
+    }
+    return result;
+}
+
+/// What keeps a map from being locally injective, with the first ids; "no defect" if nothing does.
+template <class Element>
+std::string describe_defects(const certificate& c)
+{
+    std::string text;
+    if (c.flipped > 0) text = detail::list_first_ids(Element::name, Element::names, c.flipped, c.ids) + " flipped";
+    if (c.branched > 0)
+        text += (text.empty() ? "" : ", and ") +
+                detail::list_first_ids("vertex", "vertices", c.branched, c.branch_ids) +
+                " that the map winds around more than once";
+    return text.empty() ? "no defect" : text;
 }
 
 } // namespace taut

@@ -5,8 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
+#include <ostream>
 #include <random>
 #include <span>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include <taut/map/any_energy.hpp>
@@ -20,15 +24,72 @@ namespace taut
 struct gradient_check
 {
     double worst = 0;    ///< largest |derivative - finite difference| / max(1, |derivative|) over all trials
+    double turned = 0;   ///< largest |E(S R) - E(S)| / max(1, |E(S)|) over all trials, each with a rotation R
     int trials = 0;      ///< elements tried
     bool barrier = true; ///< if the energy says that it is a barrier: it grew without bound as det S fell to 0
 
-    /// True if the derivative that kernels use agrees with the function to what finite differences can tell.
-    explicit operator bool() const { return worst < 1e-5 && barrier; }
+    /// The derivative that kernels use agrees with the function to what finite differences can tell.
+    bool derivative() const { return worst < 1e-5; }
+
+    /// The energy does not see which corner of an element is named first. If it does, so does the map.
+    bool isotropic() const { return turned < 1e-9; }
+
+    /// True if nothing was found.
+    explicit operator bool() const { return derivative() && isotropic() && barrier; }
 };
 
+/// What is wrong, in words.
+inline std::ostream& operator<<(std::ostream& out, const gradient_check& c)
+{
+    std::ostringstream text; // so that the user's stream keeps its format
+    if (!c.derivative())
+        text << "the derivative differs from finite differences by " << c.worst
+             << ": the function takes another path for numbers than for traced scalars, or is not smooth; ";
+    if (!c.isotropic())
+        text << "E(S R) differs from E(S) by " << c.turned
+             << " for a rotation R: the energy depends on which corner comes first; ";
+    if (!c.barrier) text << "barrier = true, but the energy stays bounded as det S falls to 0; ";
+    std::string found = text.str();
+    if (found.empty()) return out << "no fault in " << c.trials << " trials";
+    found.resize(found.size() - 2);
+    return out << found;
+}
+
+namespace detail
+{
+
+/// A rotation by random angles.
+template <int D, class Random>
+mat<D> random_rotation(Random& random)
+{
+    std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi);
+    mat<D> R(1.0);
+    for (int i = 0; i < D; ++i)
+        for (int j = i + 1; j < D; ++j)
+        {
+            const double a = angle(random);
+            mat<D> turn(1.0);
+            turn[i][i] = turn[j][j] = std::cos(a);
+            turn[j][i] = -(turn[i][j] = std::sin(a));
+            R = turn * R;
+        }
+    return R;
+}
+
+/// Whether a function of t grows without bound as t falls to 0, as far as three numbers tell: a bounded one has gained
+/// nearly all there is by the second.
+template <class F>
+bool grows_without_bound(F&& f)
+{
+    const double first = f(1e-20), second = f(1e-40), third = f(1e-80);
+    return std::isinf(third) ? third > 0 : third - second > 0.5 * (second - first) && second > first;
+}
+
+} // namespace detail
+
 /// Holds the traced derivative of an energy against central differences of its host values on random elements of
-/// positive determinant. For energies of your own: a tape differentiates what was traced, so a disagreement means that
+/// positive determinant; whether it is the same in turned frames of the rest shape; and whether a barrier is one. For
+/// energies of your own: a tape differentiates what was traced, so a disagreement means that
 /// the function takes other paths for numbers than for traced scalars (a cast, a table, a branch on T), or that it is
 /// not smooth.
 template <int D>
@@ -45,6 +106,8 @@ gradient_check check_gradient(const any_energy& energy, int trials = 100, unsign
     const auto partials = differentiate(value, unknowns);
 
     const auto host = [&](const mat<D>& m) { return energy(element<double, D>{m, glm::determinant(m), 1.0}); };
+    const auto largest = [](double so_far, double found)
+    { return std::isnan(found) ? std::numeric_limits<double>::infinity() : std::max(so_far, found); };
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> entry(-0.6, 0.6);
     gradient_check result;
@@ -55,6 +118,8 @@ gradient_check check_gradient(const any_energy& energy, int trials = 100, unsign
             for (int r = 0; r < D; ++r) m[c][r] += entry(random);
         if (glm::determinant(m) < 0.1) continue;
         ++result.trials;
+        const double here = host(m), there = host(m * detail::random_rotation<D>(random));
+        result.turned = largest(result.turned, std::abs(there - here) / std::max(1.0, std::abs(here)));
 
         std::vector<binding> bindings;
         for (int c = 0; c < D; ++c)
@@ -69,15 +134,16 @@ gradient_check check_gradient(const any_energy& energy, int trials = 100, unsign
             down[c][r] -= h;
             const double difference = (host(up) - host(down)) / (2 * h);
             const double error = std::abs(derivative[k] - difference) / std::max(1.0, std::abs(derivative[k]));
-            result.worst = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(result.worst, error);
+            result.worst = largest(result.worst, error);
         }
     }
-    if (energy.barrier())
+    const auto at_height = [&](double t)
     {
         mat<D> flat(1.0);
-        flat[0][0] = 1e-60;
-        result.barrier = host(flat) > 1e10;
-    }
+        flat[0][0] = t;
+        return host(flat);
+    };
+    result.barrier = !energy.barrier() || detail::grows_without_bound(at_height);
     return result;
 }
 

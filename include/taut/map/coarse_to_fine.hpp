@@ -12,6 +12,7 @@
 #include <taut/map/level_report.hpp>
 #include <taut/map/level_solver.hpp>
 #include <taut/map/start/robust_start.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut
 {
@@ -61,8 +62,7 @@ public:
     {
         const std::size_t first = params_.first_level(levels_);
         start_ = robust_start(levels_.surface(first), params_.start);
-        if (start_.flips.flipped > 0)
-            return fail("the coarse start has " + std::to_string(start_.flips.flipped) + " flipped triangles");
+        if (!start_.flips) return fail("the coarse start has " + describe_defects<triangle>(start_.flips));
         auto uv = std::move(start_.uv);
         const auto stopped = [this] { return params_.start.proceed && !params_.start.proceed(); };
         if (params_.start.fixed_boundary) detail::scale_outline(levels_.hierarchy(), first, levels_.points(), uv);

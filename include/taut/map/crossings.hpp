@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <taut/core/types.hpp>
@@ -56,50 +58,125 @@ inline bool edges_meet(const std::array<index, 2>& e, const std::array<index, 2>
     return segments_meet(at(a), at(b), at(c), at(d));
 }
 
-/// Calls meet(i, j) for the numbers of each pair of edges that meet, until it returns false or `tests` pairs were
-/// looked at. A sweep along the longer side of the bounding box: O(n log n) plus the pairs whose extents overlap.
+/// A binary tree of boxes about edges: halves along the longer side of what a node holds.
+class edge_tree
+{
+public:
+    /// Edges with finite ends.
+    edge_tree(std::span<const std::array<index, 2>> edges, std::span<const vec2> x) : order_(edges.size())
+    {
+        for (const auto& [i, j] : edges)
+        {
+            const vec2 &p = x[static_cast<std::size_t>(i)], &q = x[static_cast<std::size_t>(j)];
+            edges_.push_back({glm::min(p, q), glm::max(p, q)});
+        }
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        if (!edges.empty()) build(0, edges.size());
+    }
+
+    /// Calls look(i, j), i < j, for each pair of edges whose boxes meet, until it returns false.
+    template <class Look>
+    void for_each_pair(Look&& look) const
+    {
+        if (!nodes_.empty()) visit(0, 0, look);
+    }
+
+private:
+    struct box
+    {
+        vec2 low, high;
+
+        bool meets(const box& o) const
+        {
+            return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y;
+        }
+    };
+
+    struct node
+    {
+        box bounds;
+        std::size_t first, last;         // of order_
+        std::size_t left = 0, right = 0; // 0: a leaf
+    };
+
+    static constexpr std::size_t leaf = 4;
+
+    std::size_t build(std::size_t first, std::size_t last)
+    {
+        box bounds = edges_[order_[first]];
+        for (std::size_t k = first; k < last; ++k)
+        {
+            bounds.low = glm::min(bounds.low, edges_[order_[k]].low);
+            bounds.high = glm::max(bounds.high, edges_[order_[k]].high);
+        }
+        const std::size_t self = nodes_.size();
+        nodes_.push_back({bounds, first, last});
+        if (last - first <= leaf) return self;
+        const int side = bounds.high.x / 2 - bounds.low.x / 2 >= bounds.high.y / 2 - bounds.low.y / 2 ? 0 : 1;
+        const std::size_t middle = first + (last - first) / 2;
+        const auto centre = [&](std::size_t e) { return edges_[e].low[side] / 2 + edges_[e].high[side] / 2; };
+        const auto at = [this](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
+        std::nth_element(at(first), at(middle), at(last),
+                         [&](std::size_t e, std::size_t f)
+                         { return std::pair(centre(e), e) < std::pair(centre(f), f); });
+        const std::size_t left = build(first, middle), right = build(middle, last);
+        nodes_[self].left = left;
+        nodes_[self].right = right;
+        return self;
+    }
+
+    /// Looks at the pairs of an edge of node a and one of node b; a == b: at those within it.
+    template <class Look>
+    bool visit(std::size_t a, std::size_t b, Look& look) const
+    {
+        const node &m = nodes_[a], &n = nodes_[b];
+        if (!m.bounds.meets(n.bounds)) return true;
+        if (m.left == 0 && n.left == 0)
+        {
+            for (std::size_t i = m.first; i < m.last; ++i)
+                for (std::size_t j = a == b ? i + 1 : n.first; j < n.last; ++j)
+                    if (edges_[order_[i]].meets(edges_[order_[j]]) &&
+                        !look(std::min(order_[i], order_[j]), std::max(order_[i], order_[j])))
+                        return false;
+            return true;
+        }
+        if (a == b) return visit(m.left, m.left, look) && visit(m.right, m.right, look) && visit(m.left, m.right, look);
+        // The larger one is halved.
+        if (n.left == 0 || (m.left != 0 && m.last - m.first >= n.last - n.first))
+            return visit(m.left, b, look) && visit(m.right, b, look);
+        return visit(a, n.left, look) && visit(a, n.right, look);
+    }
+
+    std::vector<box> edges_;
+    std::vector<std::size_t> order_;
+    std::vector<node> nodes_;
+};
+
+/// Calls meet(i, j), i < j, for the numbers of each pair of edges that meet, until it returns false or `tests` pairs
+/// whose boxes meet were looked at. O(n log n) plus those pairs. Returns whether all were.
 template <class Meet>
-void for_each_meeting(std::span<const std::array<index, 2>> edges, std::span<const vec2> x, Meet&& meet,
+bool for_each_meeting(std::span<const std::array<index, 2>> edges, std::span<const vec2> x, Meet&& meet,
                       std::size_t tests = std::numeric_limits<std::size_t>::max())
 {
-    struct extent
-    {
-        std::size_t edge;
-        vec2 low, high;
-    };
-    if (edges.empty()) return;
-    std::vector<extent> extents;
-    for (std::size_t i = 0; i < edges.size(); ++i)
-    {
-        const vec2 &p = x[static_cast<std::size_t>(edges[i][0])], &q = x[static_cast<std::size_t>(edges[i][1])];
-        extents.push_back({i, glm::min(p, q), glm::max(p, q)});
-    }
-    vec2 low = extents.front().low;
-    vec2 high = extents.front().high;
-    for (const auto& e : extents)
-    {
-        low = glm::min(low, e.low);
-        high = glm::max(high, e.high);
-    }
-    const int s = high.x - low.x >= high.y - low.y ? 0 : 1; // the sweep goes along s
-    const int t = 1 - s;
-    std::sort(extents.begin(), extents.end(), [s](const extent& e, const extent& f) { return e.low[s] < f.low[s]; });
-
-    std::vector<const extent*> active; // edges whose extent along s may still reach the sweep line
-    for (const auto& e : extents)
-    {
-        std::size_t kept = 0;
-        for (const extent* f : active)
+    bool all = true;
+    edge_tree(edges, x).for_each_pair(
+        [&](std::size_t i, std::size_t j)
         {
-            if (f->high[s] < e.low[s]) continue;
-            active[kept++] = f;
-            if (tests-- == 0) return;
-            if (f->low[t] > e.high[t] || e.low[t] > f->high[t]) continue;
-            if (edges_meet(edges[e.edge], edges[f->edge], x) && !meet(f->edge, e.edge)) return;
-        }
-        active.resize(kept);
-        active.push_back(&e);
-    }
+            all = tests > 0;
+            if (!all) return false;
+            --tests;
+            all = !edges_meet(edges[i], edges[j], x) || meet(i, j);
+            return all;
+        });
+    return all;
+}
+
+inline std::vector<std::array<index, 2>> edges_of(std::span<const std::vector<index>> loops)
+{
+    std::vector<std::array<index, 2>> edges;
+    for (const auto& loop : loops)
+        for (std::size_t k = 0; k < loop.size(); ++k) edges.push_back({loop[k], loop[(k + 1) % loop.size()]});
+    return edges;
 }
 
 } // namespace detail
@@ -110,16 +187,32 @@ void for_each_meeting(std::span<const std::array<index, 2>> edges, std::span<con
 /// loops: boundary loops as vertex indices, each of at least two; x: #V image points, finite.
 inline std::size_t boundary_crossings(std::span<const std::vector<index>> loops, std::span<const vec2> x)
 {
-    std::vector<std::array<index, 2>> edges;
-    for (const auto& loop : loops)
-        for (std::size_t k = 0; k < loop.size(); ++k) edges.push_back({loop[k], loop[(k + 1) % loop.size()]});
     std::size_t count = 0;
-    detail::for_each_meeting(edges, x,
+    detail::for_each_meeting(detail::edges_of(loops), x,
                              [&count](std::size_t, std::size_t)
                              {
                                  ++count;
                                  return true;
                              });
+    return count;
+}
+
+/// Crossings that were counted as far as it took little time.
+struct crossing_count
+{
+    std::size_t pairs = 0;
+    bool all = true; ///< false: there are at least so many
+};
+
+/// boundary_crossings() that ends at `most` crossings, or where there is too much to look at: charts that lie on each
+/// other have as many crossings as pairs of edges.
+inline crossing_count count_boundary_crossings(std::span<const std::vector<index>> loops, std::span<const vec2> x,
+                                               std::size_t most = 100'000)
+{
+    const auto edges = detail::edges_of(loops);
+    crossing_count count;
+    count.all = detail::for_each_meeting(
+        edges, x, [&](std::size_t, std::size_t) { return ++count.pairs < most; }, 64 * edges.size() + 10 * most);
     return count;
 }
 

@@ -84,13 +84,14 @@ public:
         for (vec2& p : uv) p = map(p);
     }
 
-    /// Puts held coordinates where the constraints want them.
-    void impose(std::vector<vec2>& uv) const
+    /// Puts held coordinates where the constraints want them, in lengths of `unit` times the user's.
+    void impose(std::vector<vec2>& uv, double unit) const
     {
         for (const auto& [v, pin] : wanted_.pins())
             for (int k = 0; k < 2; ++k)
-                if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k] * unit_;
+                if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k] * unit;
     }
+    void impose(std::vector<vec2>& uv) const { impose(uv, unit_); }
 
     /// The points of a map at the vertices of constraints::pins(), in their order.
     std::vector<vec2> pinned_points(const std::vector<vec2>& uv) const

@@ -14,14 +14,15 @@
 namespace taut
 {
 
-/// What became of a map. Only `valid` comes with a map whose every element keeps its orientation, in exact arithmetic.
+/// What became of a map. Only `valid` comes with a certified map: no triangle is flipped, and there is no inner vertex
+/// that the map winds around other than once; in exact arithmetic.
 enum class outcome
 {
     valid,          ///< the map is certified; map_report::solve says why the optimisation ended
     no_valid_start, ///< no injective start was found; map_report::reason and ids say where
     stopped,        ///< the time limit or the observer ended the run before there was a map; there are no coordinates
     infeasible,     ///< no map obeys the pins without flips; reason and ids are the proof
-    gave_up ///< untangling did not succeed; the map has the fewest flipped elements that were seen, ids are theirs
+    gave_up ///< untangling did not succeed; the map has the fewest defects that were seen, ids are theirs
 };
 
 /// Wall-clock seconds of the phases of one run.
@@ -42,38 +43,39 @@ struct map_report
     std::string reason;                          ///< why there is no valid map; empty if there is one
     std::vector<index> ids;                      ///< what the reason is about, see outcome
     std::vector<std::string> notes;              ///< what the library decided on its own
-    taut::precision precision = precision::full; ///< that the map was calculated in
+    taut::precision precision = precision::fp64; ///< that the map was calculated in
     start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
     std::vector<level_report> levels; ///< coarser levels, in their order in time
     std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
     std::vector<untangle_stage_report> untangling; ///< what it took to make the start injective
-    certificate flips;                             ///< of the map that is returned, exact
+    double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
+    certificate flips;   ///< of the map that is returned, exact: flips and branch points
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run
 
-    /// There is no valid map, as `map` has flips.
+    /// There is no valid map, as `map` has defects.
     void refuse(const std::string& map, const certificate& found)
     {
-        ids = found.ids;
-        reason = map + " has " + std::to_string(found.flipped) + " flipped of " + std::to_string(found.elements) +
-                 " triangles, first " + std::to_string(ids.empty() ? -1 : ids.front());
+        ids = found.flipped > 0 ? found.ids : found.branch_ids;
+        reason = map + " has " + describe_defects<triangle>(found);
     }
 };
 
 inline std::ostream& operator<<(std::ostream& out, const map_report& r)
 {
     if (r.outcome != outcome::valid) return out << "no valid map: " << r.reason;
-    return out << r.solve << ", " << r.flips.flipped << " of " << r.flips.elements << " flipped";
+    return out << r.solve << ", " << std::to_string(r.flips.flipped) << " of " << std::to_string(r.flips.elements)
+               << " flipped";
 }
 
 /// A map and its report; `auto [uv, report] = parameterize(...)`.
 struct map_result
 {
-    std::vector<vec2> uv; ///< one a vertex, in the user's order and the units of the surface
+    std::vector<vec2> uv; ///< one a vertex, in the user's order; units and place by parameterize_params::placement
     map_report report;
 
-    /// True if the map is certified: no triangle is flipped.
+    /// True if the map is certified: no triangle is flipped, and there is no branch point.
     explicit operator bool() const { return report.outcome == outcome::valid; }
     const std::string& reason() const { return report.reason; }
 };

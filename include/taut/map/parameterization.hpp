@@ -15,6 +15,7 @@
 
 #include <taut/core/made_ahead.hpp>
 #include <taut/map/coarse_to_fine.hpp>
+#include <taut/map/place_map.hpp>
 #include <taut/map/start_phase.hpp>
 
 namespace taut
@@ -52,9 +53,9 @@ public:
         {
             stop_short();
         }
+        if (report().outcome == outcome::valid && is_free()) place();
         subtract_counters();
-        for (auto* points : {&result_.uv, &report().start.uv, &report().pin_origins})
-            for (vec2& p : *points) p /= in_.unit;
+        return_to_user_units();
         return std::move(result_);
     }
 
@@ -113,7 +114,7 @@ private:
     bool starts_coarse() const
     {
         if (!levels_ || !params_.initial.empty() || in_.held.constrained()) return false;
-        return params_.first == start_method::coarse || params_.first == start_method::automatic;
+        return params_.start == start_method::coarse || params_.start == start_method::automatic;
     }
 
     /// Whether there is a start, or a way to make one on coarser levels.
@@ -151,7 +152,7 @@ private:
     {
         auto how = params_.precision;
         if (how == precision::automatic)
-            how = !queue_.device().has_fp64() ? precision::single : levels_ ? precision::mixed : precision::full;
+            how = !queue_.device().has_fp64() ? precision::fp32 : levels_ ? precision::mixed : precision::fp64;
         solve_in_turns(how);
         if (!certified_ && coarse_)
         {
@@ -172,7 +173,7 @@ private:
             certify_map();
         }
         report().seconds.setup += limits_.lap();
-        if (report().flips.flipped == 0)
+        if (report().flips)
             report().outcome = outcome::valid;
         else
             report().refuse("the map that was found", report().flips);
@@ -183,7 +184,7 @@ private:
     {
         const bool chosen = params_.precision == precision::automatic;
         const bool done = attempt(how) && certified_ && (!chosen || accurate());
-        if (done || how == precision::full || !queue_.device().has_fp64()) return;
+        if (done || how == precision::fp64 || !queue_.device().has_fp64()) return;
         const int left = params_.solve.stopping.max_iterations - report().solve.iterations;
         if (certified_ && left == 0) return;
         report().notes.push_back(certified_ ? "float could not reach the tolerance; continued in double"
@@ -192,7 +193,7 @@ private:
         const bool goes_on = certified_;
         auto before = report().solve;
         if (goes_on) params_.solve.stopping.max_iterations = left; // the limit is one for both
-        if (attempt(precision::full) && goes_on) report().solve = joined(std::move(before), std::move(report().solve));
+        if (attempt(precision::fp64) && goes_on) report().solve = joined(std::move(before), std::move(report().solve));
     }
 
     /// Solves in a precision and certifies the map; whether there is one.
@@ -208,7 +209,7 @@ private:
     void certify_map()
     {
         report().flips = certify<2>(in_.surface.cells(), result_.uv, in_.ideal.measure);
-        certified_ = report().flips.flipped == 0 && report().solve.stop != solve::stop::not_finite_start;
+        certified_ = report().flips && report().solve.stop != solve::stop::not_finite_start;
     }
 
     /// False where float, and not the caller, ended the run above the tolerance.
@@ -222,7 +223,7 @@ private:
 
     bool solve_in(precision how)
     {
-        if (how == precision::full) return levels_ ? solve_levels<double, double>() : solve_alone<double, double>();
+        if (how == precision::fp64) return levels_ ? solve_levels<double, double>() : solve_alone<double, double>();
         if (how == precision::mixed) return levels_ ? solve_levels<double, float>() : solve_alone<double, float>();
         return levels_ ? solve_levels<float, float>() : solve_alone<float, float>();
     }
@@ -295,7 +296,7 @@ private:
     {
         coarse_to_fine_params p;
         p.stopping.max_iterations = std::min(p.stopping.max_iterations, params_.solve.stopping.max_iterations);
-        p.start.boundary = params_.start.boundary;
+        p.start.boundary = params_.barycentric.boundary;
         p.start.fixed_boundary = params_.boundary == boundary_mode::fixed;
         p.start.proceed = [this] { return limits_.proceed(); };
         return p;
@@ -350,13 +351,51 @@ private:
         return uv;
     }
 
+    /// Whether nothing holds the map.
+    bool is_free() const { return params_.boundary == boundary_mode::free && !in_.held.constrained(); }
+
+    /// Brings a free map to its place, or leaves it where it is if rounding would flip a triangle on the way.
+    void place()
+    {
+        if (params_.placement == placement::as_solved) return;
+        const double side = params_.placement == placement::unit_square ? in_.unit : 0;
+        for (const bool turned : {true, false})
+        {
+            auto map = in_corner(turned ? turned_up(in_.surface, result_.uv) : result_.uv, side);
+            const auto flips = certify<2>(in_.surface.cells(), map.uv, in_.ideal.measure);
+            if (!flips) continue;
+            result_.uv = std::move(map.uv);
+            report().scale = map.scale;
+            report().flips = flips;
+            return;
+        }
+        report().notes.push_back("rounding would flip triangles of the map in its place; it stays where it was solved");
+    }
+
     /// Undoes what the solver was free to change without anyone asking for it. start: in the user's order.
     void restore(const std::vector<vec2>& start)
     {
-        if (params_.boundary == boundary_mode::free && !in_.held.constrained() && is_scale_invariant(params_.energy))
-            keep_total_area(in_.surface, in_.ideal, result_.uv);
+        if (is_free() && is_scale_invariant(params_.energy)) keep_total_area(in_.surface, in_.ideal, result_.uv);
         for (vec2& p : result_.uv) p += centre_;
         in_.held.restore(result_.uv, start); // the device may hold positions in float
+    }
+
+    /// Lengths of the user, pins bit for bit; the division is inexact at the ends of the range of double, so what is
+    /// valid is certified again.
+    void return_to_user_units()
+    {
+        for (auto* points : {&result_.uv, &report().start.uv, &report().pin_origins})
+            for (vec2& p : *points) p /= in_.unit;
+        if (!result_.uv.empty()) in_.held.impose(result_.uv, 1);
+        if (report().outcome != outcome::valid) return;
+        auto final = certify<2>(in_.surface.cells(), result_.uv);
+        if (final) return;
+        final.min_det = report().flips.min_det;
+        final.max_det = report().flips.max_det;
+        report().flips = std::move(final);
+        report().outcome = outcome::gave_up;
+        report().refuse("the map in the units of the surface, which are too large or small for double precision,",
+                        report().flips);
     }
 
     void subtract_counters()

@@ -45,9 +45,9 @@ inline start_map parameterization_start(const mesh<triangle>& m, const ideal_ele
                                         std::vector<std::string>& notes)
 {
     if (!params.initial.empty()) return given_start(m, ideal, params, unit, notes);
-    if (params.first == start_method::conformal && params.boundary == boundary_mode::free)
+    if (params.start == start_method::conformal && params.boundary == boundary_mode::free)
         return conformal_start(m, sides);
-    return barycentric_map(m, sides, params.start);
+    return barycentric_map(m, sides, params.barycentric);
 }
 
 } // namespace taut::detail

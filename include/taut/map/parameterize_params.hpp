@@ -9,6 +9,7 @@
 #include <taut/map/any_energy.hpp>
 #include <taut/map/barycentric_map.hpp>
 #include <taut/map/constraints.hpp>
+#include <taut/map/placement.hpp>
 #include <taut/map/precision.hpp>
 #include <taut/map/untangle/untangle_params.hpp>
 #include <taut/solve/minimize.hpp>
@@ -46,14 +47,18 @@ struct parameterize_params
     /// Pins, which hold bit for bit, and springs. The start is brought near them and untangled.
     taut::constraints<triangle> constraints = {};
 
-    /// Start: these coordinates, one a vertex, if there are any; with a free boundary and no constraints their
+    /// Start: these coordinates, one a vertex, if there are any (a warm start: the map of the last run, after the pins
+    /// have moved, say); with a free boundary and no constraints their
     /// place and scale do not matter. A start that is mirrored as a whole is turned over, others with flips untangled.
     std::vector<vec2> initial = {};
 
-    /// Otherwise the start is made so. A coarse start takes `boundary` from the barycentric parameters and goes over to
-    /// a barycentric one where it fails.
-    start_method first = start_method::automatic;
-    barycentric_params start = {.stretch_rounds = 10};
+    /// Otherwise the start is made so. A coarse start takes its boundary from `barycentric` and goes over to a
+    /// barycentric one where it fails.
+    start_method start = start_method::automatic;
+    barycentric_params barycentric = {.stretch_rounds = 10};
+
+    /// Where the map comes to lie if nothing holds it: a free boundary without pins and springs.
+    taut::placement placement = placement::upright;
 
     /// Whether a surface with holes (more than one boundary loop) is taken. Its map is locally injective.
     bool holes = false;
@@ -85,12 +90,14 @@ struct parameterize_params
             throw parameter_error("weights", "must be uniform or measure");
         if (boundary != boundary_mode::free && boundary != boundary_mode::fixed)
             throw parameter_error("boundary", "must be free or fixed");
-        if (first != start_method::automatic && first != start_method::coarse && first != start_method::barycentric &&
-            first != start_method::conformal)
-            throw parameter_error("first", "must be automatic, coarse, barycentric or conformal");
-        if (precision != precision::automatic && precision != precision::full && precision != precision::mixed &&
-            precision != precision::single)
-            throw parameter_error("precision", "must be automatic, full, mixed or single");
+        if (start != start_method::automatic && start != start_method::coarse && start != start_method::barycentric &&
+            start != start_method::conformal)
+            throw parameter_error("start", "must be automatic, coarse, barycentric or conformal");
+        if (precision != precision::automatic && precision != precision::fp64 && precision != precision::mixed &&
+            precision != precision::fp32)
+            throw parameter_error("precision", "must be automatic, fp64, mixed or fp32");
+        if (placement != placement::upright && placement != placement::unit_square && placement != placement::as_solved)
+            throw parameter_error("placement", "must be upright, unit_square or as_solved");
         untangling.validate();
         solve.validate();
     }

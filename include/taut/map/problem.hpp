@@ -178,7 +178,7 @@ public:
         capped_values(x, g, 0.5, std::span(a).first(1), e);
 
         const vector* const v[8] = {&g, &g, &g, &g, &g, &g, &g, &g};
-        for (const std::size_t n : {2, 4, 8}) space_.linear_combination(std::span(a, n), std::span(v, n), d);
+        for (const std::size_t n : {2U, 4U, 8U}) space_.linear_combination(std::span(a, n), std::span(v, n), d);
         space_.axpby(0, g, 0, d);
         space_.dot(g, g);
         space_.multi_dot(std::span(v, 3), std::span(v, 5), e);

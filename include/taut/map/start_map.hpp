@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <locale>
 #include <ostream>
+#include <sstream>
 #include <vector>
 
 #include <taut/map/certify.hpp>
@@ -31,9 +33,12 @@ struct start_map
 
 inline std::ostream& operator<<(std::ostream& out, const start_map& map)
 {
-    return out << "start: " << map.flips.flipped << " of " << map.flips.elements << " triangles flipped, det "
-               << map.flips.min_det << " .. " << map.flips.max_det << ", E " << map.distortion.measure << " by area, "
-               << map.distortion.uniform << " mean";
+    std::ostringstream line;
+    line.imbue(std::locale::classic());
+    line << "start: " << map.flips.flipped << " of " << map.flips.elements << " triangles flipped, det "
+         << map.flips.min_det << " .. " << map.flips.max_det << ", E " << map.distortion.measure << " by area, "
+         << map.distortion.uniform << " mean";
+    return out << line.str();
 }
 
 } // namespace taut

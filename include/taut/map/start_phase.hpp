@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/map/branch_points.hpp>
 #include <taut/map/parameterization_start.hpp>
 #include <taut/map/run_limits.hpp>
 #include <taut/map/run_surface.hpp>
 #include <taut/map/untangle/untangle.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut::detail
 {
@@ -40,7 +40,7 @@ public:
     {
         make(params);
         report_.seconds.start += limits_.lap();
-        if (start().flips.flipped == 0) return start_outcome::ready;
+        if (start().flips) return start_outcome::ready;
         if (!in_.held.constrained() && params.initial.empty()) return refuse();
         const start_outcome r = untangle_start(params);
         report_.seconds.untangle += limits_.lap();
@@ -59,12 +59,13 @@ private:
         {
             limits_.check();
             auto p = params;
-            p.start.proceed = [this] { return limits_.proceed(); };
+            p.barycentric.proceed = [this] { return limits_.proceed(); };
             start() = parameterization_start(in_.surface, in_.ideal, in_.sides, p, in_.unit, report_.notes);
         }
         if (!in_.held.constrained()) return;
         in_.held.bring_near(start().uv);
         report_.pin_origins = in_.held.pinned_points(start().uv);
+        draft_ = start().uv;
         in_.held.impose(start().uv);
         start().assess(in_.surface, in_.ideal);
     }
@@ -73,6 +74,7 @@ private:
     bool make_without_constraints(parameterize_params p)
     {
         p.constraints = {};
+        p.placement = placement::as_solved;
         p.solve.stopping.gradient_tolerance = std::max(1e-3, p.solve.stopping.gradient_tolerance);
         p.time_limit = limits_.left();
         p.observer = [this](solve::progress now)
@@ -91,23 +93,22 @@ private:
         auto how = params.untangling;
         how.time_limit = limits_.left();
         how.observer = [this](const solve::progress&) { return limits_.proceed(); };
+        auto problem = in_.held.problem(in_.surface, start().uv);
+        if (!draft_.empty() && certify<2>(in_.surface.cells(), draft_)) problem.draft = std::move(draft_);
         const bool bound = in_.held.constrained() || params.boundary == boundary_mode::fixed;
-        limits_.has_result(bound); // the best map, even with flips
-        auto found = untangle(queue_, in_.held.problem(in_.surface, start().uv), how);
+        limits_.has_result(bound); // the best map, even with defects
+        auto found = untangle(queue_, problem, how);
         report_.untangling = std::move(found.stages);
-        const std::string before = std::to_string(start().flips.flipped) + " triangles of the start were flipped; ";
-        const std::size_t branches = found ? branch_points(in_.surface, in_.sides, found.map).size() : 0;
-        if (!bound && (!found || branches > 0))
+        const std::string before = "the start had " + describe_defects<Element>(start().flips) + "; ";
+        if (!bound && !found)
         {
             report_.notes.push_back(before + "another start was made");
             return start_outcome::useless;
         }
         report_.notes.push_back(before + (found ? "it was untangled" : "untangling failed"));
-        if (branches > 0)
-            report_.notes.push_back("the start winds more than once around " + std::to_string(branches) + " vertices");
         start().uv = std::move(found.map);
         start().assess(in_.surface, in_.ideal);
-        if (found) return start().flips.flipped == 0 ? start_outcome::ready : refuse();
+        if (found) return start().flips ? start_outcome::ready : refuse();
         const bool proved = found.outcome == untangle_outcome::infeasible;
         report_.outcome = proved ? outcome::infeasible : outcome::gave_up;
         report_.reason = std::move(found.reason);
@@ -125,6 +126,7 @@ private:
     const run_surface& in_;
     run_limits& limits_;
     map_report& report_;
+    std::vector<vec2> draft_; // the start before pinned vertices were put to their places
 };
 
 } // namespace taut::detail

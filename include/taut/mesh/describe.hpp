@@ -15,13 +15,20 @@ namespace taut
 namespace detail
 {
 
-/// "7 triangles (3, 14, 15, 92, 65, ...)"; ids in groups of `group` are written "3-14".
-inline std::string list_ids(const char* thing, const char* things, const std::vector<index>& ids, std::size_t group = 1)
+/// "1 triangle", "7 triangles"
+inline std::string counted(std::size_t n, const std::string& thing, const std::string& things)
 {
-    constexpr std::size_t shown = 5;
-    const std::size_t n = ids.size() / group;
-    std::string s = std::to_string(n) + ' ' + (n == 1 ? thing : things) + " (";
-    for (std::size_t g = 0; g < std::min(n, shown); ++g)
+    return std::to_string(n) + ' ' + (n == 1 ? thing : things);
+}
+
+/// "7 triangles (3, 14, 15, 92, 65, ...)" of n, whose first ids are known.
+inline std::string list_first_ids(const char* thing, const char* things, std::size_t n, const std::vector<index>& ids,
+                                  std::size_t group = 1)
+{
+    constexpr std::size_t most = 5;
+    const std::size_t shown = std::min(ids.size() / group, most);
+    std::string s = counted(n, thing, things) + " (";
+    for (std::size_t g = 0; g < shown; ++g)
     {
         if (g > 0) s += ", ";
         for (std::size_t k = 0; k < group; ++k)
@@ -31,6 +38,12 @@ inline std::string list_ids(const char* thing, const char* things, const std::ve
         }
     }
     return s + (n > shown ? ", ...)" : ")");
+}
+
+/// The same of all that are in a list; ids in groups of `group` are written "3-14".
+inline std::string list_ids(const char* thing, const char* things, const std::vector<index>& ids, std::size_t group = 1)
+{
+    return list_first_ids(thing, things, ids.size() / group, ids, group);
 }
 
 } // namespace detail

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/core/error.hpp>
 #include <taut/solve/host_space.hpp>
 #include <taut/solve/objective.hpp>
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,7 +19,7 @@ namespace taut::solve
 ///     host_objective f(2, [](std::span<const double> x, std::span<double> g) { g[0] = ...; return value; });
 ///
 /// The function fills all of g and returns the value; +inf or NaN say "outside the domain". Points are
-/// std::vector<double>.
+/// std::vector<double>; value and value_gradient throw parameter_error for those of another size.
 template <class ValueGradient>
 class host_objective
 {
@@ -30,8 +32,14 @@ public:
     const host_space& space() const noexcept { return space_; }
     point make_point() const { return space_.make(); }
     void copy(const point& x, point& y) const { y = x; }
-    double value(const point& x) { return f_(std::span<const double>(x), std::span<double>(scratch_)); }
-    double value_gradient(const point& x, vector& g) { return f_(std::span<const double>(x), std::span<double>(g)); }
+    double value(const point& x) { return value_gradient(x, scratch_); }
+    double value_gradient(const point& x, vector& g)
+    {
+        if (x.size() != space_.components())
+            throw parameter_error("x", std::to_string(x.size()) + " numbers for a function of " +
+                                           std::to_string(space_.components()));
+        return f_(std::span<const double>(x), std::span<double>(g));
+    }
 
     void step(const point& x, double a, const vector& d, point& out) const
     {

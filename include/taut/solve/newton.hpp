@@ -326,9 +326,9 @@ private:
     step_record step_;
     double value_ = 0, scale_ = 1, taken_ = 0;
     double full_square_ = 0;
-    bool near_end_ = true;  // the norm of the next gradient will be wanted
-    bool pending_ = false;  // the last step has no gradient norm yet
-    std::uint64_t waits_;   // before the start
+    bool near_end_ = true; // the norm of the next gradient will be wanted
+    bool pending_ = false; // the last step has no gradient norm yet
+    std::uint64_t waits_;  // before the start
     report report_;
 };
 

@@ -4,6 +4,7 @@
 #include <taut/solve/stop.hpp>
 
 #include <cstdint>
+#include <locale>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -72,7 +73,8 @@ inline report joined(report first, report next)
 /// One line: `stop: gradient, 7 iterations, E 34.5 -> 7.446`.
 inline std::ostream& operator<<(std::ostream& stream, const report& r)
 {
-    std::ostringstream line; // so that the user's stream keeps its format
+    std::ostringstream line; // so that the user's stream keeps its format, and its locale has no say
+    line.imbue(std::locale::classic());
     line.precision(4);
     line << "stop: " << r.stop << ", " << r.iterations << (r.iterations == 1 ? " iteration" : " iterations") << ", E "
          << r.value_start << " -> " << r.value;

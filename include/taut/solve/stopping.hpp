@@ -42,7 +42,7 @@ struct stopping_params
     int barrier_count = 10;
 
     /// Range >= 0.
-    int max_iterations = 1000;
+    int max_iterations = 10000;
 
     /// Range > 0; infinite by default. The current evaluation is always finished.
     std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()};

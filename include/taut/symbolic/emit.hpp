@@ -54,6 +54,20 @@ inline std::string prologue(kernel_form form, const kernel_needs& needs)
     return text;
 }
 
+/// The positions of the arguments that are read or written at the global id along dimension 0 itself.
+inline std::vector<std::size_t> accessed_by_index(const tape& t, const schedule& plan)
+{
+    std::vector<std::size_t> arguments;
+    for (const node_id id : plan.top())
+    {
+        const node& n = t[id];
+        if (n.op != opcode::load && n.op != opcode::store) continue;
+        const node& at = t[n.operands[0]];
+        if (at.op == opcode::global_id && at.payload == 0) arguments.push_back(n.payload & 0xffffffffu);
+    }
+    return arguments;
+}
+
 } // namespace detail
 
 /// The OpenCL C 1.2 program with one kernel that performs the stores of a tape, and only what they need. Equal
@@ -83,7 +97,7 @@ inline kernel_text emit(const tape& t, std::string name, std::vector<kernel_argu
     if (needs.cbrt_f64) source += detail::cbrt_f64_source;
     source += detail::concat("__kernel void ", name, "(", parameters, ")\n{\n");
     source += detail::prologue(form, needs) + body.text() + (is_run ? "    }\n}\n" : "}\n");
-    return {std::move(name), std::move(source), std::move(arguments), form};
+    return {std::move(name), std::move(source), std::move(arguments), form, detail::accessed_by_index(t, plan)};
 }
 
 } // namespace taut

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -47,6 +48,7 @@ struct kernel_text
     std::string source;
     std::vector<kernel_argument> arguments; ///< guarded and run have a last one: the int `taut_count`
     kernel_form form = kernel_form::item;
+    std::vector<std::size_t> by_index; ///< positions of arguments that are read or written at [i], the plain index
 };
 
 } // namespace taut

@@ -111,12 +111,28 @@ TEST_CASE("devices: double is refused by name on a device without fp64, float wo
     CHECK(q.allocated() == narrow.bytes());
 }
 
-TEST_CASE("devices: quirks of the platform are known by name")
+TEST_CASE("devices: TAUT_FORM=gpu takes the device for a GPU, and nothing else is known")
+{
+    const taut::device d = taut::devices()[0].device;
+    {
+        with_variable form("TAUT_FORM", "gpu");
+        const taut::device rehearsed = taut::choose_device();
+        CHECK(rehearsed.is_gpu());
+        CHECK(!rehearsed.is_cpu());
+        CHECK(!taut::quirks::wants_serial_items(rehearsed));
+    }
+    {
+        with_variable form("TAUT_FORM", "");
+        CHECK(taut::choose_device().is_cpu() == d.is_cpu());
+    }
+    with_variable form("TAUT_FORM", "fpga");
+    CHECK_THROWS_AS(taut::choose_device(), taut::parameter_error);
+}
+
+TEST_CASE("devices: a platform is PoCL or Oclgrind, not both")
 {
     const taut::device d = taut::choose_device();
     CHECK(!(taut::quirks::is_pocl(d) && taut::quirks::is_oclgrind(d)));
-    CHECK(taut::quirks::wants_serial_items(d) == d.is_cpu());
-    if (taut::quirks::is_pocl(d)) CHECK(taut::quirks::wants_serial_items(d));
 }
 
 // Run by the ctest device.no_platform, with OCL_ICD_VENDORS at an empty folder.

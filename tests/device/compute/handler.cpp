@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <taut/compute/handler.hpp>
+#include <taut/symbolic/loop.hpp>
 
 #include "support.hpp"
 
@@ -55,6 +56,31 @@ TEST_CASE("handler: a captured host value is a literal, so another value is anot
     CHECK(q.counters().builds == 2);
 }
 
+TEST_CASE("handler: rows of a graph are loops of the kernel, over more elements than there are indices")
+{
+    taut::queue q;
+    const buffer<taut::index> starts(q, std::vector<taut::index>{0, 2, 2, 5});
+    const buffer<taut::index> columns(q, std::vector<taut::index>{1, 3, 0, 1, 2});
+    const buffer<float> x(q, std::vector<float>{1, 10, 100, 1000});
+    buffer<float> sums(q, 3);
+    q.submit(
+        [&](handler& h)
+        {
+            auto row = starts.read(h);
+            auto column = columns.read(h);
+            auto from = x.read(h);
+            auto to = sums.write(h);
+            h.parallel_for(3,
+                           [=](auto i)
+                           {
+                               const auto sum =
+                                   taut::sum_over(row[i], row[i + 1], [&](auto k) { return from[column[k]]; });
+                               to[i] = select(sum > 500.0f, 500.0f, sum);
+                           });
+        });
+    CHECK(sums.download() == std::vector<float>{500, 0, 111});
+}
+
 TEST_CASE("handler: misuse is refused in words")
 {
     taut::queue q;
@@ -73,6 +99,18 @@ TEST_CASE("handler: misuse is refused in words")
         h.parallel_for(5, [=](auto i) { y[i] = x[i]; });
     };
     CHECK_THROWS_AS(q.submit(overlapping), taut::device_error);
+    const auto before = b.download();
+    const auto beyond = [&](handler& h)
+    {
+        auto x = b.read_write(h);
+        h.parallel_for("doubled", 50, [=](auto i) { x[i] += x[i]; });
+    };
+    CHECK_THROWS_WITH_AS(
+        q.submit(beyond),
+        doctest::Contains("launching doubled: argument 0 is used at [i] for 50 indices, and the buffer "
+                          "has 5 elements"),
+        taut::device_error);
+    CHECK(b.download() == before);
     const auto nothing = [](handler&) {};
     CHECK(q.submit(nothing).complete());
 }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <support/dense_matrix.hpp>
 #include <support/meshes.hpp>
 #include <taut/compute/block_assembly.hpp>
 #include <taut/compute/multigrid.hpp>
@@ -69,6 +70,67 @@ multigrid<T> elastic(queue& q, const mesh<triangle>& m, int D, bool pinned, lane
     mg.refresh();
     return mg;
 }
+
+/// A matrix of the multigrid as a dense one, row r * D + c for component c of row r.
+template <class T>
+test::dense_matrix dense(const block_matrix<T>& A)
+{
+    const auto p = A.pattern();
+    const auto values = A.download();
+    const auto d = std::size_t(A.block_size());
+    test::dense_matrix result(d * A.rows());
+    for (std::size_t r = 0; r < A.rows(); ++r)
+        for (std::size_t j = 0; j < p.length(r); ++j)
+            for (std::size_t e = 0; e < d * d; ++e)
+                result(r * d + e / d, std::size_t(p.column(r, j)) * d + e % d) =
+                    static_cast<long double>(values[p.place(r, j) * d * d + e]);
+    return result;
+}
+
+/// A V-cycle of two levels as written in books.
+struct host_cycle
+{
+    test::dense_matrix A, inverse_diagonal, coarse_inverse;
+    const prolongation& P;
+    std::size_t d;
+    multigrid_params params;
+
+    using numbers = std::vector<double>;
+
+    /// a x + b y + c D^-1 (right - A x)
+    numbers step(double a, const numbers& x, double b, const numbers& y, double c, const numbers& right) const
+    {
+        auto r = A * x;
+        for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
+        auto out = inverse_diagonal * r;
+        for (std::size_t i = 0; i < r.size(); ++i) out[i] = a * x[i] + b * y[i] + c * out[i];
+        return out;
+    }
+
+    numbers operator()(const numbers& b) const
+    {
+        const double low = params.lambda_max / params.lambda_ratio, middle = (params.lambda_max + low) / 2,
+                     half = (params.lambda_max - low) / 2, sigma = middle / half, rho = 1 / (2 * sigma - 1 / sigma);
+        const double momentum = rho / sigma, second = 2 * rho / half;
+        const numbers zero(b.size(), 0.0);
+        auto y = step(1, zero, 0, zero, 1 / middle, b);
+        auto x = step(1 + momentum, y, 0, zero, second, b);
+        const auto Ax = A * x;
+        numbers coarse(coarse_inverse.size(), 0.0);
+        const auto each_weight = [&](auto&& body)
+        {
+            for (std::size_t i = 0; i < P.columns.size(); ++i)
+                for (std::size_t k = 0; k < 3; ++k)
+                    for (std::size_t c = 0; c < d; ++c)
+                        body(i * d + c, std::size_t(P.columns[i][k]) * d + c, P.weights[i][k]);
+        };
+        each_weight([&](std::size_t i, std::size_t J, double w) { coarse[J] += w * (b[i] - Ax[i]); });
+        coarse = coarse_inverse * coarse;
+        each_weight([&](std::size_t i, std::size_t J, double w) { x[i] += w * coarse[J]; });
+        y = step(1, x, 0, zero, 1 / middle, b);
+        return step(1 + momentum, y, -momentum, x, second, b);
+    }
+};
 
 /// A right side that the matrix reaches.
 template <class T>
@@ -157,6 +219,51 @@ TEST_CASE_TEMPLATE("multigrid: the cycle is symmetric and positive", T, float, d
         for (std::size_t w = 0; w < m.points().size(); ++w)
             if (m.points()[w].y == 0) REQUIRE(host[w] == 0);
     }
+}
+
+TEST_CASE_TEMPLATE("multigrid: the cycle of two levels is that of a host, fused in the form for CPUs, single for GPUs",
+                   T, float, double)
+{
+    queue q;
+    const auto m = test::grid(test::sized(13, 9), 9);
+    for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
+        for (const int D : {2, 3})
+        {
+            CAPTURE(D);
+            CAPTURE(form.lanes);
+            const auto d = std::size_t(D);
+            auto mg = elastic<T>(q, m, D, false, form);
+            REQUIRE(mg.levels() == 2);
+            REQUIRE(mg.solves_coarsest());
+            CHECK(mg.launches() == (form.lanes > 1 ? 1 : 8));
+            const auto A = dense(mg.matrix());
+            test::dense_matrix diagonal(A.size());
+            for (std::size_t i = 0; i < A.size(); ++i)
+                for (std::size_t j = i / d * d; j < i / d * d + d; ++j) diagonal(i, j) = A(i, j);
+            const auto h = make_hierarchy(m);
+            const host_cycle cycle{A,
+                                   diagonal.inverse(),
+                                   test::shifted_inverse(dense(mg.matrix(1)), std::is_same_v<T, double> ? 1e-8 : 1e-4),
+                                   h.steps[0].interpolation,
+                                   d,
+                                   {}};
+
+            auto x = mg.matrix().vector();
+            const auto b = image(mg, 1);
+            mg.apply(b, x);
+            const auto right = b.download(), got = x.download();
+            const std::size_t stride = mg.matrix().stride();
+            std::vector<double> packed(A.size());
+            for (std::size_t i = 0; i < A.size(); ++i) packed[i] = double(right[i % d * stride + i / d]);
+            const auto expected = cycle(packed);
+            double worst = 0, size = 0;
+            for (std::size_t i = 0; i < A.size(); ++i)
+            {
+                worst = std::max(worst, std::abs(double(got[i % d * stride + i / d]) - expected[i]));
+                size = std::max(size, std::abs(expected[i]));
+            }
+            CHECK(worst < (std::is_same_v<T, double> ? 1e-7 : 1e-3) * size);
+        }
 }
 
 TEST_CASE("multigrid: conjugate gradients need as many cycles on fine meshes as on coarse ones")

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <future>
 #include <sstream>
+#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -39,6 +41,31 @@ TEST_CASE("queue: copies share context, cache and counters; other queues do not"
     run_twice(copy);
     CHECK(q.counters().launches == 1);
     CHECK(other.counters().launches == 0);
+}
+
+TEST_CASE("queue: a second thread is told whose queue it is")
+{
+    taut::queue q;
+    taut::buffer<float> x(q, std::vector<float>(64, 1.0f));
+    std::promise<void> entered, tried;
+    std::thread first(
+        [&]
+        {
+            const auto use = q.state()->enter(); // as in the middle of a build
+            entered.set_value();
+            tried.get_future().wait();
+        });
+    entered.get_future().wait();
+    const auto scale = [&] { q.kernel<taut::buffer<float>>(twice, "twice")(64, x); };
+    CHECK_THROWS_WITH_AS(scale(), doctest::Contains("another thread is using it now"), taut::device_error);
+    CHECK_THROWS_AS(x.download(), taut::device_error);
+    CHECK_THROWS_AS(q.finish(), taut::device_error);
+    tried.set_value();
+    first.join();
+    run_twice(q); // one after the other is fine
+
+    std::thread second([&] { run_twice(q); });
+    second.join();
 }
 
 TEST_CASE("queue: a user's context and command queue are adopted and keep working afterwards")

@@ -157,6 +157,36 @@ TEST_CASE_TEMPLATE("reductions: a NaN anywhere makes the minimum NaN, an infinit
     }
 }
 
+TEST_CASE_TEMPLATE("reductions: a limit is a fraction of a minimum, at most what is asked, NaN if that is", T, float,
+                   double)
+{
+    taut::queue q;
+    const std::size_t n = sized_count(20011, 3001);
+    auto host = random_values<T>(n, 4);
+    for (T& x : host) x = std::abs(x) + T(0.5);
+    const T least = host[n / 3] = T(0.25);
+    for (const auto& plan : forms)
+    {
+        reductions r(q, plan);
+        buffer<T> out(q, 1);
+        const auto limit = [&](double fraction, double most)
+        {
+            const buffer<T> x(q, host);
+            r.limit(r.minimum(x, n), fraction, most, out);
+            const T found = out.download()[0];
+            r.fetch();
+            return found;
+        };
+        host[n / 3] = least;
+        CHECK(limit(0.5, 1) == T(0.125));
+        CHECK(limit(8, 1) == T(1));
+        host[n / 3] = -std::numeric_limits<T>::infinity();
+        CHECK(limit(0.5, 1) == -std::numeric_limits<T>::infinity());
+        host[n / 3] = std::numeric_limits<T>::quiet_NaN();
+        CHECK(std::isnan(limit(0.5, 1)));
+    }
+}
+
 TEST_CASE_TEMPLATE("reductions: repeat bit for bit, alone or among others", T, float, double)
 {
     taut::queue q;

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+#include <sstream>
+#include <string>
 #include <type_traits>
 
 #include <doctest/doctest.h>
@@ -31,6 +34,49 @@ struct leaky
     T operator()(const element<T, D>& e) const
     {
         return norm2(e.S);
+    }
+};
+
+/// A barrier of det S beside a smooth term.
+template <class Function>
+struct barrier_of
+{
+    static constexpr bool barrier = true;
+    template <class T, int D>
+    T operator()(const element<T, D>& e) const
+    {
+        return norm2(e.S) + 0.05 * Function()(e.det);
+    }
+};
+
+struct log_barrier
+{
+    template <class T>
+    T operator()(const T& det) const
+    {
+        using std::log;
+        return det - 1.0 - log(det);
+    }
+};
+
+/// Grows a million times and then no more.
+struct bounded
+{
+    template <class T>
+    T operator()(const T& det) const
+    {
+        return 1.0 / (det + 1e-6);
+    }
+};
+
+/// Counts stretch along the first edge twice.
+struct warp
+{
+    static constexpr bool barrier = false;
+    template <class T, int D>
+    T operator()(const element<T, D>& e) const
+    {
+        return norm2(e.S) + dot(e.S[0], e.S[0]);
     }
 };
 
@@ -70,6 +116,30 @@ TEST_CASE("check_gradient: a barrier that is none fails")
     CHECK_FALSE(found);
     CHECK_FALSE(found.barrier);
     CHECK(found.worst < 1e-6);
+}
+
+TEST_CASE("check_gradient: a logarithmic barrier is one, a bounded one is not")
+{
+    CHECK(check_gradient<2>(barrier_of<log_barrier>{}));
+    CHECK(check_gradient<3>(barrier_of<log_barrier>{}));
+    CHECK_FALSE(check_gradient<2>(barrier_of<bounded>{}).barrier);
+    CHECK_FALSE(check_gradient<3>(barrier_of<bounded>{}).barrier);
+}
+
+TEST_CASE("check_gradient: an energy that sees the frame of the rest shape fails, and is told from others")
+{
+    const auto found = check_gradient<2>(warp{});
+    CHECK_FALSE(found);
+    CHECK_FALSE(found.isotropic());
+    CHECK(found.derivative());
+    CHECK(found.barrier);
+    CHECK_FALSE(check_gradient<3>(warp{}).isotropic());
+
+    const auto text = [](const gradient_check& c) { return (std::ostringstream() << c).str(); };
+    CHECK(text(found).find("which corner comes first") != std::string::npos);
+    CHECK(text(check_gradient<2>(leaky{})).find("stays bounded") != std::string::npos);
+    CHECK(text(check_gradient<2>(two_faced{})).find("finite differences") != std::string::npos);
+    CHECK(text(check_gradient<2>(energy::isometric{})) == "no fault in 100 trials");
 }
 
 TEST_CASE("any_energy: a dimension that the energy does not have is refused")

@@ -415,7 +415,7 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
     }
 }
 
-TEST_CASE("element Hessian: in space it is the derivative taken twice on the tape")
+TEST_CASE("element Hessian: in space its kernel writes each entry of the matrix once")
 {
     using E = element_hessian_kernels<tetrahedron, double, double>;
     const auto text = E::record(energy::isometric{}, definiteness::indefinite, kernel_form::guarded);

@@ -37,7 +37,7 @@ map_result long_lbfgs(queue& q, const mesh<triangle>& m, parameterize_params p)
 {
     p.solve.method = solve::method::lbfgs;
     p.solve.stopping = {.gradient_tolerance = 1e-7, .max_iterations = 20000};
-    p.precision = precision::full;
+    p.precision = precision::fp64;
     return parameterize(q, m, p);
 }
 
@@ -69,20 +69,20 @@ TEST_CASE("nested: Newton's method finds the minimum of plain BFGS from any star
     const auto m = hills();
     const auto reference = long_lbfgs(q, m, {});
     REQUIRE(reference);
-    for (const auto first :
+    for (const auto start :
          {start_method::automatic, start_method::coarse, start_method::barycentric, start_method::conformal})
-        for (const auto how : {precision::full, precision::mixed})
+        for (const auto how : {precision::fp64, precision::mixed})
         {
-            CAPTURE(static_cast<int>(first));
+            CAPTURE(static_cast<int>(start));
             CAPTURE(static_cast<int>(how));
-            const auto r = parameterize(q, m, {.first = first, .precision = how});
+            const auto r = parameterize(q, m, {.start = start, .precision = how});
             check_converged(m, r);
             CHECK(r.report.precision == how);
             CHECK(r.report.notes.empty());
             CHECK(r.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-6));
             CHECK(measure_quality<triangle>(m, r.uv).isometric.measure ==
                   doctest::Approx(r.report.solve.value).epsilon(1e-6));
-            const bool nested = first == start_method::automatic || first == start_method::coarse;
+            const bool nested = start == start_method::automatic || start == start_method::coarse;
             CHECK(r.report.levels.empty() != (nested && m.points().size() > 1000));
         }
 }
@@ -105,7 +105,7 @@ TEST_CASE("nested: every energy and weighting ends in one minimum, whatever the 
             CAPTURE(static_cast<int>(weights));
             parameterize_params p{.energy = energy, .weights = weights};
             const auto nested = parameterize(q, m, p);
-            p.first = start_method::barycentric;
+            p.start = start_method::barycentric;
             const auto direct = parameterize(q, m, p);
             // The area energy has many maps of the least value, 2, and no curvature between them.
             if (name == "area")
@@ -182,17 +182,17 @@ TEST_CASE("nested: a fixed boundary is the same outline on every path, and stays
     const auto m = hills();
     for (const auto shape : {boundary_shape::circle, boundary_shape::square})
     {
-        parameterize_params p{.boundary = boundary_mode::fixed, .start = {.boundary = {.shape = shape}}};
+        parameterize_params p{.boundary = boundary_mode::fixed, .barycentric = {.boundary = {.shape = shape}}};
         const auto r = parameterize(q, m, p);
         check_converged(m, r);
-        p.precision = precision::full;
+        p.precision = precision::fp64;
         p.solve.stopping.max_iterations = 0;
         const auto none = parameterize(q, m, p);
         REQUIRE(none);
         CHECK(outline(m, none) == outline(m, r));
 
         p.solve.stopping.max_iterations = 1000;
-        p.first = start_method::barycentric;
+        p.start = start_method::barycentric;
         const auto direct = parameterize(q, m, p);
         check_converged(m, direct);
         const auto a = outline(m, r), b = outline(m, direct);
@@ -260,20 +260,20 @@ TEST_CASE("nested: preconditioned BFGS and conjugate gradients converge, in fewe
     for (const auto method : {solve::method::lbfgs, solve::method::conjugate_gradient})
     {
         CAPTURE(static_cast<int>(method));
-        parameterize_params p{.precision = precision::full,
+        parameterize_params p{.precision = precision::fp64,
                               .solve = {.method = method, .stopping = {.max_iterations = 5000}}};
         const auto plain = parameterize(q, m, p);
         p.multigrid = true;
         // From the plain barycentric map the Hessian of the start would not serve for long.
         const std::tuple<start_method, barycentric_params, precision> runs[] = {
-            {start_method::coarse, {}, precision::full},
+            {start_method::coarse, {}, precision::fp64},
             {start_method::coarse, {}, precision::automatic},
-            {start_method::barycentric, {.weights = barycentric_weights::uniform}, precision::full}};
-        for (const auto& [first, start, how] : runs)
+            {start_method::barycentric, {.weights = barycentric_weights::uniform}, precision::fp64}};
+        for (const auto& [start, barycentric, how] : runs)
         {
-            CAPTURE(static_cast<int>(first));
-            p.first = first;
+            CAPTURE(static_cast<int>(start));
             p.start = start;
+            p.barycentric = barycentric;
             p.precision = how;
             const auto r = parameterize(q, m, p);
             check_converged(m, r);

@@ -33,9 +33,9 @@ mesh<triangle> dome()
 constexpr solve::method methods[] = {solve::method::automatic, solve::method::lbfgs};
 
 /// Energies fall monotonically, up to the rounding of a value.
-void check_falling(const solve::report& r, precision how = precision::full)
+void check_falling(const solve::report& r, precision how = precision::fp64)
 {
-    const double rounding = how == precision::full ? 1e-13 : 2e-8;
+    const double rounding = how == precision::fp64 ? 1e-13 : 2e-8;
     for (std::size_t k = 1; k < r.history.size(); ++k)
         CHECK(r.history[k].value <= r.history[k - 1].value * (1 + rounding));
 }
@@ -50,7 +50,7 @@ TEST_CASE("parameterize: every energy, weighting, boundary and precision gives a
          {any_energy(energy::isometric{}), any_energy(energy::shape{}), any_energy(energy::area{})})
         for (const auto weights : {energy::weighting::uniform, energy::weighting::measure})
             for (const auto boundary : {boundary_mode::free, boundary_mode::fixed})
-                for (const auto how : {precision::full, precision::mixed, precision::single})
+                for (const auto how : {precision::fp64, precision::mixed, precision::fp32})
                     for (const auto method : methods)
                     {
                         const auto r = parameterize(q, m,
@@ -92,16 +92,18 @@ TEST_CASE("parameterize: size and place of the model do not matter")
     const auto m = dome();
     for (const auto method : methods)
     {
-        const parameterize_params params{.solve = {.method = method, .stopping = {.max_iterations = 20}}};
+        const parameterize_params params{.precision = precision::full,
+                                         .solve = {.method = method, .stopping = {.max_iterations = 20}}};
         const auto reference = parameterize(q, m, params);
-        for (const double scale : {1e-9, 0.37, 1e9})
+        const auto width = [](const map_result& r) { return glm::length(r.uv.front() - r.uv.back()); };
+        // Powers of two change no digit, others the last ones.
+        for (const double scale : {std::ldexp(1.0, -30), std::ldexp(1.0, 30), 1e-9, 0.37, 1e9})
         {
+            const bool exact = std::ldexp(1.0, std::ilogb(scale)) == scale;
             const auto r = parameterize(q, moved(m, scale, vec3(0)), params);
             REQUIRE(r);
-            CHECK(r.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(1e-3));
-            const double size = glm::length(r.uv.front() - r.uv.back());
-            const double expected = scale * glm::length(reference.uv.front() - reference.uv.back());
-            CHECK(size == doctest::Approx(expected).epsilon(1e-2));
+            CHECK(r.report.solve.value == doctest::Approx(reference.report.solve.value).epsilon(exact ? 1e-12 : 1e-5));
+            CHECK(width(r) / scale == doctest::Approx(width(reference)).epsilon(exact ? 1e-12 : 1e-3));
         }
         const auto far = parameterize(q, moved(m, 1, vec3(1e5, -1e5, 1e5)), params);
         REQUIRE(far);
@@ -114,13 +116,13 @@ TEST_CASE("parameterize: a fixed boundary stays where the start has it, bit for 
     queue q;
     const auto m = dome();
     for (const auto shape : {boundary_shape::circle, boundary_shape::square})
-        for (const auto how : {precision::full, precision::mixed, precision::single})
+        for (const auto how : {precision::fp64, precision::mixed, precision::fp32})
             for (const auto method : methods)
             {
                 const auto r = parameterize(q, m,
                                             {.boundary = boundary_mode::fixed,
-                                             .first = start_method::barycentric,
-                                             .start = {.boundary = {.shape = shape}},
+                                             .start = start_method::barycentric,
+                                             .barycentric = {.boundary = {.shape = shape}},
                                              .precision = how,
                                              .solve = {.method = method, .stopping = {.max_iterations = 10}}});
                 REQUIRE(r);
@@ -190,7 +192,7 @@ TEST_CASE("parameterize: place and scale of a start do not matter to a free boun
     queue q;
     const auto m = dome();
     const auto start = barycentric_map(m).uv;
-    for (const auto how : {precision::full, precision::mixed, precision::single})
+    for (const auto how : {precision::fp64, precision::mixed, precision::fp32})
         for (const auto method : methods)
         {
             const auto run = [&](double scale, double shift)
@@ -200,10 +202,12 @@ TEST_CASE("parameterize: place and scale of a start do not matter to a free boun
                 const solve::params few{.method = method, .stopping = {.max_iterations = 60}};
                 return parameterize(q, m, {.initial = initial, .precision = how, .solve = few}).report.solve.value;
             };
-            const double reference = run(1, 0);
-            CHECK(run(1, 1e4) == doctest::Approx(reference).epsilon(1e-2));
-            CHECK(run(1e-3, 0) == doctest::Approx(reference).epsilon(1e-2));
-            CHECK(run(std::ldexp(1.0, 960), 0) == doctest::Approx(reference).epsilon(1e-2));
+            // Single precision keeps few digits of positions so far away, and L-BFGS is still on its way.
+            const bool arrives = how == precision::full && method == solve::method::automatic;
+            const double tolerance = arrives ? 1e-5 : 1e-2, reference = run(1, 0);
+            CHECK(run(1, 1e4) == doctest::Approx(reference).epsilon(tolerance));
+            CHECK(run(1e-3, 0) == doctest::Approx(reference).epsilon(tolerance));
+            CHECK(run(std::ldexp(1.0, 960), 0) == doctest::Approx(reference).epsilon(tolerance));
         }
 }
 
@@ -262,12 +266,12 @@ TEST_CASE("parameterize: without double precision the start survives what float 
     const auto m = dome();
     for (const auto method : methods)
     {
-        CHECK(parameterize(q, m, {.energy = dirichlet{}, .precision = precision::single, .solve = {.method = method}}));
+        CHECK(parameterize(q, m, {.energy = dirichlet{}, .precision = precision::fp32, .solve = {.method = method}}));
         // By default it does with what the device has.
         const auto r = parameterize(q, m, {.solve = {.method = method, .stopping = {.gradient_tolerance = 1e-4}}});
         CHECK(r);
-        CHECK(r.report.precision == precision::single);
-        CHECK_THROWS_AS(parameterize(q, m, {.precision = precision::full, .solve = {.method = method}}), device_error);
+        CHECK(r.report.precision == precision::fp32);
+        CHECK_THROWS_AS(parameterize(q, m, {.precision = precision::fp64, .solve = {.method = method}}), device_error);
     }
 }
 
@@ -290,8 +294,8 @@ TEST_CASE("parameterize: parameters outside their domain are named")
     CHECK(field_of({.precision = static_cast<precision>(9)}) == "precision");
     CHECK(field_of({.boundary = static_cast<boundary_mode>(7)}) == "boundary");
     CHECK(field_of({.time_limit = -3s}) == "time_limit");
-    CHECK(field_of({.first = static_cast<start_method>(9)}) == "first");
-    CHECK(field_of({.first = start_method::barycentric, .start = {.stretch_rounds = -1}}) == "stretch_rounds");
+    CHECK(field_of({.start = static_cast<start_method>(9)}) == "start");
+    CHECK(field_of({.start = start_method::barycentric, .barycentric = {.stretch_rounds = -1}}) == "stretch_rounds");
     CHECK(field_of({.solve = {.newton = {.relax_below = 2}}}) == "newton.relax_below");
 }
 

@@ -232,7 +232,7 @@ TEST_CASE("problem: the device and the host model give the same iterates to roun
     }
 }
 
-TEST_CASE("problem: the tetrahedron is a drop-in element")
+TEST_CASE("problem: the gradient of a tetrahedron is recorded, and its host reference has the cube at rest as minimum")
 {
     const auto rest = test::cube(2);
     const auto local = std::make_shared<const layout<tetrahedron>>(rest);

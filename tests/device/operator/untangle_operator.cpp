@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -331,6 +335,88 @@ TEST_CASE("untangling operator: schedules differ in how they shorten the step")
         how.schedule = operator_schedule::patience;
         how.patience = 1;
         CHECK(untangle.run(p.initial, how).delta == literal);
+    }
+}
+
+TEST_CASE("untangling operator: what an iteration decides on the device is what the host decides, in both forms")
+{
+    // As in untangle.cl: why it stopped, moves, improved, inverted, below, the best's three, streak, delta, value.
+    using state = std::array<taut::index, 11>;
+    enum
+    {
+        running,
+        untangled,
+        short_step,
+        not_finite
+    };
+    const auto bits = [](float x) { return std::bit_cast<taut::index>(x); };
+    const auto number = [](taut::index x) { return std::bit_cast<float>(x); };
+    queue q;
+    std::mt19937 random(3);
+    const auto below = [&](int n) { return static_cast<taut::index>(random() % static_cast<unsigned>(n)); };
+    for (const int items : {1, 256})
+    {
+        const std::string options =
+            "-DD=2 -DL=" + std::to_string(items) + (items == 1 ? " -DV=16 -DC=16" : " -DV=1 -DC=32");
+        const typed_kernel<taut::index, taut::index, float, const buffer<float>, buffer<taut::index>> decide{
+            q, detail::kernels::untangle, "untangle_decide", options};
+        for (int trial = 0; trial < test::sized(60, 20); ++trial)
+        {
+            CAPTURE(items);
+            CAPTURE(trial);
+            const auto groups = 1 + static_cast<std::size_t>(below(600));
+            std::vector<float> partials(3 * groups);
+            float value = 0;
+            taut::index inverted = 0, low = 0;
+            const bool none_below = below(6) == 0;
+            for (std::size_t g = 0; g < groups; ++g)
+            {
+                partials[g] = 0.25f * static_cast<float>(below(64)); // sums without rounding
+                partials[2 * groups + g] = none_below ? 0.0f : static_cast<float>(below(5));
+                partials[groups + g] = std::min(partials[2 * groups + g], static_cast<float>(below(3)));
+                value += partials[g];
+                inverted += static_cast<taut::index>(partials[groups + g]);
+                low += static_cast<taut::index>(partials[2 * groups + g]);
+            }
+            if (below(8) == 0) value = partials[groups / 2] = std::numeric_limits<float>::infinity();
+            const taut::index patience = below(4);
+            const float least = 0.01f;
+            state s{below(7) == 0 ? 1 : 0,
+                    17,
+                    0,
+                    -1,
+                    -1,
+                    inverted - 1 + below(3),
+                    low - 1 + below(3),
+                    9,
+                    below(3),
+                    bits(below(5) == 0 ? 0.015f : 0.5f),
+                    bits(below(2) ? value : value + 1)};
+
+            state expected = s;
+            if (s[0] == running)
+            {
+                expected[3] = inverted;
+                expected[4] = low;
+                expected[2] = inverted < s[5] || (inverted == s[5] && low < s[6]);
+                if (expected[2]) expected[5] = inverted, expected[6] = low, expected[7] = s[1];
+                expected[8] = value >= number(s[10]) ? s[8] + 1 : 0;
+                float delta = number(s[9]);
+                if (patience > 0 && expected[8] >= patience) delta /= 2, expected[8] = 0;
+                expected[9] = bits(delta);
+                expected[10] = bits(value);
+                expected[0] = low == 0                ? untangled
+                              : !std::isfinite(value) ? not_finite
+                              : delta < least         ? short_step
+                                                      : running;
+                if (expected[0] == running) ++expected[1];
+            }
+            const buffer<float> sums(q, partials);
+            buffer<taut::index> on_device(q, std::vector<taut::index>(s.begin(), s.end()));
+            const auto team = static_cast<std::size_t>(items);
+            decide({team, team}, static_cast<taut::index>(groups), patience, least, sums, on_device);
+            CHECK(on_device.download() == std::vector<taut::index>(expected.begin(), expected.end()));
+        }
     }
 }
 

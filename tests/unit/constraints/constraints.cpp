@@ -149,6 +149,8 @@ TEST_CASE("constraints: the boundary goes around a polygon by arc length")
     CHECK(taut::constraints(m).pin_boundary_at(positions).pins().at(0).value == vec2(3));
     positions.pop_back();
     check_refused([&] { taut::constraints(m).pin_boundary_at(positions); }, f::wrong_count, {});
+    const auto disk = test::flat_disk(2); // its vertex 0 is inside
+    check_refused([&] { taut::constraints(disk).pin_boundary(square, 0); }, f::out_of_range, {0});
     const auto closed = test::octahedron();
     CHECK_THROWS_AS(taut::constraints(closed).pin_boundary(square), mesh_error);
     const auto ring = test::annulus(5);

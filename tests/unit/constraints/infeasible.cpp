@@ -124,6 +124,8 @@ TEST_CASE("infeasible: a mirrored or empty pinned boundary is proved by its area
     CHECK(mirrored.proofs[0].kind == kind::outline_measure);
     CHECK(mirrored.proofs[0].ids.size() == 36); // the boundary, in order
     CHECK(mirrored.reason().find("the pinned boundary") != std::string::npos);
+    CHECK(mirrored.reason().find("the area -3.126;") !=
+          std::string::npos); // of a polygon of 36 corners, 18 sin(10 degrees)
     CHECK(proves(find_infeasibility(boundary_problem(m, [](const vec2& p) { return vec2(p.x, 0); })),
                  kind::outline_measure));
 

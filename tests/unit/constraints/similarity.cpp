@@ -5,8 +5,6 @@
 
 #include <doctest/doctest.h>
 
-#include <support/meshes.hpp>
-#include <taut/map/branch_points.hpp>
 #include <taut/map/similarity.hpp>
 
 using namespace taut;
@@ -38,22 +36,4 @@ TEST_CASE("similarity: one anchor fixes no turn")
     CHECK(std::abs(map.turn) == 0.0);
     CHECK(map({2, 3}) == vec2(5, 7));
     CHECK(explained == 0.0);
-}
-
-TEST_CASE("branch points: a fan that winds twice around its centre has one, without a flipped triangle")
-{
-    const int n = 12;
-    const auto m = test::fan(n, true);
-    const auto wound = [&](int times)
-    {
-        std::vector<vec2> uv(m.points().size(), vec2(0.0));
-        for (std::size_t v = 1; v < uv.size(); ++v)
-        {
-            const double angle = 2 * std::numbers::pi * times * static_cast<double>(v) / n;
-            uv[v] = {std::cos(angle), std::sin(angle)};
-        }
-        return branch_points(m, facets(m), uv);
-    };
-    CHECK(wound(1).empty());
-    CHECK(wound(2) == std::vector<taut::index>{0});
 }

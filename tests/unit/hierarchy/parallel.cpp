@@ -107,17 +107,25 @@ TEST_CASE("parallel_for: from several threads at once")
     for (const auto& r : results) CHECK(r == expected);
 }
 
-TEST_CASE("parallel_for: a nested call uses what is free, and all of it is done")
+TEST_CASE("parallel_for: a nested call stays on its thread, and all of it is done")
 {
-    std::atomic<int> visits{0};
+    std::atomic<int> visits{0}, elsewhere{0};
     parallel_for(
         8,
         [&](std::size_t begin, std::size_t end)
         {
+            const auto here = std::this_thread::get_id();
             for (std::size_t i = begin; i < end; ++i)
                 parallel_for(
-                    100, [&](std::size_t from, std::size_t to) { visits += static_cast<int>(to - from); }, 4, 1);
+                    100,
+                    [&](std::size_t from, std::size_t to)
+                    {
+                        visits += static_cast<int>(to - from);
+                        elsewhere += std::this_thread::get_id() != here;
+                    },
+                    4, 1);
         },
         4, 1);
     CHECK(visits == 800);
+    CHECK(elsewhere == 0);
 }

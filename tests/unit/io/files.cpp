@@ -146,11 +146,4 @@ TEST_CASE("write_obj: a large surface comes back the same")
     CHECK(back.vertex_texcoords() == flattened(m));
 }
 
-TEST_CASE("write_obj: colours behind the positions of an OBJ come back as they were written")
-{
-    const temporary_folder folder;
-    folder.write(folder / "a.obj", "v 0 0 0\nv 1 0 0 0.25 1 0.5 # a comment\nv 0 1 0\nf 1 2 3\n");
-    const auto file = io::read_surface_file(folder / "a.obj");
-    io::write_obj(folder / "b.obj", file.surface, flattened(file.surface), file.extras);
-    CHECK(folder.read(folder / "b.obj").starts_with("v 0 0 0\nv 1 0 0 0.25 1 0.5\nv 0 1 0\nvt "));
 }

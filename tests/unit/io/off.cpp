@@ -44,7 +44,7 @@ TEST_CASE("off: plain, with the counts on either line, with and without a header
     }
 }
 
-TEST_CASE("off: colours and normals are skipped")
+TEST_CASE("off: colours, normals and comments beside the surface")
 {
     const auto plain = std::vector<cell>{{0, 1, 2}};
     CHECK(parse_off("COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 1 1 1 1\n0 1 0 0 0 0 0\n3 0 1 2 0.5 0.5 0.5\n")
@@ -77,6 +77,12 @@ TEST_CASE("off: malformed files are refused with the line")
     CHECK(line_of_error("OFF BINARY\n") == 1);
     CHECK(line_of_error("OFF\n-3 1 0\n") == 2);
     CHECK(line_of_error("OFF\n3 x 0\n") == 2);
+    CHECK(line_of_error("OFF\n3 1.5 0\n") == 2);
+    CHECK(line_of_error("OFF\n3.0 1 0\n") == 2);
+    CHECK(line_of_error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2.7\n") == 6);
+    CHECK(line_of_error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3.2 0 1 2\n") == 6);
+    CHECK(line_of_error("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n") == 4);
+    CHECK(line_of_error("COFF\n3 1 0\n0 0 0 0 0 1\n1 0 0\n0 1 0 0 0 1\n3 0 1 2\n") == 4);
     CHECK(line_of_error("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n") == 4);
     CHECK(line_of_error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n") == 6);
     CHECK(line_of_error("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 two\n") == 6);

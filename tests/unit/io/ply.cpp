@@ -139,6 +139,17 @@ TEST_CASE("ply: polygons are split, with a note")
     CHECK(f.notes.size() == 1);
 }
 
+TEST_CASE("ply: an element that stands twice is refused, so that each vertex has what the element says")
+{
+    const std::string vertices = "property float x\nproperty float y\nproperty float z\n";
+    const std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n" + vertices + "element vertex 1\n" + vertices +
+                             "property float s\nproperty float t\nelement face 1\n"
+                             "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0 0.5 0.5\n"
+                             "3 0 1 2\n";
+    CHECK(io_error_of(text).place()->number == 7);
+    CHECK_THROWS_WITH_AS(parse_ply(text), doctest::Contains("element vertex is declared twice"), taut::io::io_error);
+}
+
 TEST_CASE("ply: malformed headers are refused with the line")
 {
     const auto line = [](const std::string& text)
@@ -155,6 +166,7 @@ TEST_CASE("ply: malformed headers are refused with the line")
     CHECK(line("ply\nproperty float x\n") == 2);
     CHECK(line("ply\nelement vertex 3\nproperty quad x\n") == 3);
     CHECK(line("ply\nelement vertex -3\n") == 2);
+    CHECK(line("ply\nelement face 1.9\n") == 2);
     CHECK(line("ply\nelement vertex\n") == 2);
     CHECK(line("ply\nnonsense\n") == 2);
     CHECK(line("ply\nelement vertex 0\nend_header\n") == 4); // no format

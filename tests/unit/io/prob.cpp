@@ -92,7 +92,7 @@ TEST_CASE("problem files: whatever is malformed is refused with its line")
     check_refused(with(square, "0 1 2", "0 1 4"), 12, "vertex 4 of 4");
     check_refused(with(square, "0 1 2", "0 -1 2"), 12, "vertex -1");
     check_refused(with(square, "0 1 2", "0 1 1"), 12, "vertex 1 twice");
-    check_refused(with(square, "0 1 2", "0 1 2.5"), 12, "blank");
+    check_refused(with(square, "0 1 2", "0 1 2.5"), 12, "found '2.5'");
     check_refused(with(square, "2 3\n", "3 3\n"), 14, "end of the line"); // the number of fixed vertices is no triangle
     check_refused(with(square, "2\n0\n3", "2\n0\n9"), 16, "vertex 9");
     check_refused(with(square, "2\n0\n3\n", "2\n0\n"), 16, "ends before fixed vertex 1 of 2");

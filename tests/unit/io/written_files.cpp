@@ -35,6 +35,7 @@ void write_with(const fs::path& path, const std::string& text)
     File file(io::detail::resolve_target(path));
     file.write(text);
     file.finish();
+    file.link();
     file.rename();
 }
 
@@ -65,6 +66,7 @@ TEST_CASE_TEMPLATE("written files: nothing is there before the end, and nothing 
         file.write("half");
         CHECK_FALSE(fs::exists(folder / "new.txt"));
         file.finish();
+        file.link();
         CHECK_FALSE(fs::exists(folder / "new.txt"));
     }
     CHECK(folder.entries() == 1);
@@ -192,6 +194,7 @@ TEST_CASE("written files: remove_temporaries() removes what is unfinished and ha
         named_file unfinished(io::detail::resolve_target(folder / "a"));
         io::detail::posix_file finished(io::detail::resolve_target(folder / "b"));
         finished.finish();
+        finished.link();
         CHECK(folder.entries() == 4);
         io::remove_temporaries();
         CHECK(folder.entries() == 2);

@@ -3,6 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <taut/solve/backtracking.hpp>
+#include <taut/solve/bracket.hpp>
+#include <taut/solve/hybrid.hpp>
+#include <taut/solve/strong_wolfe.hpp>
+
 #include <functional>
 #include <string>
 
@@ -41,6 +46,57 @@ bool strong_wolfe_holds(const test_line& l, double a, const wolfe_params& p)
 }
 
 } // namespace
+
+TEST_CASE("interpolation: the minimum of the cubic or the parabola, from either side")
+{
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const auto cubic = [](double a) {
+        return line_point{a, a * a * a + 1.95 * a * a - 4.2 * a, 3 * (a - 0.7) * (a + 2)};
+    };
+    CHECK(interpolate(cubic(0), cubic(2)) == doctest::Approx(0.7));
+    CHECK(interpolate(cubic(2), cubic(0)) == doctest::Approx(0.7));
+    CHECK(interpolate(cubic(0.5), cubic(1.5)) == doctest::Approx(0.7));
+    const auto parabola = [](double a) { return line_point{a, (a - 0.6) * (a - 0.6), 2 * (a - 0.6)}; };
+    const auto value_alone = [&](double a) { return line_point{a, parabola(a).value, unknown}; };
+    CHECK(interpolate(parabola(0), value_alone(2)) == doctest::Approx(0.6));
+    CHECK(interpolate(parabola(2), value_alone(0)) == doctest::Approx(0.6));
+}
+
+TEST_CASE("interpolation: a tenth of the interval from its ends at least, and its middle where nothing is known")
+{
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const auto parabola = [](double a, double least) {
+        return line_point{a, (a - least) * (a - least), 2 * (a - least)};
+    };
+    CHECK(interpolate(parabola(1, 1.01), parabola(3, 1.01)) == doctest::Approx(1.2));
+    CHECK(interpolate(parabola(1, 2.99), parabola(3, 2.99)) == doctest::Approx(2.8));
+    CHECK(interpolate(parabola(3, 1.01), parabola(1, 1.01)) == doctest::Approx(1.2));
+    CHECK(interpolate(parabola(1, 2), {3, infinite, 1}) == 2);
+    CHECK(interpolate({1, 5, 0}, {3, 5, 0}) == 2); // flat
+    CHECK(interpolate({3, 5, 0}, {1, 5, 0}) == 2);
+}
+
+TEST_CASE("strong wolfe: steps grow by a factor until the bound, which is accepted for a decrease")
+{
+    functions::line falls([](double a) { return -a; }, [](double) { return -1.0; }, 10);
+    const auto r = strong_wolfe(falls, 1, {}, 30);
+    CHECK(r.status == search_status::accepted);
+    CHECK(r.at.step == 10);
+    CHECK(falls.evaluations == 5); // 1, 2.5, 6.25, 10, and 10 to land on
+}
+
+TEST_CASE("strong wolfe: a step that is no lower than the last one ends the search for longer ones")
+{
+    // Falls, jumps up at 0.6 and falls again for good: at 1 it is where it was at 0.4.
+    functions::line phi([](double a) { return a < 0.6 ? -a : -0.2 - 0.5 * (a - 0.6); },
+                        [](double a) { return a < 0.6 ? -1.0 : -0.5; }, 10);
+    REQUIRE(phi.value(1.0) == phi.value(0.4));
+    const auto r = strong_wolfe(phi, 0.4, {.curvature = 0.1}, 30);
+    CHECK(r.status == search_status::accepted);
+    CHECK(r.at.step > 0.4);
+    CHECK(r.at.step < 0.6);
+    CHECK(phi.longest == 1);
+}
 
 TEST_CASE("strong wolfe: returned steps have both conditions, evaluated anew")
 {
@@ -131,6 +187,46 @@ TEST_CASE("bracket: the triplet is lower in the middle, or ends at the bound")
             }
 }
 
+TEST_CASE("bracket: from too long a step the longest rung that is a minimum among its neighbours")
+{
+    for (const int batch : {0, 1, 2, 16})
+    {
+        CAPTURE(batch);
+        functions::line phi([](double a) { return (a - 1) * (a - 1); }, [](double a) { return 2 * (a - 1); }, 500,
+                            batch);
+        const auto t = bracket(phi, {.step = 7.6, .value = phi.value(7.6)}, 4, 30);
+        REQUIRE(t.found);
+        CHECK_FALSE(t.capped);
+        // A pass of one rung is below phi(0) and looks no further.
+        CHECK(t.b == (batch < 2 ? 1.9 : 0.475));
+        CHECK(t.c == (batch < 2 ? 7.6 : 1.9));
+        CHECK(t.a == (batch < 16 ? 0 : 0.475 / 4));
+    }
+    // Of two rungs of one value, the longer.
+    const auto f = [](double a) { return (a - 5.0 / 32) * (a - 5.0 / 32); };
+    functions::line even(
+        f, [](double a) { return 2 * (a - 5.0 / 32); }, 500, 16);
+    const auto t = bracket(even, {.step = 1, .value = even.value(1)}, 4, 30);
+    CHECK(t.b == 0.25);
+    CHECK(t.a == 0.0625);
+    CHECK(t.c == 1);
+}
+
+TEST_CASE("bracket: a first step at the bound ends there, and one no lower than the start is too long")
+{
+    functions::line falls([](double a) { return -a; }, [](double) { return -1.0; }, 1);
+    const auto end = bracket(falls, {.step = 1, .value = -1}, 4, 30);
+    CHECK(end.found);
+    CHECK(end.capped);
+    CHECK(end.b == 1);
+    CHECK(falls.evaluations == 0);
+    functions::line parabola([](double a) { return (a - 1) * (a - 1); }, [](double a) { return 2 * (a - 1); });
+    const auto t = bracket(parabola, {.step = 2, .value = 1}, 4, 30);
+    CHECK(t.found);
+    CHECK(t.value < 1);
+    CHECK(t.b == 0.5);
+}
+
 TEST_CASE("bracket: gives up on a function that never rises, and on one that never falls")
 {
     functions::line falls([](double a) { return -a; }, [](double) { return -1.0; });
@@ -139,6 +235,9 @@ TEST_CASE("bracket: gives up on a function that never rises, and on one that nev
     functions::line rises([](double a) { return 1 + a; }, [](double) { return -1.0; }); // a lying slope
     CHECK_FALSE(bracket(rises, {.step = 1, .value = 2}, 4, 100).found);
     CHECK(rises.evaluations < 30); // ends where steps are lost in rounding
+    functions::line limited([](double a) { return 1 + a; }, [](double) { return -1.0; });
+    CHECK_FALSE(bracket(limited, {.step = 1, .value = 2}, 4, 3).found);
+    CHECK(limited.evaluations == 3);
 }
 
 TEST_CASE("backtracking: the longest step of its ladder with sufficient decrease, and one gradient")

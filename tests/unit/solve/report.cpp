@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <locale>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
 #include <taut/solve/report.hpp>
@@ -51,4 +54,33 @@ TEST_CASE("report: a run that was continued reads as one")
     CHECK(both.history[3].evaluations == 13);
     CHECK(both.history[3].seconds == 0.75);
     CHECK(both.history[3].waits == 9);
+}
+
+namespace
+{
+
+/// Numbers as in some countries: 1.234,5.
+struct other_customs : std::numpunct<char>
+{
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+} // namespace
+
+TEST_CASE("report: reads the same in every locale")
+{
+    report r;
+    r.stop = stop::gradient;
+    r.iterations = 12345;
+    r.value_start = 34.5;
+    r.value = 7.25;
+    const std::locale foreign(std::locale::classic(), new other_customs);
+    const std::locale before = std::locale::global(foreign);
+    std::ostringstream line;
+    line << r;
+    std::locale::global(before);
+    CHECK(line.getloc() == foreign);
+    CHECK(line.str() == "stop: gradient, 12345 iterations, E 34.5 -> 7.25");
 }

@@ -95,3 +95,54 @@ TEST_CASE("boundary crossings: agrees with all pairs on random polygons, whichev
         CHECK(boundary_crossings(loops{range(0, 60)}, x) == expected);
     }
 }
+
+TEST_CASE("boundary crossings: agrees with all pairs on many chains that touch, overlap and coincide")
+{
+    std::mt19937 random(8);
+    for (int n = 0; n < 20; ++n)
+    {
+        // Loops of four on a coarse grid: many edges of all lengths share points and lines.
+        std::vector<vec2> x;
+        std::vector<std::vector<taut::index>> all;
+        for (int loop = 0; loop < 20; ++loop)
+        {
+            all.push_back(range(4 * loop, 4));
+            for (int k = 0; k < 4; ++k) x.emplace_back(random() % 9, random() % (n % 2 ? 3 : 9));
+        }
+        const auto edges = taut::detail::edges_of(all);
+        std::size_t expected = 0;
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            for (std::size_t j = i + 1; j < edges.size(); ++j)
+                expected += taut::detail::edges_meet(edges[i], edges[j], x);
+        CHECK(boundary_crossings(all, x) == expected);
+        CHECK(taut::count_boundary_crossings(all, x).pairs == expected);
+        CHECK(taut::count_boundary_crossings(all, x).all);
+    }
+}
+
+TEST_CASE("boundary crossings: charts that all lie on each other are counted up to a limit")
+{
+    // As many crossings as pairs of edges: 20,000 squares would have 6e9.
+    std::vector<vec2> x;
+    std::vector<std::vector<taut::index>> squares;
+    for (int k = 0; k < 20'000; ++k)
+    {
+        squares.push_back(range(4 * k, 4));
+        for (const vec2 p : {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)}) x.push_back(p);
+    }
+    const auto found = taut::count_boundary_crossings(squares, x, 1000);
+    CHECK(found.pairs == 1000);
+    CHECK_FALSE(found.all);
+
+    // Long edges beside each other, whose boxes all meet, are given up without a crossing.
+    x.clear();
+    std::vector<std::vector<taut::index>> strips;
+    for (int k = 0; k < 20'000; ++k)
+    {
+        strips.push_back(range(2 * k, 2));
+        x.emplace_back(0.001 * k, 0);
+        x.emplace_back(1 + 0.001 * k, 1);
+    }
+    const auto unknown = taut::count_boundary_crossings(strips, x, 10);
+    CHECK_FALSE(unknown.all);
+}

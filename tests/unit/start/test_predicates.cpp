@@ -170,3 +170,37 @@ TEST_CASE("predicates: a coordinate that is not finite has no orientation")
     CHECK(std::isnan(taut::orient(vec2(0, 0), vec2(1, 0), vec2(0, infinity)).det));
     CHECK(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, nan}) == 0);
 }
+
+TEST_CASE("exact sum: the magnitude of every power of two, and of sums that cancel, is exact")
+{
+    for (int e = -1074; e < 1024; e += 3)
+    {
+        const double power = std::ldexp(1.0, e);
+        taut::detail::exact_sum<2> sum;
+        sum.add(false, {power, 1.0});
+        CHECK(sum.sign() == 1);
+        CHECK(sum.magnitude() == power);
+        // Smaller than the product that cancels by more than a double can tell.
+        taut::detail::exact_sum<2> rest;
+        rest.add(true, {power, 1.0});
+        rest.add(false, {std::ldexp(1.0, 600), 3.0});
+        rest.add(true, {std::ldexp(1.0, 601), 1.0});
+        rest.add(true, {std::ldexp(1.0, 600), 1.0});
+        CHECK(rest.sign() == -1);
+        CHECK(rest.magnitude() == power);
+    }
+}
+
+TEST_CASE("exact sum: the products of the largest numbers have a place")
+{
+    const double large = std::ldexp(1.0, 1023);
+    for (const bool negative : {false, true})
+    {
+        taut::detail::exact_sum<2> two;
+        two.add(negative, {large, large});
+        CHECK(two.sign() == (negative ? -1 : 1));
+        taut::detail::exact_sum<3> three;
+        for (int k = 0; k < 24; ++k) three.add(negative, {large, large, large});
+        CHECK(three.sign() == (negative ? -1 : 1));
+    }
+}

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -9,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include <taut/symbolic/differentiate.hpp>
+#include <taut/symbolic/loop.hpp>
 #include <taut/symbolic/recording.hpp>
 
 using taut::sym;
@@ -101,6 +103,25 @@ TEST_CASE("emit: a kernel is one statement an operation, in the order of the rec
     CHECK(k.arguments == std::vector<taut::kernel_argument>{{"x", argument_kind::in, scalar_type::f64},
                                                             {"y", argument_kind::inout, scalar_type::f64},
                                                             {"a", argument_kind::scalar, scalar_type::f64}});
+}
+
+TEST_CASE("emit: arguments that are used at the plain index are known, those at other places or in a loop are not")
+{
+    taut::recording r;
+    const auto x = r.in<double>("x");
+    const auto row = r.in<taut::index>("row");
+    const auto table = r.in<double>("table");
+    const auto unused = r.in<double>("unused");
+    const auto y = r.out<double>("y");
+    const auto z = r.out<double>("z");
+    const auto i = r.global_id();
+    [[maybe_unused]] const sym<double> nobody_needs = unused[i];
+    y[i] = x[i] + taut::sum_over(row[i], row[i + 1], [&](auto k) { return table[k] + table[i]; });
+    z[i + 1] = 0.0;
+    auto used = r.finish("f").by_index;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    CHECK(used == std::vector<std::size_t>{0, 1, 4});
 }
 
 TEST_CASE("emit: a float kernel does not contain `double`, whatever the literals in it")

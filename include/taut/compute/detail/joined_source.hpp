@@ -18,9 +18,10 @@ inline std::string joined_source(const std::vector<kernel_text>& texts)
 {
     std::string directives, helpers, kernels;
     std::set<std::string> names, known;
-    for (const auto& [name, source, arguments, form] : texts)
+    for (const kernel_text& text : texts)
     {
-        if (!names.insert(name).second) throw parameter_error(name, "a program has two kernels of this name");
+        const std::string& source = text.source;
+        if (!names.insert(text.name).second) throw parameter_error(text.name, "a program has two kernels of this name");
         const std::size_t kernel = source.find("__kernel ");
         // Directives take a line each; a blank line precedes each helper, and there is none inside of it.
         for (std::size_t at = 0; at < kernel;)

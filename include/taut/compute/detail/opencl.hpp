@@ -10,8 +10,8 @@
 #ifndef CL_TARGET_OPENCL_VERSION
 #define CL_TARGET_OPENCL_VERSION 120
 #endif
-#ifndef BOOST_COMPUTE_MAX_CL_VERSION
-#define BOOST_COMPUTE_MAX_CL_VERSION 102
+#ifndef BOOST_COMPUTE_MAX_CL_VERSION // of 210, 201
+#define BOOST_COMPUTE_MAX_CL_VERSION (CL_TARGET_OPENCL_VERSION / 100 * 100 + CL_TARGET_OPENCL_VERSION % 100 / 10)
 #endif
 
 // Five headers, not core.hpp: half the compile time, and none that newer Boost releases have broken.

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include <taut/compute/detail/sole_use.hpp>
 #include <taut/compute/event.hpp>
 #include <taut/compute/program_cache.hpp>
 #include <taut/compute/range.hpp>
@@ -51,6 +52,7 @@ struct queue_state
     program_cache cache;
     queue_counters counters;
     std::uint64_t live_bytes = 0; ///< sum of the sizes of the living buffers
+    mutable sole_use::user user;
 
     /// While it is set, it is called before each kernel is looked up and each launch, once the device is idle: for
     /// warm-ups, in which drivers compile for seconds. What it throws passes through.
@@ -68,10 +70,18 @@ struct queue_state
         throw device_error(operation, reason, device.label(), code);
     }
 
+    /// Keeps the queue to the calling thread. Throws device_error where another one is using it.
+    sole_use enter() const
+    {
+        return {user, [this]
+                { fail("using a queue", "another thread is using it now; give each thread a queue of its own"); }};
+    }
+
     /// Runs f; an OpenCL error becomes a device_error that names the operation.
     template <class F>
     decltype(auto) run(const std::string& operation, F&& f) const
     {
+        const auto use = enter();
         try
         {
             return std::forward<F>(f)();

@@ -53,6 +53,8 @@ public:
             std::filesystem::permissions(name_, old.permissions(), missing);
     }
 
+    void link() {}
+
     void rename(const std::string& otherwise = {})
     {
         if (target_.stream) return;

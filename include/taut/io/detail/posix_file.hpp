@@ -128,7 +128,7 @@ public:
         }
     }
 
-    /// To the disk, with its final permissions and a name in its folder: nothing but rename() is left to do.
+    /// To the disk, with its final permissions.
     void finish()
     {
         if (target_.stream) return;
@@ -138,7 +138,16 @@ public:
             if (::fchmod(*file_, replaced_->st_mode & 0777u) != 0) fail();
         }
         if (::fsync(*file_) != 0 && errno != EINVAL && errno != ENOTSUP) fail();
-        link();
+    }
+
+    /// A hidden name in its folder, if it has none: nothing but rename() is left to do.
+    void link()
+    {
+        if (target_.stream || temporary_) return;
+        temporary_.emplace(*folder_);
+        if (::linkat(AT_FDCWD, own_path().c_str(), *folder_, temporary_->name(), AT_SYMLINK_FOLLOW) == 0) return;
+        temporary_->is_gone();
+        fail();
     }
 
     /// otherwise: added to the message if it fails
@@ -242,15 +251,6 @@ private:
         file_ = descriptor(
             ::openat(*folder_, temporary_->name(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, mode));
         if (file_) return;
-        temporary_->is_gone();
-        fail();
-    }
-
-    void link()
-    {
-        if (temporary_) return;
-        temporary_.emplace(*folder_);
-        if (::linkat(AT_FDCWD, own_path().c_str(), *folder_, temporary_->name(), AT_SYMLINK_FOLLOW) == 0) return;
         temporary_->is_gone();
         fail();
     }

@@ -142,7 +142,7 @@ inline start_map conformal_start(const mesh<triangle>& m, const facet_table& f,
         for (vec2& p : map.uv) p *= scale;
     map.assess(scaled, ideal);
     for (vec2& p : map.uv) p /= unit; // a power of two: exact
-    if (map.flips.flipped == 0) return map;
+    if (map.flips) return map;
     return coarse_start(m, make_hierarchy(m, {}, {.threads = params.fallback.coarse.threads}), params.fallback);
 }
 

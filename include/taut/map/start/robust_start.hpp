@@ -163,7 +163,7 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
     const auto keep_better = [&](start_map&& map)
     {
         if (detail::better(map, best)) best = std::move(map);
-        return best.flips.flipped == 0 && best.distortion.measure < moderate;
+        return best.flips && best.distortion.measure < moderate;
     };
     const auto proceed = [&] { return !params.proceed || params.proceed(); };
     bool done = false;

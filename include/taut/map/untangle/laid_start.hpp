@@ -36,11 +36,12 @@ inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
     }
 }
 
-/// That map, moved by the similarity that brings pinned vertices nearest to their places in x (least squares). With
-/// fewer than two it gets the measure expected. Held coordinates are not put to their places.
+/// The draft if there is one, else that map, moved by the similarity that brings pinned vertices nearest to their places
+/// in x (least squares). With fewer than two it gets the measure expected. Held coordinates are not put to their places.
 inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem,
-                                                   const std::vector<vec2>& x)
+                                                   const std::vector<vec2>& x, const std::vector<vec2>& draft)
 {
+    if (!draft.empty()) return draft;
     auto laid = unheld_map(problem.rest);
     if (!laid) return std::nullopt;
     std::vector<anchor> anchors;

@@ -45,8 +45,7 @@ public:
             params.first_length = 0.01;
             const solve::report report = solve::minimize(objective, x_, params);
             if (!std::isfinite(report.value)) return false;
-            const std::size_t inverted = state.offer(points());
-            if (inverted == 0 || !state.proceed()) return false;
+            if (state.offer(points()).flipped == 0 || !state.proceed()) return false;
             standing_ = report.value < report.value_start ? 0 : standing_ + 1;
             if (standing_ > 50) return false;
             schedule_->lower(report.value_start, report.value, 0.1, energy_->least_det(x_));
@@ -61,8 +60,8 @@ private:
     {
         const auto& problem = state.problem();
         const auto harmonic = detail::harmonic_start(problem, state.initial());
-        const auto before = state.inverted();
-        const auto best = state.offer(harmonic) <= before ? harmonic : state.best();
+        const auto before = state.flips().flipped;
+        const auto best = state.offer(harmonic).flipped <= before ? harmonic : state.best();
         for (const auto& p : best)
             for (int k = 0; k < D; ++k) x_.push_back(p[k]);
         energy_ = std::make_unique<detail::regularized_sum<Element>>(problem.rest, problem.held);

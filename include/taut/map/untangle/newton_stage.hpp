@@ -13,6 +13,7 @@
 #include <taut/map/untangle/harmonic_start.hpp>
 #include <taut/map/untangle/laid_start.hpp>
 #include <taut/map/untangle/triangle_newton.hpp>
+#include <taut/map/untangle/untangle_shapes.hpp>
 #include <taut/map/untangle/untangle_stage.hpp>
 
 namespace taut
@@ -24,13 +25,6 @@ enum class untangle_start
     best,     ///< the better of the initial map and the best so far
     harmonic, ///< each free coordinate the mean of its neighbours'
     laid      ///< an injective map that ignores what is held, brought near to it; for few held vertices
-};
-
-/// What the elements are wanted to look like.
-enum class untangle_shapes
-{
-    rest,   ///< like the elements at rest
-    regular ///< all the same, with equal edges
 };
 
 /// Variants of the stage below.
@@ -53,15 +47,14 @@ public:
     bool run(untangle_state<triangle>& state, int iterations) override
     {
         if (!newton_ && !start(state)) return false;
-        if (state.offer(x_) == 0) return false;
+        if (state.offer(x_).flipped == 0) return false;
         for (int i = 0; i < iterations; ++i)
         {
             newton_->eps = schedule_->eps();
             const double before = newton_->value(x_);
             const double after = newton_->step(x_, before);
             if (!std::isfinite(after)) return false;
-            const std::size_t inverted = state.offer(x_);
-            if (inverted == 0 || !state.proceed()) return false;
+            if (state.offer(x_).flipped == 0 || !state.proceed()) return false;
             standing_ = newton_->last_length() > 0 ? 0 : standing_ + 1;
             if (standing_ > 50) return false;
             schedule_->lower(before, after, newton_->last_length(), newton_->least_det(x_));
@@ -78,7 +71,7 @@ private:
             x_ = state.best();
         else if (params_.start == untangle_start::harmonic)
             x_ = detail::harmonic_start(problem, state.initial());
-        else if (auto laid = detail::laid_start(problem, state.initial()))
+        else if (auto laid = detail::laid_start(problem, state.initial(), state.draft()))
             x_ = std::move(*laid);
         else
             return false;

@@ -47,7 +47,7 @@ struct operator_arrays
         cell_stride = padded(local.cells().size() + 1, 256);
         vertex_stride = padded(n, 256);
         if (cell_stride > static_cast<std::size_t>(std::numeric_limits<index>::max() / ((D + 1) * D)))
-            throw parameter_error("rest", "more elements than 32-bit places of their corners; split the mesh");
+            throw size_error("rest", "more elements than 32-bit places of their corners; split the mesh");
 
         std::vector<index> flat((D + 1) * cell_stride, 0), bits(vertex_stride, untangle_problem<Element>::all);
         for (std::size_t c = 0; c < local.cells().size(); ++c)

@@ -6,8 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
+#include <random>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -15,19 +16,33 @@
 #include <taut/map/untangle/harmonic_start.hpp>
 #include <taut/map/untangle/laid_start.hpp>
 #include <taut/map/untangle/triangle_newton.hpp>
+#include <taut/map/untangle/untangle_shapes.hpp>
 #include <taut/map/untangle/untangle_stage.hpp>
 #include <taut/mesh/boundary.hpp>
 
 namespace taut
 {
 
+/// Variants of the stage below.
+struct pull_stage_params
+{
+    std::string name;
+    untangle_shapes shapes = untangle_shapes::rest; ///< rest: as they are in the map that it starts from
+    double area_weight = 1; ///< of det + 1 / det against the shape of a triangle; 0: shape alone
+    /// Where the springs have jammed, go on with weak ones of uneven stiffness: vertices that block each other's way
+    /// then pass one after the other.
+    bool slackens = false;
+};
+
 /// Starts from an injective map and stays injective: springs pull the held vertices to their places, stronger with
-/// every step, against an energy with a barrier whose rest shapes are those of the start. The start holds the boundary
-/// alone, where that is injective, and nothing otherwise.
+/// every step, against an energy with a barrier. No triangle flattens on the way, so no branch point comes about
+/// either. The start holds the boundary alone, where that is injective, and nothing otherwise.
 class pull_stage final : public untangle_stage<triangle>
 {
 public:
-    std::string_view name() const override { return "pull"; }
+    explicit pull_stage(pull_stage_params params) : params_(std::move(params)) {}
+
+    std::string_view name() const override { return params_.name; }
 
     bool run(untangle_state<triangle>& state, int iterations) override
     {
@@ -37,43 +52,37 @@ public:
         {
             for (auto& s : newton_->springs) s.stiffness *= growth;
             const double before = newton_->value(x_), after = newton_->step(x_, before);
-            const std::size_t inverted = state.offer(x_); // with the held vertices at their places
-            if (inverted == 0 || !state.proceed() || !std::isfinite(after)) return false;
+            if (state.offer(x_)) return false; // injective with the held vertices at their places
+            if (!state.proceed() || !std::isfinite(after)) return false;
             standing_ = after < before ? 0 : standing_ + 1;
-            if (standing_ > 5) return false;
+            ++pulled_;
+            if (standing_ <= 5 && (!params_.slackens || pulled_ < most_pulls)) continue;
+            if (!params_.slackens) return false;
+            slacken();
         }
         return true;
     }
 
 private:
     static constexpr double growth = 1.2;
+    static constexpr int most_pulls = 100;
 
     /// False if there is no injective map to start from.
     bool start(const untangle_state<triangle>& state)
     {
         const auto& problem = state.problem();
-        untangle_problem<triangle> rim = problem;
-        std::vector<char> on_boundary(rim.held.size(), 0);
-        for (const auto& edge : boundary_facets(problem.rest))
-            for (const index v : edge) on_boundary[static_cast<std::size_t>(v)] = 1;
-        for (std::size_t v = 0; v < rim.held.size(); ++v)
-            if (!on_boundary[v]) rim.held[v] = 0;
-        x_ = detail::harmonic_start(rim, state.initial());
-        if (!injective(problem.rest))
-        {
-            auto laid = detail::laid_start(problem, state.initial());
-            if (!laid) return false;
-            x_ = std::move(*laid);
-            if (!injective(problem.rest)) return false;
-            rim.held.assign(rim.held.size(), 0);
-        }
-        held_ = rim.held;
-
+        if (!hold_boundary(state) && !hold_nothing(state)) return false;
         newton_ = std::make_unique<detail::triangle_newton>(state.cells(), held_);
-        std::vector<vec3> points;
-        for (const vec2& p : x_) points.emplace_back(p, 0.0);
-        newton_->shapes = detail::rest_shapes(mesh<triangle>(std::move(points), state.cells()),
-                                              detail::expected_measure(problem, state.initial()));
+        newton_->area_weight = params_.area_weight;
+        const double measure = detail::expected_measure(problem, state.initial());
+        if (params_.shapes == untangle_shapes::regular)
+            newton_->shapes = detail::regular_shapes(problem.rest, measure);
+        else
+        {
+            std::vector<vec3> points;
+            for (const vec2& p : x_) points.emplace_back(p, 0.0);
+            newton_->shapes = detail::rest_shapes(mesh<triangle>(std::move(points), state.cells()), measure);
+        }
         for (std::size_t v = 0; v < held_.size(); ++v)
             if (const std::uint8_t pulled = problem.held[v] & static_cast<std::uint8_t>(~held_[v]))
                 newton_->springs.push_back({v, state.initial()[v], vec2(pulled & 1u, pulled >> 1 & 1u)});
@@ -81,15 +90,57 @@ private:
         return true;
     }
 
+    /// The harmonic map within the held part of the boundary, if it is injective.
+    bool hold_boundary(const untangle_state<triangle>& state)
+    {
+        untangle_problem<triangle> rim = state.problem();
+        std::vector<char> on_boundary(rim.held.size(), 0);
+        for (const auto& edge : boundary_facets(rim.rest))
+            for (const index v : edge) on_boundary[static_cast<std::size_t>(v)] = 1;
+        bool any = false;
+        for (std::size_t v = 0; v < rim.held.size(); ++v)
+        {
+            if (!on_boundary[v]) rim.held[v] = 0;
+            any = any || rim.held[v] != 0;
+        }
+        if (!any) return false;
+        x_ = detail::harmonic_start(rim, state.initial());
+        held_ = std::move(rim.held);
+        return injective(rim.rest);
+    }
+
+    bool hold_nothing(const untangle_state<triangle>& state)
+    {
+        auto laid = detail::laid_start(state.problem(), state.initial(), state.draft());
+        if (!laid) return false;
+        x_ = std::move(*laid);
+        held_.assign(x_.size(), 0);
+        return injective(state.problem().rest);
+    }
+
     bool injective(const mesh<triangle>& m) const
     {
         return static_cast<bool>(certify<2>(m.cells(), std::span<const vec2>(x_)));
     }
 
+    void slacken()
+    {
+        standing_ = pulled_ = 0;
+        for (auto& s : newton_->springs)
+        {
+            const double uneven = std::exp(4.0 * (static_cast<double>(random_()) / random_.max() - 0.5));
+            for (int k = 0; k < 2; ++k)
+                if (s.stiffness[k] > 0) s.stiffness[k] = uneven / static_cast<double>(newton_->springs.size());
+        }
+    }
+
+    pull_stage_params params_;
     std::unique_ptr<detail::triangle_newton> newton_;
     std::vector<std::uint8_t> held_; // by newton_
     std::vector<vec2> x_;
+    std::mt19937 random_{1};
     int standing_ = 0; // steps in a row that could not be made
+    int pulled_ = 0;   // steps since the springs were weak
 };
 
 } // namespace taut

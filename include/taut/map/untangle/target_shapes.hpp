@@ -39,13 +39,7 @@ double expected_measure(const untangle_problem<Element>& problem, const std::vec
         for (std::size_t k = 0; k < t.size(); ++k) corner[k] = x[static_cast<std::size_t>(t[k])];
         sum += Element::measure_factor * Element::determinant(corner);
     }
-    const facet_table table = facets(m);
-    bool pinned = true;
-    for (std::size_t s = 0; s < table.twin.size() && pinned; ++s)
-        if (table.twin[s] == facet_table::boundary)
-            for (const index v : side_vertices(m, static_cast<index>(s)))
-                pinned = pinned && problem.pinned(static_cast<std::size_t>(v));
-    if (pinned && sum > 0) return sum;
+    if (problem.outline_pinned() && sum > 0) return sum;
     const auto box = [&](bool all)
     {
         vec<D> low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());

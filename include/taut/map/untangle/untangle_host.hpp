@@ -14,6 +14,7 @@
 #include <taut/map/untangle/margin.hpp>
 #include <taut/map/untangle/untangle_result.hpp>
 #include <taut/map/untangle/untangle_stages.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut
 {
@@ -67,7 +68,8 @@ void run_stages(untangle_state<Element>& state, untangle_stages<Element>& stages
             exhausted[s] = !stages[s]->run(state, iterations);
             did.iterations = state.iterations() - before;
             did.seconds = state.seconds() - begin;
-            did.inverted = state.inverted();
+            did.inverted = state.flips().flipped;
+            did.branched = state.flips().branched;
             result.stages.push_back(std::move(did));
             if (state.injective()) result.stage = stages[s]->name();
             if (state.injective() || state.stopped()) return;
@@ -114,8 +116,8 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
         problem.rest.cells(), std::span<const vec<Element::dimension>>(result.map), {}, problem.rest.cells().size());
     if (result.outcome == untangle_outcome::gave_up)
     {
-        result.ids = result.flips.ids;
-        const std::string left = std::to_string(result.flips.flipped) + " elements are inverted";
+        result.ids = result.flips.flipped > 0 ? result.flips.ids : result.flips.branch_ids;
+        const std::string left = describe_defects<Element>(result.flips);
         result.reason = state.cancelled()   ? "cancelled: " + left
                         : state.timed_out() ? "time limit: " + left
                                             : "no stage makes progress: " + left +
@@ -129,7 +131,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
 /// The same with all stages that need no device.
 inline untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {})
 {
-    return untangle(problem, host_stages(), params);
+    return untangle(problem, host_stages(problem.outline_pinned()), params);
 }
 inline untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem,
                                              const untangle_params& params = {})

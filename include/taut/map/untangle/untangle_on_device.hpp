@@ -18,7 +18,7 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
     auto on_device = std::make_unique<operator_stage<Element>>(q);
     if constexpr (Element::dimension == 2)
     {
-        auto stages = host_stages();
+        auto stages = host_stages(problem.outline_pinned());
         stages.push_back(std::move(on_device));
         return untangle(problem, std::move(stages), params);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +9,7 @@
 #include <vector>
 
 #include <taut/core/error.hpp>
-#include <taut/mesh/mesh.hpp>
+#include <taut/mesh/boundary.hpp>
 
 namespace taut
 {
@@ -22,12 +23,27 @@ struct untangle_problem
     mesh<Element> rest;             ///< the shape that the map distorts as little as possible; planar meshes have z = 0
     std::vector<vec<D>> initial;    ///< one a vertex, in any state; a held coordinate is a hard constraint
     std::vector<std::uint8_t> held; ///< one a vertex: bit k says that coordinate k is held
+    /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
+    /// empty: none is known.
+    std::vector<vec<D>> draft = {};
 
     static constexpr std::uint8_t all = (1u << D) - 1; ///< of held: the vertex is pinned
 
     /// True if coordinate k of vertex v is held.
     bool holds(std::size_t v, int k) const { return (held[v] >> k & 1u) != 0; }
     bool pinned(std::size_t v) const { return held[v] == all; }
+
+    /// True if no vertex of the boundary can move.
+    bool outline_pinned() const
+    {
+        const auto outline = boundary_facets(rest);
+        return std::all_of(outline.begin(), outline.end(),
+                           [this](const auto& facet)
+                           {
+                               return std::all_of(facet.begin(), facet.end(), [this](index v)
+                                                  { return pinned(static_cast<std::size_t>(v)); });
+                           });
+    }
 
     /// Throws parameter_error: one initial position and one set of held coordinates a vertex, all of it finite.
     void validate() const
@@ -39,6 +55,9 @@ struct untangle_problem
         if (held.size() != n)
             throw parameter_error("held", "one set of coordinates a vertex: " + std::to_string(n) + ", not " +
                                               std::to_string(held.size()));
+        if (!draft.empty() && draft.size() != n)
+            throw parameter_error("draft", "one position a vertex, or none at all: " + std::to_string(n) + ", not " +
+                                               std::to_string(draft.size()));
         for (std::size_t v = 0; v < n; ++v)
         {
             for (int k = 0; k < D; ++k)

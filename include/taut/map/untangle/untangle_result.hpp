@@ -15,7 +15,7 @@ namespace taut
 /// What became of an untangling problem.
 enum class untangle_outcome
 {
-    injective,  ///< every element of the map is positive, in exact arithmetic
+    injective,  ///< no element is inverted and there is no branch point, in exact arithmetic
     infeasible, ///< no map is injective; untangle_result::reason and ids are the certificate
     gave_up     ///< none was found, and none is known not to exist
 };
@@ -45,7 +45,8 @@ struct untangle_stage_report
     std::string name;
     int iterations = 0;
     double seconds = 0;
-    std::size_t inverted = 0; ///< fewest inverted elements known when it ended
+    std::size_t inverted = 0; ///< elements inverted in the best map when it ended
+    std::size_t branched = 0; ///< branch points of that map
 };
 
 /// The outcome, the best map and how it came about.
@@ -56,8 +57,9 @@ struct untangle_result
 
     untangle_outcome outcome = untangle_outcome::gave_up;
     std::string reason;      ///< why there is no injective map; empty if there is one
-    std::vector<index> ids;  ///< infeasible: what the certificate names; gave_up: the inverted elements of the map
-    std::vector<vec<D>> map; ///< the map with the fewest inverted elements seen; held coordinates as in the problem
+    std::vector<index> ids;  ///< infeasible: what the proof names; gave_up: the inverted elements of the map, or its
+                             ///< branch points where none is inverted
+    std::vector<vec<D>> map; ///< with the fewest inverted elements and branch points; held coordinates as in the problem
     certificate flips;       ///< of the map, exact; det in the units of the map, not divided by anything
     double least_relative_det = 0; ///< smallest mapped / rest measure, divided by that of the whole; 1: a dilation
     std::string stage;             ///< that found the injective map; "initial" if there was nothing to do

@@ -19,29 +19,52 @@ namespace taut
 template <class Element>
 using untangle_stages = std::vector<std::unique_ptr<untangle_stage<Element>>>;
 
-/// The stages of the plane that need no device, in their default order:
+/// The stages of the plane that need no device:
 ///
 /// harmonic  the harmonic map alone
 /// newton    from the harmonic map, towards the shapes at rest
 /// pull      from an injective map, whose elements stay positive while springs pull it to what is held
+/// stretch   the same towards regular triangles, with springs that slacken and pull again
 /// regular   from the harmonic map, towards regular triangles
 /// best      from the best map so far, towards the shapes at rest
 /// laid      from an injective map that ignores what is held, towards the shapes at rest
 /// shape     from the harmonic map, shape only
 /// lbfgs     as newton, without second derivatives
-inline untangle_stages<triangle> host_stages()
+///
+/// in the order that pays where all of the outline is pinned, so that a map without flips has no branch points; else
+/// those come first that make none.
+inline untangle_stages<triangle> host_stages(bool outline_pinned)
 {
     using enum untangle_start;
     using enum untangle_shapes;
     untangle_stages<triangle> stages;
-    stages.push_back(std::make_unique<harmonic_stage<triangle>>());
-    const auto add = [&](newton_stage_params p) { stages.push_back(std::make_unique<newton_stage>(std::move(p))); };
-    add({"newton", harmonic, rest, 1});
-    stages.push_back(std::make_unique<pull_stage>());
-    add({"regular", harmonic, regular, 1});
-    add({"best", best, rest, 1});
-    add({"laid", laid, rest, 1});
-    add({"shape", harmonic, rest, 0});
+    const auto follow = [&](newton_stage_params p) { stages.push_back(std::make_unique<newton_stage>(std::move(p))); };
+    const auto pull = [&] { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"})); };
+    const auto stretch = [&]
+    { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", regular, 0.1, true})); };
+    const auto harmonic_map = [&] { stages.push_back(std::make_unique<harmonic_stage<triangle>>()); };
+    if (outline_pinned)
+    {
+        harmonic_map();
+        follow({"newton", harmonic, rest, 1});
+        pull();
+        follow({"regular", harmonic, regular, 1});
+        follow({"best", best, rest, 1});
+        follow({"laid", laid, rest, 1});
+        follow({"shape", harmonic, rest, 0});
+        stretch();
+    }
+    else
+    {
+        pull();
+        stretch();
+        follow({"best", best, rest, 1});
+        harmonic_map();
+        follow({"newton", harmonic, rest, 1});
+        follow({"regular", harmonic, regular, 1});
+        follow({"laid", laid, rest, 1});
+        follow({"shape", harmonic, rest, 0});
+    }
     stages.push_back(std::make_unique<lbfgs_stage<triangle>>());
     return stages;
 }

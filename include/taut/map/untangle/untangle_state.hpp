@@ -37,31 +37,32 @@ public:
             for (int k = 0; k < D; ++k) largest = std::max(largest, std::abs(p[k]));
         if (largest > 0) unit_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
         initial_ = scaled(problem.initial);
+        draft_ = scaled(problem.draft);
     }
 
     const untangle_problem<Element>& problem() const { return problem_; }
     const auto& cells() const { return problem_.rest.cells(); }
     const map& initial() const { return initial_; }         ///< in the unit of the stages
+    const map& draft() const { return draft_; }             ///< of the problem, in the unit of the stages; may be empty
     map best() const { return scaled(best_); }              ///< in the unit of the stages
     const map& best_map() const { return best_; }           ///< in the unit of the problem
-    const certificate& flips() const { return flips_; }     ///< of best_map()
-    std::size_t inverted() const { return flips_.flipped; } ///< of best_map(), exact
-    bool injective() const { return flips_.flipped == 0; }
+    const certificate& flips() const { return flips_; }     ///< of best_map(), exact
+    bool injective() const { return static_cast<bool>(flips_); }
     int iterations() const { return iterations_; }
 
-    /// Takes x, in the unit of the stages, as the best map if it has fewer inverted elements; its held coordinates are
-    /// replaced by those of the problem before the elements are counted. Returns how many are inverted.
-    std::size_t offer(std::span<const vec<D>> x) { return keep(restored(x, unit_)); }
+    /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its held coordinates are replaced by
+    /// those of the problem before they are counted. Returns what was counted.
+    certificate offer(std::span<const vec<D>> x) { return keep(restored(x, unit_)); }
 
     /// The same with x in the unit of the problem.
-    std::size_t take(std::span<const vec<D>> x) { return keep(restored(x, 1)); }
+    certificate take(std::span<const vec<D>> x) { return keep(restored(x, 1)); }
 
     /// Replaces an injective map by another one; false, and nothing happens, if x is not injective.
     bool replace(std::span<const vec<D>> x)
     {
         map trial = restored(x, unit_);
         certificate flips = certified(trial);
-        if (flips.flipped > 0) return false;
+        if (!flips) return false;
         best_ = std::move(trial);
         flips_ = std::move(flips);
         return true;
@@ -74,7 +75,7 @@ public:
         if (stopped()) return false;
         solve::progress now;
         now.iteration = iterations_;
-        now.value = static_cast<double>(inverted());
+        now.value = static_cast<double>(flips_.defects());
         now.seconds = seconds();
         if (now.seconds > params_.time_limit.count())
             timed_out_ = true;
@@ -90,16 +91,15 @@ public:
     double seconds_left() const { return std::max(0.0, params_.time_limit.count() - seconds()); }
 
 private:
-    std::size_t keep(map trial)
+    certificate keep(map trial)
     {
         certificate flips = certified(trial);
-        const std::size_t inverted = flips.flipped;
-        if (inverted < flips_.flipped)
+        if (flips.defects() < flips_.defects())
         {
             best_ = std::move(trial);
-            flips_ = std::move(flips);
+            flips_ = flips;
         }
-        return inverted;
+        return flips;
     }
 
     map scaled(const map& x) const
@@ -127,7 +127,7 @@ private:
     const untangle_params& params_;
     detail::stopwatch clock_;
     double unit_ = 1;
-    map initial_, best_;
+    map initial_, draft_, best_;
     certificate flips_;
     int iterations_ = 0;
     bool timed_out_ = false, cancelled_ = false;

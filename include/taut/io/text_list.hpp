@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace taut::io
+{
+
+/// Short texts, kept one after the other.
+class text_list
+{
+public:
+    std::size_t size() const { return ends_.size(); }
+
+    std::string_view operator[](std::size_t i) const
+    {
+        const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
+        return std::string_view(all_).substr(begin, ends_[i] - begin);
+    }
+
+    /// Adds to the text that the next call of end() completes.
+    void append(std::string_view part) { all_ += part; }
+    void end() { ends_.push_back(all_.size()); }
+
+    void add(std::string_view text)
+    {
+        append(text);
+        end();
+    }
+
+private:
+    std::string all_;
+    std::vector<std::size_t> ends_;
+};
+
+} // namespace taut::io

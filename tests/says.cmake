@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: MIT
+# cmake -DEXPECTED=<regular expression> -P says.cmake -- <program> <arguments>...
+# Passes if the program ends with status 0 and says what is expected; CTest's PASS_REGULAR_EXPRESSION forgives the status.
+set(command "")
+set(begun FALSE)
+math(EXPR last "${CMAKE_ARGC} - 1")
+foreach(i RANGE ${last})
+    if(begun)
+        list(APPEND command "${CMAKE_ARGV${i}}")
+    elseif(CMAKE_ARGV${i} STREQUAL "--")
+        set(begun TRUE)
+    endif()
+endforeach()
+execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
+message("${out}")
+if(NOT status EQUAL 0)
+    message(FATAL_ERROR "exit status ${status}")
+endif()
+if(NOT out MATCHES "${EXPECTED}")
+    message(FATAL_ERROR "does not say ${EXPECTED}")
+endif()

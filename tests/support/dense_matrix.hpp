@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace taut::test
+{
+
+/// A square matrix, for references that are plain to read.
+class dense_matrix
+{
+public:
+    explicit dense_matrix(std::size_t size) : size_(size), values_(size * size, 0.0L) {}
+
+    std::size_t size() const { return size_; }
+    long double& operator()(std::size_t i, std::size_t j) { return values_[i * size_ + j]; }
+    long double operator()(std::size_t i, std::size_t j) const { return values_[i * size_ + j]; }
+
+    std::vector<double> operator*(const std::vector<double>& x) const
+    {
+        std::vector<double> y(size_);
+        for (std::size_t i = 0; i < size_; ++i)
+        {
+            long double sum = 0;
+            for (std::size_t j = 0; j < size_; ++j) sum += (*this)(i, j) * x[j];
+            y[i] = static_cast<double>(sum);
+        }
+        return y;
+    }
+
+    /// By Gauss and Jordan, with pivots.
+    dense_matrix inverse() const
+    {
+        dense_matrix a = *this, x(size_);
+        for (std::size_t i = 0; i < size_; ++i) x(i, i) = 1;
+        for (std::size_t k = 0; k < size_; ++k)
+        {
+            std::size_t best = k;
+            for (std::size_t i = k; i < size_; ++i)
+                if (std::abs(a(i, k)) > std::abs(a(best, k))) best = i;
+            for (std::size_t j = 0; j < size_; ++j)
+            {
+                std::swap(a(k, j), a(best, j));
+                std::swap(x(k, j), x(best, j));
+            }
+            const long double pivot = a(k, k);
+            for (std::size_t j = 0; j < size_; ++j)
+            {
+                a(k, j) /= pivot;
+                x(k, j) /= pivot;
+            }
+            for (std::size_t i = 0; i < size_; ++i)
+            {
+                if (i == k) continue;
+                const long double factor = a(i, k);
+                for (std::size_t j = 0; j < size_; ++j)
+                {
+                    a(i, j) -= factor * a(k, j);
+                    x(i, j) -= factor * x(k, j);
+                }
+            }
+        }
+        return x;
+    }
+
+private:
+    std::size_t size_;
+    std::vector<long double> values_;
+};
+
+/// What detail::dense_inverse computes: the inverse of the matrix, scaled to a unit diagonal and shifted. Unknowns
+/// without a positive diagonal get 0.
+inline dense_matrix shifted_inverse(const dense_matrix& A, double shift)
+{
+    const std::size_t n = A.size();
+    std::vector<long double> scale(n);
+    for (std::size_t i = 0; i < n; ++i) scale[i] = A(i, i) > 0 ? 1 / std::sqrt(A(i, i)) : 0;
+    dense_matrix scaled(n);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+        for (std::size_t j = 0; j < n; ++j) scaled(i, j) = scale[i] * A(i, j) * scale[j];
+        scaled(i, i) += shift;
+    }
+    dense_matrix X = scaled.inverse();
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) X(i, j) *= scale[i] * scale[j];
+    return X;
+}
+
+} // namespace taut::test

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+namespace taut::tools
+{
+
+/// Help whose descriptions are broken into lines.
+class wrapped_help : public CLI::Formatter
+{
+public:
+    std::string make_option_desc(const CLI::Option* option) const override;
+    std::string make_subcommand(const CLI::App* command) const override;
+
+private:
+    std::string wrapped(std::string_view text) const;
+};
+
+/// "there is no subcommand unwarp (did you mean unwrap?)" for a first argument that is none; empty if it is one, or an
+/// option.
+std::string wrong_subcommand(const CLI::App& program, int argc, const char* const* argv);
+
+} // namespace taut::tools

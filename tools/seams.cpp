@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "seams.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "failure.hpp"
+#include "text_table.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// Whether a fault is one of the pieces that a cut leaves, not of some triangles.
+bool is_of_pieces(const mesh_finding& f)
+{
+    return f.fault == mesh_fault::several_components || f.fault == mesh_fault::closed_surface ||
+           f.fault == mesh_fault::several_boundaries || f.fault == mesh_fault::handles ||
+           f.fault == mesh_fault::non_manifold_vertex;
+}
+
+/// "6 charts with 7 boundary loops"
+std::string describe_pieces(const mesh<triangle>& cut, const facet_table& sides,
+                            const std::vector<mesh_finding>& faults)
+{
+    const auto found = [&](mesh_fault fault)
+    { return std::find_if(faults.begin(), faults.end(), [&](const mesh_finding& f) { return f.fault == fault; }); };
+    const auto parts = found(mesh_fault::several_components);
+    std::string text = count(parts == faults.end() ? 1 : parts->ids.size(), "chart", "charts");
+    if (sides.oriented())
+        text += " with " + count(boundary_loops(cut, sides).size(), "boundary loop", "boundary loops");
+    if (found(mesh_fault::handles) != faults.end()) text += " and handles";
+    const auto touching = found(mesh_fault::non_manifold_vertex);
+    if (touching != faults.end()) text += ", whose parts touch in " + count(touching->ids.size(), "vertex", "vertices");
+    return text;
+}
+
+} // namespace
+
+std::optional<io::cut_surface> cut_open(const io::surface_file& file, const mesh_requirements& need, bool wanted)
+{
+    if (file.texcoords.empty()) return std::nullopt;
+    std::optional<io::cut_surface> cut;
+    try
+    {
+        cut = io::cut_seams(file);
+    }
+    catch (const io::texcoord_error&)
+    {
+        if (wanted) throw;
+    }
+    if (!cut || (!wanted && check(file.surface, need).empty())) return std::nullopt;
+    const auto sides = facets(cut->surface);
+    const auto faults = check(cut->surface, sides, need);
+    if (std::any_of(faults.begin(), faults.end(), is_of_pieces))
+        throw unsuitable_input("cut open along the seams of its vt, the surface is " +
+                               describe_pieces(cut->surface, sides, faults) +
+                               ", not one disk; give it seams that leave one, or map the charts one at a time");
+    return cut;
+}
+
+std::string describe(const io::cut_surface& cut)
+{
+    return "cut open along the seams of its vt, on which " + count(cut.seam_vertices, "vertex lies", "vertices lie");
+}
+
+void require_undivided(std::span<const io::pin<2>> pins, const io::cut_surface& cut)
+{
+    // Further sheets follow the vertices of the file.
+    std::vector<index> divided;
+    for (std::size_t s = 0; s < cut.origins.size(); ++s)
+        if (cut.origins[s] != static_cast<index>(s)) divided.push_back(cut.origins[s]);
+    std::sort(divided.begin(), divided.end());
+    for (const auto& pin : pins)
+        if (const auto sheets = std::equal_range(divided.begin(), divided.end(), pin.vertex);
+            sheets.first != sheets.second)
+            throw unsuitable_input(
+                "the pin of vertex " + std::to_string(pin.vertex) + ": it lies on a seam, which divides it into " +
+                std::to_string(sheets.second - sheets.first + 1) + " vertices; pin others, or close the seam");
+}
+
+} // namespace taut::tools

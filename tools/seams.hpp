@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include <taut/io/cut_seams.hpp>
+#include <taut/io/pins.hpp>
+#include <taut/mesh/validate.hpp>
+
+namespace taut::tools
+{
+
+/// The surface of a file cut open along the seams of its texture coordinates, if it has seams and is not as needed
+/// without, or if that is `wanted`; else nothing. What cutting does not mend stays for validate().
+/// Throws unsuitable_input where the cut leaves anything but one piece of the required topology, and io::texcoord_error
+/// if a cut is wanted and a corner has no texture coordinate.
+std::optional<io::cut_surface> cut_open(const io::surface_file& file, const mesh_requirements& need, bool wanted);
+
+/// "cut open along the seams of its vt, on which 14 vertices lie"
+std::string describe(const io::cut_surface& cut);
+
+/// Throws unsuitable_input if a pin names a vertex that the cut divides.
+void require_undivided(std::span<const io::pin<2>> pins, const io::cut_surface& cut);
+
+} // namespace taut::tools
