@@ -120,10 +120,11 @@ public:
         if (!prove_infeasible()) solve();
         write();
         if (report_.code == exit_code::infeasible) throw infeasible_problem(report_.reason);
-        if (report_.code == exit_code::no_valid_map)
-            throw no_valid_map(report_.reason +
-                               (report_.written.empty() ? "" : "; the best map is in " + report_.written));
-        return report_.code;
+        if (valid_) return report_.code;
+        const std::string why =
+            report_.reason + (report_.written.empty() ? "" : "; the best map is in " + report_.written);
+        if (interrupted()) throw interrupted_run(why);
+        throw no_valid_map(why);
     }
 
 private:

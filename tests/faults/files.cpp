@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A library to preload (LD_PRELOAD) that makes one call of a program to the file system fail. Only what is done to write
-// files of one folder counts.
+// A library to preload (LD_PRELOAD) that makes one call of a program to the file system fail. Only what is done to
+// write files of one folder counts.
 //
 //     TAUT_FAULT=file.write:3  the 3rd write fails; kinds below, 0: none
 //     TAUT_FAULT_FOLDER=DIR    that folder
@@ -133,85 +133,86 @@ mode_t mode_of(int flags, va_list more)
 
 extern "C"
 {
-int open(const char* path, int flags, ...)
-{
-    va_list more;
-    va_start(more, flags);
-    const mode_t mode = mode_of(flags, more);
-    va_end(more);
-    return open_by("open", path, flags, mode);
-}
+    int open(const char* path, int flags, ...)
+    {
+        va_list more;
+        va_start(more, flags);
+        const mode_t mode = mode_of(flags, more);
+        va_end(more);
+        return open_by("open", path, flags, mode);
+    }
 
-int open64(const char* path, int flags, ...)
-{
-    va_list more;
-    va_start(more, flags);
-    const mode_t mode = mode_of(flags, more);
-    va_end(more);
-    return open_by("open64", path, flags, mode);
-}
+    int open64(const char* path, int flags, ...)
+    {
+        va_list more;
+        va_start(more, flags);
+        const mode_t mode = mode_of(flags, more);
+        va_end(more);
+        return open_by("open64", path, flags, mode);
+    }
 
-int openat(int folder, const char* path, int flags, ...)
-{
-    va_list more;
-    va_start(more, flags);
-    const mode_t mode = mode_of(flags, more);
-    va_end(more);
-    return open_at_by("openat", folder, path, flags, mode);
-}
+    int openat(int folder, const char* path, int flags, ...)
+    {
+        va_list more;
+        va_start(more, flags);
+        const mode_t mode = mode_of(flags, more);
+        va_end(more);
+        return open_at_by("openat", folder, path, flags, mode);
+    }
 
-int openat64(int folder, const char* path, int flags, ...)
-{
-    va_list more;
-    va_start(more, flags);
-    const mode_t mode = mode_of(flags, more);
-    va_end(more);
-    return open_at_by("openat64", folder, path, flags, mode);
-}
+    int openat64(int folder, const char* path, int flags, ...)
+    {
+        va_list more;
+        va_start(more, flags);
+        const mode_t mode = mode_of(flags, more);
+        va_end(more);
+        return open_at_by("openat64", folder, path, flags, mode);
+    }
 
-std::FILE* fopen(const char* path, const char* mode)
-{
-    return fopen_by("fopen", path, mode);
-}
+    std::FILE* fopen(const char* path, const char* mode)
+    {
+        return fopen_by("fopen", path, mode);
+    }
 
-std::FILE* fopen64(const char* path, const char* mode)
-{
-    return fopen_by("fopen64", path, mode);
-}
+    std::FILE* fopen64(const char* path, const char* mode)
+    {
+        return fopen_by("fopen64", path, mode);
+    }
 
-ssize_t write(int file, const void* data, size_t size)
-{
-    if (is_watched(file) && fails(written, ENOSPC)) return -1;
-    return real<ssize_t (*)(int, const void*, size_t)>("write")(file, data, size);
-}
+    ssize_t write(int file, const void* data, size_t size)
+    {
+        if (is_watched(file) && fails(written, ENOSPC)) return -1;
+        return real<ssize_t (*)(int, const void*, size_t)>("write")(file, data, size);
+    }
 
-ssize_t writev(int file, const iovec* parts, int count)
-{
-    if (is_watched(file) && fails(written, ENOSPC)) return -1;
-    return real<ssize_t (*)(int, const iovec*, int)>("writev")(file, parts, count);
-}
+    ssize_t writev(int file, const iovec* parts, int count)
+    {
+        if (is_watched(file) && fails(written, ENOSPC)) return -1;
+        return real<ssize_t (*)(int, const iovec*, int)>("writev")(file, parts, count);
+    }
 
-int fsync(int file)
-{
-    if (is_watched(file) && fails(flushed, EIO)) return -1;
-    return real<int (*)(int)>("fsync")(file);
-}
+    int fsync(int file)
+    {
+        if (is_watched(file) && fails(flushed, EIO)) return -1;
+        return real<int (*)(int)>("fsync")(file);
+    }
 
-int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags)
-{
-    if (in_folder(to) && fails(linked, EIO)) return -1;
-    return real<int (*)(int, const char*, int, const char*, int)>("linkat")(from_folder, from, to_folder, to, flags);
-}
+    int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags)
+    {
+        if (in_folder(to) && fails(linked, EIO)) return -1;
+        return real<int (*)(int, const char*, int, const char*, int)>("linkat")(from_folder, from, to_folder, to,
+                                                                                flags);
+    }
 
-int rename(const char* from, const char* to)
-{
-    if (in_folder(to) && fails(renamed, EIO)) return -1;
-    return real<int (*)(const char*, const char*)>("rename")(from, to);
-}
+    int rename(const char* from, const char* to)
+    {
+        if (in_folder(to) && fails(renamed, EIO)) return -1;
+        return real<int (*)(const char*, const char*)>("rename")(from, to);
+    }
 
-int renameat(int from_folder, const char* from, int to_folder, const char* to)
-{
-    if (in_folder(to) && fails(renamed, EIO)) return -1;
-    return real<int (*)(int, const char*, int, const char*)>("renameat")(from_folder, from, to_folder, to);
-}
+    int renameat(int from_folder, const char* from, int to_folder, const char* to)
+    {
+        if (in_folder(to) && fails(renamed, EIO)) return -1;
+        return real<int (*)(int, const char*, int, const char*)>("renameat")(from_folder, from, to_folder, to);
+    }
 }

@@ -39,8 +39,8 @@ enum kind : std::size_t
     finish,
     kinds
 };
-constexpr const char* names[] = {"context",  "queue",  "allocate", "program", "build", "kernel", "argument",
-                                 "launch",   "read",   "write",    "fill",  "copy",   "finish"};
+constexpr const char* names[] = {"context", "queue", "allocate", "program", "build", "kernel", "argument",
+                                 "launch",  "read",  "write",    "fill",    "copy",  "finish"};
 static_assert(std::size(names) == kinds);
 
 /// What is to happen, from the environment.
@@ -114,7 +114,8 @@ cl_int error_of(cl_int usual)
     return state().lost ? gone : usual;
 }
 
-cl_context CL_API_CALL create_context(const cl_context_properties* properties, cl_uint count, const cl_device_id* devices,
+cl_context CL_API_CALL create_context(const cl_context_properties* properties, cl_uint count,
+                                      const cl_device_id* devices,
                                       void(CL_CALLBACK* notify)(const char*, const void*, size_t, void*), void* data,
                                       cl_int* code)
 {
@@ -192,7 +193,8 @@ void spoil(cl_command_queue q, cl_kernel k)
         for (const auto& [i, memory] : state().arguments[k])
         {
             cl_kernel_arg_type_qualifier qualifier = 0;
-            state().target.clGetKernelArgInfo(k, i, CL_KERNEL_ARG_TYPE_QUALIFIER, sizeof qualifier, &qualifier, nullptr);
+            state().target.clGetKernelArgInfo(k, i, CL_KERNEL_ARG_TYPE_QUALIFIER, sizeof qualifier, &qualifier,
+                                              nullptr);
             const std::string type = type_of(k, i);
             const bool number = type == "float*" || type == "double*";
             if (number && !(qualifier & CL_KERNEL_ARG_TYPE_CONST)) outputs.push_back(memory);

@@ -920,6 +920,7 @@ test_stops()
     star 200 >large.prob
     run_until '"phase":"untangle","iteration":[1-9]' INT untangle large.prob -o map.txt --stats stats.json
     if [ -e map.txt ]; then written=map.txt inverted=0; else written=map.txt.invalid inverted='[1-9].*'; fi
+    [ -e map.txt ] || error_says 'interrupted' 'the best map is in map.txt.invalid'
     keys stats.json inverted
     says values "^inverted=$inverted\$"
     keeps_pins large.prob $written
