@@ -124,7 +124,8 @@ std::string generate(dice& random)
         }
         for (std::size_t k = random.below(3); k > 0; --k)
             add(random.pick({"quality", "flags", "id", "x", "w"}), random.one_in(2));
-        if (random.one_in(3)) std::swap(properties.front(), properties[random.below(properties.size())]);
+        if (!properties.empty() && random.one_in(3))
+            std::swap(properties.front(), properties[random.below(properties.size())]);
         header += std::string(random.pick({"", "", "comment c # \\\n", "obj_info\n"})) + "element " + name + ' ' +
                   (random.one_in(60) ? random.number() : std::to_string(rows)) + '\n';
         for (const auto& p : properties)
