@@ -604,7 +604,7 @@ test_stops()
 {
     grid 150 >in.obj
     for solver in newton lbfgs; do
-        expect 8 unwrap in.obj -o out.obj --stats stats.json --time-limit 0 --solver $solver
+        expect 8 unwrap in.obj -o out.obj --stats stats.json --time-limit 1e-9 --solver $solver
         says out '^stop .*time limit'
         stopped time
         rm out.obj stats.json
