@@ -115,24 +115,24 @@ private:
             const std::size_t place = j * C_ + lane;
             all_.push_back({static_cast<index>(place), counts_[place]++, slot});
         }
-        /// Appends them; those of nonzero 0 to `diagonal`.
-        void finish(detail::list_chunk& diagonal, detail::list_chunk& others)
+        /// Appends them; those of nonzero 0 to `first`.
+        void finish(detail::list_chunk& first, detail::list_chunk& rest)
         {
             starts_.clear();
             for (std::size_t p = 0; p < counts_.size(); p += C_)
             {
-                auto& list = p == 0 ? diagonal : others;
+                auto& list = p == 0 ? first : rest;
                 const auto* count = counts_.data() + p;
                 const index size = *std::max_element(count, count + C_) * static_cast<index>(C_);
                 starts_.push_back(list.items.size());
                 list.items.resize(list.items.size() + static_cast<std::size_t>(size), none);
                 list.sizes.push_back(size);
-                if (p == 0) others.sizes.push_back(0); // its places have a number among all places
+                if (p == 0) rest.sizes.push_back(0); // its places have a number among all places
             }
             for (const auto& [place, number, slot] : all_)
             {
                 const auto p = static_cast<std::size_t>(place);
-                auto& items = p < C_ ? diagonal.items : others.items;
+                auto& items = p < C_ ? first.items : rest.items;
                 items[starts_[p / C_] + static_cast<std::size_t>(number) * C_ + p % C_] = slot;
             }
         }

@@ -81,6 +81,7 @@ TEST_CASE("constraints: what cannot hold is refused with the vertices it concern
     check_refused([&] { c.spring(3, {1, 1}, 1); }, f::idle_spring, {3});
     check_refused([&] { c.pin(7, {1, 1}); }, f::idle_spring, {7});
     check_refused([&] { c.pin(4, 2, 1.0); }, f::no_coordinate, {4});
+    CHECK_THROWS_WITH_AS(c.pin(4, 2, 1.0), doctest::Contains("coordinate 2; they count from 0 to 1"), constraint_error);
     check_refused([] { constraints<triangle>().pin(0, {0, 0}); }, f::out_of_range, {0});
 
     // Sets: every vertex at fault is named, and nothing of the call is kept.

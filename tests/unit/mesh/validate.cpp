@@ -100,12 +100,17 @@ TEST_CASE("validate: the scale of the mesh does not matter")
 
 TEST_CASE("validate: duplicate triangles are named in pairs")
 {
-    auto cells = test::grid(3, 3).cells();
-    cells.push_back({cells[4][1], cells[4][2], cells[4][0]});
-    const auto found = check(mesh<triangle>(test::grid(3, 3).points(), cells));
-    REQUIRE(!found.empty());
-    CHECK(found[0].fault == mesh_fault::duplicate_cell);
-    CHECK(found[0].ids == ids{4, 18});
+    for (const taut::index original : {4, 8}) // at the boundary and inside, its corners in three orders
+        for (std::size_t turn = 0; turn < 3; ++turn)
+        {
+            auto cells = test::grid(3, 3).cells();
+            const auto c = cells[static_cast<std::size_t>(original)];
+            cells.push_back({c[turn], c[(turn + 1) % 3], c[(turn + 2) % 3]});
+            const auto found = check(mesh<triangle>(test::grid(3, 3).points(), cells));
+            REQUIRE(!found.empty());
+            CHECK(found[0].fault == mesh_fault::duplicate_cell);
+            CHECK(found[0].ids == ids{original, 18});
+        }
 
     // A pillow: the copy is turned over, and every edge looks as it should.
     const auto pillow = check(mesh<triangle>(test::single_triangle().points(), {{0, 1, 2}, {0, 2, 1}}));

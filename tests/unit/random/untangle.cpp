@@ -80,7 +80,7 @@ private:
 
 TEST_CASE("untangle: random pins on random disks end honestly, and those of a valid map are met")
 {
-    const int cases = test::sized(400, 100, 4000);
+    const int cases = test::sized(2000, 100, 20000);
     std::mt19937 random(7);
     std::uniform_real_distribution<double> chance(0, 1);
     std::normal_distribution<double> any;

@@ -69,6 +69,16 @@ TEST_CASE("boundary crossings: two loops cross each other")
     CHECK(boundary_crossings(loops{range(0, 4), range(4, 4)}, apart) == 0);
 }
 
+TEST_CASE("boundary crossings: two loops that meet in a corner touch with both edges of each")
+{
+    std::vector<vec2> x{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 1}, {2, 1}, {2, 2}, {1, 2}};
+    for (int turn = 0; turn < 4; ++turn)
+    {
+        CHECK(boundary_crossings(loops{range(0, 4), range(4, 4)}, x) == 4);
+        for (vec2& p : x) p = {-p.y, p.x};
+    }
+}
+
 TEST_CASE("boundary crossings: agrees with all pairs on random polygons, whichever way they lie")
 {
     std::mt19937 random(5);
