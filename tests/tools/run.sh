@@ -730,7 +730,7 @@ test_reports()
     says values '^levels.0.level=[1-9]$' '^levels.0.vertices=[1-9][0-9]*$'
     expect 0 unwrap large.obj -o out.obj --stats stats.json --quiet --solver lbfgs --iterations 5
     keys stats.json precision method.solver method.start hessian_products levels
-    says values '^precision=double$' '^method.solver=lbfgs$' '^method.start=evened stretch on a circle$' \
+    says values '^precision=fp64$' '^method.solver=lbfgs$' '^method.start=evened stretch on a circle$' \
         '^hessian_products=0$' '^levels=\[\]$'
 
     expect 0 unwrap in.obj -o out.obj --progress json
