@@ -2,8 +2,9 @@
 // Random pinned maps with a free boundary: of each mesh's free map 1 to 20 random vertices are pinned up to 5 to 50 %
 // of the longer side of the map's box away from where they were, and the mesh is parameterized anew. What became of
 // each, and whether a map that is called valid holds its pins, has no flipped triangle, and winds once around every
-// vertex inside, by angles that are added up here.
+// vertex inside, by angles that are added up.
 //   taut_bench_pins [--cases N] [--seed N] [--limit SECONDS] [--json FILE] [MESH...]
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -12,10 +13,10 @@
 #include <random>
 
 #include <support/meshes.hpp>
+#include <support/winding.hpp>
 
 #include <taut/io/read_surface.hpp>
 #include <taut/map/parameterize.hpp>
-#include <taut/mesh/boundary.hpp>
 
 #include "measure.hpp"
 
@@ -24,26 +25,6 @@ namespace
 
 using namespace taut;
 using taut::index;
-
-/// Inner vertices whose angles add up to more than one turn, and flipped triangles.
-std::size_t defects(const mesh<triangle>& m, const std::vector<vec2>& uv)
-{
-    const auto boundary = boundary_flags(uv.size(), boundary_loops(m));
-    std::vector<double> angle(uv.size(), 0.0);
-    std::size_t count = 0;
-    for (const auto& t : m.cells())
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-            const auto at = [&](std::size_t i) { return uv[static_cast<std::size_t>(t[(k + i) % 3])]; };
-            const vec2 a = at(1) - at(0), b = at(2) - at(0);
-            const double turn = std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
-            angle[static_cast<std::size_t>(t[k])] += turn;
-            if (k == 0 && !(turn > 0)) ++count;
-        }
-    for (std::size_t v = 0; v < uv.size(); ++v)
-        if (boundary[v] == 0 && angle[v] > 3 * std::numbers::pi) ++count;
-    return count;
-}
 
 struct tally
 {
@@ -108,7 +89,7 @@ tally measure(queue& q, const std::string& name, const mesh<triangle>& m, int ca
         const double seconds = bench::seconds(
             [&]
             { r = parameterize(q, m, {.constraints = wanted, .time_limit = std::chrono::duration<double>(limit)}); });
-        bool right = !r || defects(m, r.uv) == 0;
+        bool right = !r || (certify<2>(m.cells(), r.uv).flipped == 0 && test::wound_vertices(m, r.uv).empty());
         for (const auto& [v, pin] : wanted.pins())
             right = right && (!r || r.uv[static_cast<std::size_t>(v)] == pin.value);
         ++t.problems;

@@ -9,7 +9,7 @@ try
     auto mesh = taut::io::read_surface(argc > 1 ? argv[1] : "surface.obj");
     taut::queue queue; // $TAUT_DEVICE, else the best device
 
-    auto [uv, report] = taut::parameterize(queue, mesh); // certified: no triangle is flipped
+    auto [uv, report] = taut::parameterize(queue, mesh); // certified: no flips, no branch points
     std::cout << queue.device() << '\n' << report << '\n';
     taut::io::write_obj("flat.obj", mesh, uv);
 }

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <support/meshes.hpp>
 #include <support/untangle_checks.hpp>
+#include <support/winding.hpp>
 
+#include <taut/map/barycentric_map.hpp>
 #include <taut/map/untangle/untangle_host.hpp>
 
 namespace
@@ -215,4 +221,71 @@ TEST_CASE("untangle: the scale of the map does not matter")
         check_typed(problem, result);
         CHECK(result.outcome == untangle_outcome::injective);
     }
+}
+
+TEST_CASE("untangle: random pins on a free boundary give maps that wind once around every vertex")
+{
+    std::mt19937 random(3);
+    const auto uniform = [&](double from, double to)
+    { return from + (to - from) * (static_cast<double>(random()) / random.max()); };
+    int solved = 0;
+    constexpr int cases = 30;
+    for (int k = 0; k < cases; ++k)
+    {
+        CAPTURE(k);
+        const auto m = test::bumpy(10, 0.4, static_cast<std::uint32_t>(k));
+        const auto free = barycentric_map(m);
+        untangle_problem<triangle> problem{m, free.uv, std::vector<std::uint8_t>(free.uv.size(), 0)};
+        if (k % 2 == 0) problem.draft = free.uv;
+        const int pins = 1 + static_cast<int>(uniform(0, 6));
+        const double most = uniform(0.05, 0.5);
+        for (int i = 0; i < pins; ++i)
+        {
+            const std::size_t v = random() % free.uv.size();
+            if (problem.held[v] != 0) continue;
+            problem.held[v] = problem.all;
+            problem.initial[v] += vec2(uniform(-most, most), uniform(-most, most));
+        }
+        untangle_params params;
+        params.rounds = 2;
+        const auto r = untangle(problem, params);
+        test::check_typed(problem, r);
+        if (!r) continue;
+        ++solved;
+        CHECK(test::wound_vertices(m, r.map).empty());
+    }
+    CHECK(solved >= 28);
+}
+
+TEST_CASE("untangle: a map that winds twice is not injective, and gets another one")
+{
+    const int n = 12;
+    const auto m = test::fan(n, true);
+    untangle_problem<triangle> problem{m, {vec2(0.0)}, std::vector<std::uint8_t>(n + 1, 0)};
+    for (int k = 0; k < n; ++k)
+    {
+        const double angle = 4 * std::numbers::pi * k / n;
+        problem.initial.emplace_back(std::cos(angle), std::sin(angle));
+    }
+    problem.held[0] = problem.held[1] = problem.all;
+    const auto freed = untangle(problem);
+    CHECK(static_cast<bool>(freed));
+    CHECK(freed.stage != "initial");
+    test::check_typed(problem, freed);
+
+    // Held where it is, it can only be refused.
+    std::fill(problem.held.begin(), problem.held.end(), problem.all);
+    const auto held = untangle(problem);
+    CHECK(held.outcome == untangle_outcome::infeasible);
+    CHECK(held.ids == std::vector<taut::index>{0});
+    CHECK(held.flips.branched == 1);
+
+    // With one vertex free there is no proof, and no other map.
+    problem.held[5] = 0;
+    untangle_params params;
+    params.rounds = 1;
+    const auto tried = untangle(problem, params);
+    CHECK(tried.outcome == untangle_outcome::gave_up);
+    CHECK(tried.ids == std::vector<taut::index>{0});
+    CHECK(tried.reason.find("1 vertex (0) that the map winds around more than once") != std::string::npos);
 }

@@ -18,6 +18,7 @@ enum class infeasibility_kind
     inverted_element, ///< elements with all vertices pinned, of negative or no measure
     flat_element,     ///< elements that held coordinates make flat, whatever the others are
     empty_star,       ///< a free vertex and three triangles around it that contradict each other; four ids each
+    wound_star,       ///< pinned inner vertices whose neighbours are pinned and run around them more than once
     outline_measure,  ///< vertices of a pinned outline of negative or no area (in order) or volume (three a face)
     outline_turning,  ///< vertices of a pinned outline that turns less often than that of any surface, in order
     outline_winding,  ///< vertices of a pinned outline that runs clockwise around some point, in order
@@ -39,6 +40,8 @@ constexpr const char* to_string(infeasibility_kind kind)
         return "flat_element";
     case infeasibility_kind::empty_star:
         return "empty_star";
+    case infeasibility_kind::wound_star:
+        return "wound_star";
     case infeasibility_kind::outline_measure:
         return "outline_measure";
     case infeasibility_kind::outline_turning:
@@ -66,7 +69,7 @@ struct infeasibility_finding
 /// What can be said about pins before anything is solved.
 struct infeasibility
 {
-    std::vector<infeasibility_finding> proofs;   ///< each is enough: no map has positive elements only
+    std::vector<infeasibility_finding> proofs;   ///< each is enough: no map is locally injective
     std::vector<infeasibility_finding> warnings; ///< what a map with these pins cannot be, though it may exist
 
     /// True if infeasibility is proved.

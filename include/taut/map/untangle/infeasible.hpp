@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/map/branch_points.hpp>
 #include <taut/map/untangle/held_elements.hpp>
 #include <taut/map/untangle/outline_proofs.hpp>
 #include <taut/map/untangle/pinned_boundary.hpp>
@@ -53,6 +54,24 @@ inline void judge_stars(const untangle_problem<triangle>& p, infeasibility& foun
                     return list_ids("free vertex", "free vertices", vertices) +
                            " whose pinned neighbours leave no place where all their triangles are positive; move or "
                            "free a neighbour of each";
+                });
+}
+
+/// Inner vertices that are pinned with all their neighbours so that these run around them more than once.
+inline void judge_winding(const untangle_problem<triangle>& p, infeasibility& found)
+{
+    auto ids = branch_points(p.rest.cells(), p.initial);
+    if (ids.empty()) return;
+    std::vector<char> movable(p.held.size(), 0); // the vertex, or one beside it
+    for (const auto& t : p.rest.cells())
+        if (!std::all_of(t.begin(), t.end(), [&](index v) { return p.pinned(static_cast<std::size_t>(v)); }))
+            for (const index v : t) movable[static_cast<std::size_t>(v)] = 1;
+    std::erase_if(ids, [&](index v) { return movable[static_cast<std::size_t>(v)] != 0; });
+    found.prove(infeasibility_kind::wound_star, std::move(ids),
+                [](const auto& all)
+                {
+                    return list_ids("pinned vertex", "pinned vertices", all) +
+                           " whose pinned neighbours run around it more than once; move or free them";
                 });
 }
 
@@ -103,7 +122,7 @@ inline void judge_places(const untangle_problem<triangle>& p, const facet_table&
 
 } // namespace detail
 
-/// Proofs that no map with these held coordinates has only positive elements, found without solving, in exact
+/// Proofs that no map with these held coordinates is locally injective, found without solving, in exact
 /// arithmetic: none is ever wrong. Where there is none the problem may be feasible or not. Near-linear time: searches
 /// that would take longer are cut short. Throws parameter_error as validate() does.
 ///
@@ -121,6 +140,7 @@ infeasibility find_infeasibility(const untangle_problem<Element>& problem)
     infeasibility found;
     detail::judge_elements(problem, found);
     if constexpr (Element::dimension == 2) detail::judge_stars(problem, found);
+    if constexpr (Element::dimension == 2) detail::judge_winding(problem, found);
     const auto f = facets(problem.rest);
     detail::judge_patches(problem, f, found);
     if constexpr (Element::dimension == 2) detail::judge_places(problem, f, found);
