@@ -227,6 +227,26 @@ TEST_CASE("parameterize: models of extreme size do not overflow")
         }
 }
 
+TEST_CASE("parameterize: at the ends of the range of double a map is certified as it is returned, or refused")
+{
+    queue q;
+    int valid = 0, refused = 0;
+    for (const double scale : {std::ldexp(1.0, -1071), std::ldexp(1.0, -1069), std::ldexp(1.0, -1060), 1e-300, 1e300})
+    {
+        CAPTURE(scale);
+        const auto m = moved(test::bumpy(12, 0.3), scale, vec3(0));
+        if (!check(m).empty()) continue; // rounded to flat triangles
+        const auto r = parameterize(q, m, {.solve = {.stopping = {.max_iterations = 20}}});
+        const auto recount = certify<2>(m.cells(), r.uv);
+        CHECK(recount.defects() == r.report.flips.defects());
+        CHECK(static_cast<bool>(r) == static_cast<bool>(recount));
+        CHECK(static_cast<bool>(r) == r.reason().empty());
+        (r ? valid : refused) += 1;
+    }
+    CHECK(valid >= 2);
+    CHECK(valid + refused >= 3);
+}
+
 namespace
 {
 /// No barrier, and least where everything collapses to a point.

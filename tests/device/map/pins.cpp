@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <string>
 
@@ -7,6 +9,7 @@
 
 #include <support/meshes.hpp>
 #include <support/size.hpp>
+#include <support/winding.hpp>
 
 #include <taut/energy/shape.hpp>
 #include <taut/map/parameterize.hpp>
@@ -29,7 +32,7 @@ mesh<triangle> hills()
 
 bool certified(const mesh<triangle>& m, const map_result& r)
 {
-    return r && certify<2>(m.cells(), std::span<const vec2>(r.uv)).flipped == 0;
+    return r && certify<2>(m.cells(), std::span<const vec2>(r.uv)) && test::wound_vertices(m, r.uv).empty();
 }
 
 /// Bit for bit.
@@ -37,7 +40,9 @@ void check_pins(const constraints<triangle>& wanted, const map_result& r)
 {
     for (const auto& [v, pin] : wanted.pins())
         for (int k = 0; k < 2; ++k)
-            if ((pin.held >> k & 1u) != 0) CHECK(r.uv[static_cast<std::size_t>(v)][k] == pin.value[k]);
+            if ((pin.held >> k & 1u) != 0)
+                CHECK(std::bit_cast<std::uint64_t>(r.uv[static_cast<std::size_t>(v)][k]) ==
+                      std::bit_cast<std::uint64_t>(pin.value[k]));
 }
 
 vec2 swirled(const vec2& p, double angle)
@@ -221,6 +226,49 @@ TEST_CASE("pins: an energy that does not see scale keeps the scale that the pins
     CAPTURE(r.reason());
     CHECK(certified(m, r));
     check_pins(pins, r);
+}
+
+TEST_CASE("pins: numbers at the ends of the range come out bit for bit")
+{
+    queue q;
+    auto points = hills().points();
+    for (vec3& p : points) p *= 1e6;
+    const mesh<triangle> m(std::move(points), hills().cells());
+    for (const vec2 place : {vec2(1e-310, 5e-324), vec2(-0.0, 1e-300), vec2(-5e-324, 3e6)})
+    {
+        constraints<triangle> pins(m);
+        pins.pin(20, place);
+        const auto r = parameterize(q, m, {.constraints = pins});
+        CAPTURE(r.reason());
+        CHECK(certified(m, r));
+        check_pins(pins, r);
+    }
+}
+
+TEST_CASE("pins: a few that are moved far, with a free boundary, leave no vertex that the map winds around twice")
+{
+    queue q;
+    const auto m = test::bumpy(test::sized(24, 8), 0.4, 11);
+    const auto free = parameterize(q, m);
+    REQUIRE(free);
+    std::mt19937 random(1);
+    const auto uniform = [&](double from, double to)
+    { return from + (to - from) * (static_cast<double>(random()) / random.max()); };
+    for (int k = 0; k < test::sized(8, 2); ++k)
+    {
+        CAPTURE(k);
+        constraints<triangle> pins(m);
+        while (pins.pins().size() < 5)
+        {
+            const std::size_t v = random() % free.uv.size();
+            if (!pins.pins().contains(static_cast<taut::index>(v)))
+                pins.pin(static_cast<taut::index>(v), free.uv[v] + vec2(uniform(-0.3, 0.3), uniform(-0.3, 0.3)));
+        }
+        const auto r = parameterize(q, m, {.constraints = pins});
+        CAPTURE(r.reason());
+        CHECK(certified(m, r));
+        check_pins(pins, r);
+    }
 }
 
 TEST_CASE("pins: those of another mesh are refused with the vertex")
