@@ -151,7 +151,8 @@ cl_int CL_API_CALL build_program(cl_program text, cl_uint count, const cl_device
                                  void(CL_CALLBACK* notify)(cl_program, void*), void* data)
 {
     if (state().fails(build)) return error_of(CL_BUILD_PROGRAM_FAILURE);
-    // What was written by a kernel is told by the types of its arguments.
+    if (state().wanted.kind != "nan") return state().target.clBuildProgram(text, count, devices, options, notify, data);
+    // What a kernel wrote is told by the types of its arguments.
     const std::string more = std::string(options ? options : "") + " -cl-kernel-arg-info";
     return state().target.clBuildProgram(text, count, devices, more.c_str(), notify, data);
 }
@@ -184,7 +185,8 @@ std::string type_of(cl_kernel k, cl_uint i)
     return name;
 }
 
-/// Overwrites what the kernel may have written, as far as it is floating point.
+/// Overwrites what the kernel may have written, as far as it is floating point; nothing where the driver does not keep
+/// the types of arguments.
 void spoil(cl_command_queue q, cl_kernel k)
 {
     std::vector<cl_mem> outputs;
@@ -200,6 +202,7 @@ void spoil(cl_command_queue q, cl_kernel k)
             if (number && !(qualifier & CL_KERNEL_ARG_TYPE_CONST)) outputs.push_back(memory);
         }
     }
+    if (!outputs.empty()) state().say("fired");
     const cl_uint nan = 0xffffffff;
     for (cl_mem memory : outputs)
     {
@@ -216,11 +219,7 @@ cl_int CL_API_CALL enqueue_kernel(cl_command_queue q, cl_kernel k, cl_uint dimen
     if (state().fails(launch)) return error_of(CL_OUT_OF_RESOURCES);
     const cl_int code =
         state().target.clEnqueueNDRangeKernel(q, k, dimensions, offset, global, local, count, before, done);
-    if (state().wanted.kind == "nan" && state().counts[launch] == state().wanted.n)
-    {
-        state().say("fired");
-        spoil(q, k);
-    }
+    if (state().wanted.kind == "nan" && state().counts[launch] == state().wanted.n) spoil(q, k);
     return code;
 }
 
