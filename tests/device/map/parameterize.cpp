@@ -92,7 +92,7 @@ TEST_CASE("parameterize: size and place of the model do not matter")
     const auto m = dome();
     for (const auto method : methods)
     {
-        const parameterize_params params{.precision = precision::full,
+        const parameterize_params params{.precision = precision::fp64,
                                          .solve = {.method = method, .stopping = {.max_iterations = 20}}};
         const auto reference = parameterize(q, m, params);
         const auto width = [](const map_result& r) { return glm::length(r.uv.front() - r.uv.back()); };
@@ -203,7 +203,7 @@ TEST_CASE("parameterize: place and scale of a start do not matter to a free boun
                 return parameterize(q, m, {.initial = initial, .precision = how, .solve = few}).report.solve.value;
             };
             // Single precision keeps few digits of positions so far away, and L-BFGS is still on its way.
-            const bool arrives = how == precision::full && method == solve::method::automatic;
+            const bool arrives = how == precision::fp64 && method == solve::method::automatic;
             const double tolerance = arrives ? 1e-5 : 1e-2, reference = run(1, 0);
             CHECK(run(1, 1e4) == doctest::Approx(reference).epsilon(tolerance));
             CHECK(run(1e-3, 0) == doctest::Approx(reference).epsilon(tolerance));

@@ -95,3 +95,16 @@ TEST_CASE("svg: two pictures side by side are one document")
     CHECK(sheet.find("<svg x=\"620\" ") != std::string::npos);
     CHECK_THROWS_AS(io::side_by_side_svg(std::vector<std::string>{"text"}, 10, 10), parameter_error);
 }
+
+TEST_CASE("overlay: branch points are magenta targets that the legend and the caption tell")
+{
+    const grid_mesh m(4);
+    const layout_overlay overlay{.branch_points = {{2, 2}, {std::numeric_limits<double>::quiet_NaN(), 0}}};
+    const auto picture = io::layout_picture(m.uv, m.cells, {}, {}, small, overlay);
+    const io::layout_frame frame(m.uv, small);
+    CHECK(pixel(picture, frame(vec2(2, 2))) == io::magenta);
+    const auto svg = io::layout_svg(m.uv, m.cells, {}, {}, small, overlay);
+    CHECK(occurrences(svg, "<circle") == 1);
+    CHECK(occurrences(svg, "winds twice") == 1);
+    CHECK(occurrences(svg, "2 branch points") == 1);
+}
