@@ -35,8 +35,7 @@ public:
             if (seen[first]) continue;
             ++count;
             std::size_t e = first;
-            do
-            {
+            do {
                 if (seen[e]) return 0;
                 seen[e] = 1;
                 e = after(e);
@@ -51,8 +50,11 @@ private:
     std::size_t after(std::size_t e) const
     {
         const index v = edges_[e].second;
-        const auto next = std::ranges::equal_range(edges_, v, {}, &std::pair<index, index>::first);
-        return next.size() == 1 ? static_cast<std::size_t>(next.begin() - edges_.begin()) : edges_.size();
+        const auto next =
+            std::partition_point(edges_.begin(), edges_.end(), [v](const auto& edge) { return edge.first < v; });
+        const bool single =
+            next != edges_.end() && next->first == v && (next + 1 == edges_.end() || next[1].first != v);
+        return single ? static_cast<std::size_t>(next - edges_.begin()) : edges_.size();
     }
 
     std::vector<std::pair<index, index>> edges_;

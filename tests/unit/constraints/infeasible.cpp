@@ -287,7 +287,8 @@ TEST_CASE("infeasible: pins of a valid map are never refused")
             q.x += shear * q.y;
             x.push_back((1 + bend * 0.1 * q.x) * q);
         }
-        if (certify<2>(m.cells(), std::span<const vec2>(x)).flipped > 0) continue;
+        const auto valid = certify<2>(m.cells(), std::span<const vec2>(x));
+        if (valid.flipped > 0) continue;
         const double density = uniform();
         auto p = problem(m, x, [&](taut::index) { return uniform() < density; });
         for (auto& bits : p.held) bits = uniform() < 0.1 ? std::uint8_t(rng() % 4) : bits;
@@ -295,7 +296,9 @@ TEST_CASE("infeasible: pins of a valid map are never refused")
             for (int k = 0; k < 2; ++k)
                 if (!p.holds(v, k)) p.initial[v][k] = 10 * uniform(); // what is free says nothing
         INFO(round);
-        CHECK(!find_infeasibility(p));
+        const auto found = find_infeasibility(p);
+        if (valid) CHECK(!found);
+        for (const auto& proof : found.proofs) CHECK(proof.kind == kind::wound_star);
         ++partial;
     }
     CHECK(partial > 80);

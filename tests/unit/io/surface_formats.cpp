@@ -18,6 +18,7 @@ namespace
 
 const std::string obj = "# a comment\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const std::string coff = "COFF\n3 1 0\n0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n";
 const std::string ply =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -43,7 +44,7 @@ TEST_CASE("read_surface: what is open already is read from where it is, in the f
 {
     const test::temporary_folder folder;
     const auto header_less = off.substr(4);
-    for (const auto& text : {obj, off, ply, header_less, "\xef\xbb\xbf# comment\n\nC" + off, "\n#\r\n" + off})
+    for (const auto& text : {obj, off, ply, header_less, "\xef\xbb\xbf# comment\n\n" + coff, "\n#\r\n" + off})
     {
         folder.write(folder / "a.dat", "passed over\n" + text);
         const io::detail::descriptor open(::open((folder / "a.dat").c_str(), O_RDONLY));
