@@ -92,7 +92,8 @@ private:
     {
         auto how = params.untangling;
         how.time_limit = limits_.left();
-        how.observer = [this](const solve::progress&) { return limits_.proceed(); };
+        how.observer = [this](const solve::progress&)
+        { return limits_.ask({.seconds = limits_.total(), .iterate = false}); };
         auto problem = in_.held.problem(in_.surface, start().uv);
         if (!draft_.empty() && certify<2>(in_.surface.cells(), draft_)) problem.draft = std::move(draft_);
         const bool bound = in_.held.constrained() || params.boundary == boundary_mode::fixed;
