@@ -817,7 +817,7 @@ test_eval()
     # As a problem it is one; freed it is solved, pinned it is refused.
     wound_problem 0 >wound.prob
     expect 0 check wound.prob
-    says out '0 of 12 triangles inverted at the start, 1 branch point'
+    says out '0 of 12 inverted at the start, 1 branch point'
     expect 0 untangle wound.prob -o map.txt --stats freed.json
     keys freed.json branch_points_start branch_points inverted
     says values '^branch_points_start=1$' '^branch_points=0$' '^inverted=0$'
@@ -862,13 +862,9 @@ test_starts()
 
     grid 6 folded >folded.obj
     expect 0 unwrap folded.obj -o out.obj --start uv
-    says err '12 triangles of the start were flipped'
+    says err 'the start had 12 triangles .* flipped; it was untangled'
     valid_map out.obj
     rm out.obj
-    # Where time is up before it is injective, a start that is makes up for it.
-    expect 8 unwrap folded.obj -o late.obj --start uv --time-limit 1e-6
-    says err 'another start was made'
-    valid_map late.obj
     grid 6 >bare.obj
     expect 4 unwrap bare.obj -o out.obj --start uv
     error_says 'no texture coordinates'
@@ -1120,8 +1116,12 @@ test_untangle()
     [ "$(cat kept.txt)" = precious ] || fail "a failed run touched its output"
 
     # A map with flips never gets the name that was asked for.
-    star 40 >large.prob
-    expect 6 untangle large.prob -o late.txt --time-limit 1e-6 --stats stats.json
+    star 200 >large.prob
+    for limit in 0.2 0.3 0.5 0.8 1.3 2 3 5; do # until there is time to begin
+        expect 6 untangle large.prob -o late.txt --time-limit $limit --stats stats.json
+        [ ! -e late.txt.invalid ] || break
+        error_says 'time limit came before there was a map'
+    done
     error_says 'no valid map' 'late.txt.invalid'
     absent late.txt
     keeps_pins large.prob late.txt.invalid

@@ -295,7 +295,7 @@ private:
     coarse_to_fine_params descent()
     {
         coarse_to_fine_params p;
-        p.stopping.max_iterations = std::min(p.stopping.max_iterations, params_.solve.stopping.max_iterations);
+        if (!iterates()) p.stopping.max_iterations = 0;
         p.start.boundary = params_.barycentric.boundary;
         p.start.fixed_boundary = params_.boundary == boundary_mode::fixed;
         p.start.proceed = [this] { return limits_.proceed(); };

@@ -199,8 +199,15 @@ TEST_CASE("written files: remove_temporaries() removes what is unfinished and ha
         io::remove_temporaries();
         CHECK(folder.entries() == 2);
         CHECK_THROWS_AS(finished.rename(), io::io_error);
+
+        // No other file gets a hidden name that nobody would remove.
+        io::detail::posix_file late(io::detail::resolve_target(folder / "late"));
+        late.finish();
+        CHECK_THROWS_AS(late.link(), io::io_error);
+        CHECK(folder.entries() == 2);
     }
     io::remove_temporaries();
+    io::detail::naming_is_over = false; // this program goes on
     CHECK(folder.read(folder / "a") == "old");
     CHECK(folder.read(folder / "done") == "text");
 

@@ -60,6 +60,38 @@ struct removable_name
 inline std::array<removable_name, 64> removable_names;
 static_assert(std::atomic<int>::is_always_lock_free); // as handlers demand
 
+/// Whether hidden names may still be given, and how many are being given now.
+inline std::atomic<bool> naming_is_over{false};
+inline std::atomic<int> being_named{0};
+
+/// While it lives a file gets its hidden name. Once remove_temporaries() has begun there is no more of that: the
+/// program is about to end.
+class naming
+{
+public:
+    naming() noexcept
+    {
+        ++being_named;
+        while (naming_is_over && waited_ < 1000) // for the end of the program
+        {
+            if (waited_++ == 0) --being_named;
+            ::poll(nullptr, 0, 1);
+        }
+    }
+    ~naming()
+    {
+        if (waited_ == 0) --being_named;
+    }
+    naming(const naming&) = delete;
+    naming& operator=(const naming&) = delete;
+
+    /// False where the end has not come: no file gets a name all the same.
+    explicit operator bool() const noexcept { return waited_ == 0; }
+
+private:
+    int waited_ = 0;
+};
+
 /// A random name in a folder for a file that is not finished. Removed at the end unless it was given away.
 class hidden_name
 {
@@ -144,6 +176,8 @@ public:
     void link()
     {
         if (target_.stream || temporary_) return;
+        const naming now;
+        if (!now) cannot_write(target_.path, ECANCELED);
         temporary_.emplace(*folder_);
         if (::linkat(AT_FDCWD, own_path().c_str(), *folder_, temporary_->name(), AT_SYMLINK_FOLLOW) == 0) return;
         temporary_->is_gone();
@@ -247,6 +281,8 @@ private:
 
     void create_with_name(mode_t mode)
     {
+        const naming now;
+        if (!now) cannot_write(target_.path, ECANCELED);
         temporary_.emplace(*folder_);
         file_ = descriptor(
             ::openat(*folder_, temporary_->name(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, mode));
@@ -270,10 +306,13 @@ private:
 
 } // namespace detail
 
-/// Removes the unfinished files that have a name: for the handler of a signal that ends the program. Async-signal-safe.
+/// Removes the unfinished files that have a name, and lets no other get one: for the handler of a signal that ends the
+/// program, on a thread that writes no files. Async-signal-safe.
 inline void remove_temporaries() noexcept
 {
     const int number = errno;
+    detail::naming_is_over = true;
+    for (int k = 0; k < 200 && detail::being_named > 0; ++k) ::poll(nullptr, 0, 1); // names are given in no time
     for (const auto& place : detail::removable_names)
         if (const int folder = place.folder; folder >= 0) ::unlinkat(folder, place.name.data(), 0);
     errno = number;
