@@ -270,7 +270,7 @@ private:
         if (std::from_chars(power.data(), power.data() + power.size(), exponent).ec == std::errc::result_out_of_range)
             return power.starts_with('-') ? 0.0 : std::numeric_limits<double>::infinity();
         const auto before_point = static_cast<long long>(point) - static_cast<long long>(leading);
-        return before_point + exponent > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+        return exponent > -before_point ? std::numeric_limits<double>::infinity() : 0.0;
     }
 
     const char *begin_, *at_, *end_;

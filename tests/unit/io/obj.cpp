@@ -129,8 +129,8 @@ TEST_CASE("obj: digits beyond the range of numbers")
     CHECK(x_of("0." + zeros + "1") == 0);
     CHECK(x_of("1e-99999999999999999999") == 0);
     CHECK(x_of("0e99999") == 0);
-    for (const std::string& large :
-         {'1' + zeros + "e-5", '-' + ('1' + zeros), "0." + zeros + "1e999", std::string("1e99999999999999999999")})
+    for (const std::string& large : {'1' + zeros + "e-5", '-' + ('1' + zeros), "0." + zeros + "1e999",
+                                     std::string("1e99999999999999999999"), std::string("4e9223372036854775807")})
         CHECK(mesh_error_of("v " + large + " 0 0\n").fault() == mesh_fault::non_finite);
 }
 

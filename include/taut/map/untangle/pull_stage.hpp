@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <span>
 #include <string>
@@ -29,9 +30,10 @@ struct pull_stage_params
     std::string name;
     untangle_shapes shapes = untangle_shapes::rest; ///< rest: as they are in the map that it starts from
     double area_weight = 1; ///< of det + 1 / det against the shape of a triangle; 0: shape alone
-    /// Where the springs have jammed, go on with weak ones of uneven stiffness: vertices that block each other's way
-    /// then pass one after the other.
-    bool slackens = false;
+    /// Where the springs have jammed, go on with weak ones: held vertices that are not at their places go to random
+    /// ones first, so that those that block each other's way get past each other.
+    bool detours = false;
+    int share = 1; ///< it makes so many times the iterations of a round
 };
 
 /// Starts from an injective map and stays injective: springs pull the held vertices to their places, stronger with
@@ -48,7 +50,7 @@ public:
     {
         if (state.injective() || (!newton_ && !start(state))) return false;
         newton_->proceed = [&state] { return state.proceed(0); };
-        for (int i = 0; i < iterations; ++i)
+        for (int i = 0; i / params_.share < iterations; ++i)
         {
             for (auto& s : newton_->springs) s.stiffness *= growth;
             const double before = newton_->value(x_), after = newton_->step(x_, before);
@@ -56,16 +58,15 @@ public:
             if (!state.proceed() || !std::isfinite(after)) return false;
             standing_ = after < before ? 0 : standing_ + 1;
             ++pulled_;
-            if (standing_ <= 5 && (!params_.slackens || pulled_ < most_pulls)) continue;
-            if (!params_.slackens) return false;
-            slacken();
+            if (standing_ <= 5 && (!params_.detours || pulled_ < (away_ ? 40 : 100))) continue;
+            if (!params_.detours) return false;
+            turn();
         }
         return true;
     }
 
 private:
     static constexpr double growth = 1.2;
-    static constexpr int most_pulls = 100;
 
     /// False if there is no injective map to start from.
     bool start(const untangle_state<triangle>& state)
@@ -87,6 +88,13 @@ private:
             if (const std::uint8_t pulled = problem.held[v] & static_cast<std::uint8_t>(~held_[v]))
                 newton_->springs.push_back({v, state.initial()[v], vec2(pulled & 1u, pulled >> 1 & 1u)});
         for (auto& s : newton_->springs) s.stiffness /= static_cast<double>(newton_->springs.size());
+        vec2 low = x_.front(), high = low;
+        for (const vec2& p : x_)
+        {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        reach_ = glm::length(high - low) / 2;
         return true;
     }
 
@@ -123,14 +131,24 @@ private:
         return static_cast<bool>(certify<2>(m.cells(), std::span<const vec2>(x_)));
     }
 
-    void slacken()
+    /// Turns from the places to detours, or back.
+    void turn()
     {
         standing_ = pulled_ = 0;
-        for (auto& s : newton_->springs)
+        away_ = !away_;
+        const auto uniform = [this] { return static_cast<double>(random_()) / random_.max(); };
+        if (away_) places_ = newton_->springs;
+        for (std::size_t i = 0; i < places_.size(); ++i)
         {
-            const double uneven = std::exp(4.0 * (static_cast<double>(random_()) / random_.max() - 0.5));
+            auto& s = newton_->springs[i];
+            s.target = places_[i].target;
+            const double stiffness = std::exp(2 * uniform() - 1) / static_cast<double>(places_.size());
             for (int k = 0; k < 2; ++k)
-                if (s.stiffness[k] > 0) s.stiffness[k] = uneven / static_cast<double>(newton_->springs.size());
+                if (s.stiffness[k] > 0) s.stiffness[k] = stiffness;
+            const vec2 off = vec2(glm::greaterThan(s.stiffness, vec2(0))) * (x_[s.vertex] - s.target);
+            if (!away_ || glm::length(off) < 1e-3 * reach_ || uniform() > 0.7) continue;
+            const double angle = 2 * std::numbers::pi * uniform();
+            s.target += reach_ * uniform() * vec2(std::cos(angle), std::sin(angle));
         }
     }
 
@@ -139,8 +157,11 @@ private:
     std::vector<std::uint8_t> held_; // by newton_
     std::vector<vec2> x_;
     std::mt19937 random_{1};
-    int standing_ = 0; // steps in a row that could not be made
-    int pulled_ = 0;   // steps since the springs were weak
+    int standing_ = 0;  // steps in a row that could not be made
+    int pulled_ = 0;    // steps since the springs were weak
+    bool away_ = false; // on a detour
+    double reach_ = 0;  // of detours
+    std::vector<detail::triangle_newton::spring> places_;
 };
 
 } // namespace taut

@@ -24,7 +24,7 @@ using untangle_stages = std::vector<std::unique_ptr<untangle_stage<Element>>>;
 /// harmonic  the harmonic map alone
 /// newton    from the harmonic map, towards the shapes at rest
 /// pull      from an injective map, whose elements stay positive while springs pull it to what is held
-/// stretch   the same towards regular triangles, with springs that slacken and pull again
+/// stretch   the same towards regular triangles, with detours where the springs have jammed
 /// regular   from the harmonic map, towards regular triangles
 /// best      from the best map so far, towards the shapes at rest
 /// laid      from an injective map that ignores what is held, towards the shapes at rest
@@ -40,8 +40,9 @@ inline untangle_stages<triangle> host_stages(bool outline_pinned)
     untangle_stages<triangle> stages;
     const auto follow = [&](newton_stage_params p) { stages.push_back(std::make_unique<newton_stage>(std::move(p))); };
     const auto pull = [&] { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"})); };
-    const auto stretch = [&]
-    { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", regular, 0.1, true})); };
+    const auto stretch = [&](int share) {
+        stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", regular, 0.1, true, share}));
+    };
     const auto harmonic_map = [&] { stages.push_back(std::make_unique<harmonic_stage<triangle>>()); };
     if (outline_pinned)
     {
@@ -52,12 +53,12 @@ inline untangle_stages<triangle> host_stages(bool outline_pinned)
         follow({"best", best, rest, 1});
         follow({"laid", laid, rest, 1});
         follow({"shape", harmonic, rest, 0});
-        stretch();
+        stretch(1);
     }
     else
     {
         pull();
-        stretch();
+        stretch(10); // what it does not solve, others hardly ever do
         follow({"best", best, rest, 1});
         harmonic_map();
         follow({"newton", harmonic, rest, 1});
