@@ -62,9 +62,10 @@ std::pair<double, double> quality(const mesh<triangle>& m)
 
 TEST_CASE("hierarchy: every level is a valid surface of the same topology")
 {
-    for (const auto& [name, m] : test::thinnable())
+    for (const auto& named : test::thinnable())
     {
-        CAPTURE(name);
+        CAPTURE(named.name);
+        const auto& m = named.surface;
         const auto h = make_hierarchy(m);
         REQUIRE(h.levels.size() >= 2);
         REQUIRE(h.steps.size() + 1 == h.levels.size());
@@ -83,10 +84,11 @@ TEST_CASE("hierarchy: every level is a valid surface of the same topology")
 
 TEST_CASE("hierarchy: levels are nested, with the factor that was asked for, down to the wanted size")
 {
-    for (const auto& [name, m] : test::thinnable())
+    for (const auto& named : test::thinnable())
         for (const double factor : {4.0, 8.0})
         {
-            CAPTURE(name);
+            CAPTURE(named.name);
+            const auto& m = named.surface;
             CAPTURE(factor);
             const auto h = make_hierarchy(m, {}, {.factor = factor, .min_vertices = 60});
             for (std::size_t l = 0; l + 1 < h.levels.size(); ++l)
@@ -128,9 +130,10 @@ TEST_CASE("hierarchy: boundary vertices of a level are boundary vertices of the 
 
 TEST_CASE("hierarchy: kept vertices are on every level and never the only corners of a new triangle")
 {
-    for (const auto& [name, m] : test::thinnable())
+    for (const auto& named : test::thinnable())
     {
-        CAPTURE(name);
+        CAPTURE(named.name);
+        const auto& m = named.surface;
         auto keep = test::on_boundary(m); // a fixed boundary and some pins
         for (std::size_t v = 0; v < keep.size(); v += 37) keep[v] = 1;
         const auto h = make_hierarchy(m, keep);
@@ -179,9 +182,10 @@ TEST_CASE("hierarchy: size and place of the model do not matter")
 
 TEST_CASE("hierarchy: coarse triangles are no worse shaped than fine ones")
 {
-    for (const auto& [name, m] : test::thinnable())
+    for (const auto& named : test::thinnable())
     {
-        CAPTURE(name);
+        CAPTURE(named.name);
+        const auto& m = named.surface;
         const auto h = make_hierarchy(m);
         const auto fine = quality(m);
         for (std::size_t l = 1; l < h.levels.size(); ++l)

@@ -40,9 +40,10 @@ std::vector<char> corners(const mesh<triangle>& m)
 
 TEST_CASE("prolongation: rows are barycentric coordinates in a coarse triangle")
 {
-    for (const auto& [name, m] : test::thinnable())
+    for (const auto& named : test::thinnable())
     {
-        CAPTURE(name);
+        CAPTURE(named.name);
+        const auto& m = named.surface;
         const auto h = make_hierarchy(m);
         for (std::size_t l = 0; l < h.steps.size(); ++l)
         {

@@ -72,12 +72,13 @@ TEST_CASE("reinsertion: a free boundary in the plane comes back too")
 
 TEST_CASE("reinsertion: barycentric maps of the coarsest level become injective maps of every finer one")
 {
-    for (const auto& [name, m] : test::thinnable())
+    for (const auto& named : test::thinnable())
         for (const auto shape : {boundary_shape::circle, boundary_shape::square})
             for (const int steps : {0, 3})
             {
-                if (name == "torus with hole") continue; // not a disk
-                CAPTURE(name);
+                if (named.name == "torus with hole") continue; // not a disk
+                CAPTURE(named.name);
+                const auto& m = named.surface;
                 CAPTURE(steps);
                 const auto h = make_hierarchy(m);
                 const auto start =

@@ -145,6 +145,21 @@ TEST_CASE("obj: numbers are read to the last bit, at any magnitude")
     CHECK(std::signbit(p[2].z));
 }
 
+TEST_CASE("obj: numbers of any count of digits are the doubles nearest to them")
+{
+    const std::string digits = "98765432109876543210987654321";
+    for (std::size_t n = 1; n < digits.size(); ++n)
+        for (std::size_t point = 1; point <= n; ++point)
+        {
+            const std::string number = digits.substr(0, point) + '.' + digits.substr(point, n - point);
+            const auto p =
+                parse_obj("v -" + number + ' ' + number + " 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").surface.points();
+            CAPTURE(number);
+            CHECK(p[0].y == std::stod(number));
+            CHECK(p[0].x == -std::stod(number));
+        }
+}
+
 TEST_CASE("obj: a quad is cut along its shorter inner diagonal")
 {
     const auto f = parse_obj("v 0 0 0\nv 1 0 0\nv 3 3 0\nv 0 1 0\nf 1 2 3 4\n");

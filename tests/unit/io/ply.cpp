@@ -89,6 +89,15 @@ TEST_CASE("ply: binary of either byte order, any types, with parts to skip")
     }
 }
 
+TEST_CASE("ply: lists of a vertex are skipped, and what has no meaning here")
+{
+    const auto f = parse_ply("ply\nformat ascii 1.0\nelement vertex 3\nproperty list uchar float x\nproperty float y\n"
+                             "property list uchar int ids\nproperty float x\nproperty float heat\nproperty float z\n"
+                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                             "2 8 9 0 0 1 -5 0\n0 0 1 7 2 -6 0\n1 5 1 2 7 7 3 -7 0\n3 0 1 2\n");
+    CHECK(f.surface.points() == std::vector<vec3>{{1, 0, 0}, {2, 0, 0}, {3, 1, 0}});
+}
+
 TEST_CASE("ply: binary data may follow a header with CR LF, and start with a line end")
 {
     std::string head =

@@ -31,7 +31,7 @@ void check_against_map(const mesh<Element>& m)
     std::size_t crowds = 0;
     for (const auto& [key, list] : sides)
     {
-        const auto at = [&](std::size_t i) { return f.twin[static_cast<std::size_t>(list[i])]; };
+        const auto at = [&f, &s = list](std::size_t i) { return f.twin[static_cast<std::size_t>(s[i])]; };
         if (list.size() == 1)
             CHECK(at(0) == facet_table::boundary);
         else if (list.size() == 2)

@@ -54,8 +54,9 @@ void wait_for_the_end()
 
 TEST_CASE("interrupt: with nothing to keep, a signal ends the program at once")
 {
-    for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)})
+    for (const auto& sent : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)})
     {
+        const int signal = sent.first, code = sent.second; // clang 14 captures no structured bindings
         CHECK(exit_code_of(
                   [&]
                   {
@@ -75,8 +76,9 @@ TEST_CASE("interrupt: with nothing to keep, a signal ends the program at once")
 
 TEST_CASE("interrupt: with something to keep, the first signal asks and the second one ends the program")
 {
-    for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)})
+    for (const auto& sent : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)})
     {
+        const int signal = sent.first, code = sent.second; // clang 14 captures no structured bindings
         CHECK(exit_code_of(
                   [&]
                   {

@@ -50,11 +50,12 @@ TEST_CASE("params: a bad field is named, also by minimize")
         {"first_length", [](params& p) { p.first_length = 0; }},
     };
     auto f = functions::quadratic(2, 2);
-    for (const auto& [field, spoil] : cases)
+    for (const auto& wrong : cases)
     {
+        const auto& field = wrong.first;
         CAPTURE(field);
         params p;
-        spoil(p);
+        wrong.second(p);
         std::vector<double> x(2);
         try
         {

@@ -39,6 +39,22 @@ TEST_CASE("certify: a planar grid is its own injective map with det 1")
     CHECK(certify<2>(m.cells(), flat(m, 2, 3), ideal.measure).max_det == doctest::Approx(6));
 }
 
+TEST_CASE("certify: a certificate takes over all that another one found")
+{
+    const taut::certificate found{
+        .elements = 9, .flipped = 2, .ids = {3, 5}, .branched = 1, .branch_ids = {7}, .min_det = -1, .max_det = 4};
+    taut::certificate c{.min_det = 0.5, .max_det = 2};
+    c.take_defects(found);
+    CHECK(c.elements == 9);
+    CHECK(c.flipped == 2);
+    CHECK(c.ids == found.ids);
+    CHECK(c.branched == 1);
+    CHECK(c.branch_ids == found.branch_ids);
+    CHECK(c.min_det == 0.5);
+    CHECK(c.max_det == 2);
+    CHECK(c.defects() == 3);
+}
+
 TEST_CASE("certify: a mirrored map has every element flipped, and ids stop at the limit")
 {
     const auto m = taut::test::grid(7, 5);
