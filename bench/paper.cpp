@@ -40,7 +40,7 @@ nlohmann::ordered_json measure(queue& q, const std::string& name, const mesh<tri
     parameterize_params p;
     p.weights = energy::weighting::uniform;
     p.barycentric = {.boundary = {.shape = boundary_shape::circle, .spacing = boundary_spacing::chord},
-               .weights = barycentric_weights::uniform};
+                     .weights = barycentric_weights::uniform};
     p.precision = how.precision;
     p.solve.line_search.method = how.line_search;
     p.solve.method = solve::method::conjugate_gradient;

@@ -133,7 +133,8 @@ inline device in_wanted_form(const device& d)
 
 /// The device that a wish names: an index into devices(), or a part of a device's, vendor's or platform's name, in any
 /// case. Of several that fit, and for an empty wish, the best one: double precision before none, then GPU before CPU,
-/// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits; what the message then calls the wish is `said` and the wish.
+/// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits; what the message then
+/// calls the wish is `said` and the wish.
 inline device find_device(const std::string& wish, const device_requirements& needs = {},
                           const std::string& said = "the wish ")
 {

@@ -238,8 +238,7 @@ private:
 
     static std::uint32_t as_uint(std::size_t n)
     {
-        if (n > std::numeric_limits<std::int32_t>::max())
-            throw size_error("reductions", "more than 2^31 elements");
+        if (n > std::numeric_limits<std::int32_t>::max()) throw size_error("reductions", "more than 2^31 elements");
         return static_cast<std::uint32_t>(n);
     }
 

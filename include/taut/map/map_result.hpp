@@ -22,7 +22,7 @@ enum class outcome
     no_valid_start, ///< no injective start was found; map_report::reason and ids say where
     stopped,        ///< the time limit or the observer ended the run before there was a map; there are no coordinates
     infeasible,     ///< no map obeys the pins without flips; reason and ids are the proof
-    gave_up ///< untangling did not succeed; the map has the fewest defects that were seen, ids are theirs
+    gave_up         ///< untangling did not succeed; the map has the fewest defects that were seen, ids are theirs
 };
 
 /// Wall-clock seconds of the phases of one run.

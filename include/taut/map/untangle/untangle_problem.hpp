@@ -38,10 +38,9 @@ struct untangle_problem
     {
         const auto outline = boundary_facets(rest);
         return std::all_of(outline.begin(), outline.end(),
-                           [this](const auto& facet)
-                           {
-                               return std::all_of(facet.begin(), facet.end(), [this](index v)
-                                                  { return pinned(static_cast<std::size_t>(v)); });
+                           [this](const auto& facet) {
+                               return std::all_of(facet.begin(), facet.end(),
+                                                  [this](index v) { return pinned(static_cast<std::size_t>(v)); });
                            });
     }
 

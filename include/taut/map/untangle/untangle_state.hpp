@@ -42,16 +42,16 @@ public:
 
     const untangle_problem<Element>& problem() const { return problem_; }
     const auto& cells() const { return problem_.rest.cells(); }
-    const map& initial() const { return initial_; }         ///< in the unit of the stages
-    const map& draft() const { return draft_; }             ///< of the problem, in the unit of the stages; may be empty
-    map best() const { return scaled(best_); }              ///< in the unit of the stages
-    const map& best_map() const { return best_; }           ///< in the unit of the problem
-    const certificate& flips() const { return flips_; }     ///< of best_map(), exact
+    const map& initial() const { return initial_; }     ///< in the unit of the stages
+    const map& draft() const { return draft_; }         ///< of the problem, in the unit of the stages; may be empty
+    map best() const { return scaled(best_); }          ///< in the unit of the stages
+    const map& best_map() const { return best_; }       ///< in the unit of the problem
+    const certificate& flips() const { return flips_; } ///< of best_map(), exact
     bool injective() const { return static_cast<bool>(flips_); }
     int iterations() const { return iterations_; }
 
-    /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its held coordinates are replaced by
-    /// those of the problem before they are counted. Returns what was counted.
+    /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its held coordinates are replaced
+    /// by those of the problem before they are counted. Returns what was counted.
     certificate offer(std::span<const vec<D>> x) { return keep(restored(x, unit_)); }
 
     /// The same with x in the unit of the problem.
