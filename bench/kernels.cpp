@@ -10,8 +10,8 @@
 #include <support/meshes.hpp>
 
 #include <taut/energy/isometric.hpp>
-#include <taut/map/mesh_levels.hpp>
-#include <taut/map/newton_problem.hpp>
+#include <taut/objective/mesh_levels.hpp>
+#include <taut/objective/newton_objective.hpp>
 
 #include "measure.hpp"
 #include "native.hpp"
@@ -26,9 +26,9 @@ using namespace taut;
 mesh<triangle> shuffled(const mesh<triangle>& m)
 {
     std::mt19937 random(7);
-    const auto lot = [&](taut::index n)
+    const auto lot = [&](taut::idx n)
     {
-        std::vector<taut::index> p(static_cast<std::size_t>(n));
+        std::vector<taut::idx> p(static_cast<std::size_t>(n));
         std::iota(p.begin(), p.end(), 0);
         std::shuffle(p.begin(), p.end(), random);
         return permutation(std::move(p));
@@ -40,7 +40,7 @@ mesh<triangle> shuffled(const mesh<triangle>& m)
 struct arrays
 {
     std::size_t cells, vertices, cell_stride, vertex_stride;
-    std::vector<taut::index> corners;
+    std::vector<taut::idx> corners;
     std::vector<double> inverse, measure, x;
     csr incidence;
 
@@ -119,12 +119,12 @@ private:
                           stride(a_.cell_stride), stride(a_.vertex_stride));
     }
 
-    static taut::index stride(std::size_t n) { return static_cast<taut::index>(n); }
+    static taut::idx stride(std::size_t n) { return static_cast<taut::idx>(n); }
     taut::range range() const { return {a_.cell_stride, layout<triangle>::step}; }
 
     gather<P, R> make_gather()
     {
-        std::vector<taut::index> cell, corner;
+        std::vector<taut::idx> cell, corner;
         for (const auto item : a_.incidence.items)
         {
             cell.push_back(item / 3);
@@ -137,7 +137,7 @@ private:
     queue queue_;
     const arrays& a_;
     element_kernels<triangle, P, R> kernels_;
-    buffer<taut::index> corners_;
+    buffer<taut::idx> corners_;
     buffer<R> inverse_, measure_;
     buffer<P> x_;
     buffer<R> energy_, gradient_;
@@ -289,7 +289,7 @@ private:
                     levels.points()[v][c] * local->scale;
         const buffer<double> x(queue_, positions);
         buffer<float> hessian(queue_, hessian_slots<2>::count * local->cell_stride);
-        const auto number = [](std::size_t n) { return static_cast<taut::index>(n); };
+        const auto number = [](std::size_t n) { return static_cast<taut::idx>(n); };
         const auto hessians = [&]
         {
             kernels.second.projected({local->cell_stride, layout<triangle>::step}, arrays.corners, arrays.inverse,

@@ -49,13 +49,13 @@ struct ring
 /// vertices come first. m: an oriented manifold, with or without boundary.
 inline taut::mesh<taut::triangle> loop_subdivision(const taut::mesh<taut::triangle>& m)
 {
-    using taut::index;
-    const auto at = [](index i) { return static_cast<std::size_t>(i); };
+    using taut::idx;
+    const auto at = [](idx i) { return static_cast<std::size_t>(i); };
     const auto f = taut::facets(m);
     const auto& old = m.points();
     std::vector<taut::vec3> points(old.size());
     std::vector<detail::ring> rings(old.size());
-    std::vector<index> middle(f.twin.size()); // vertex of each side
+    std::vector<idx> middle(f.twin.size()); // vertex of each side
     for (std::size_t s = 0; s < f.twin.size(); ++s)
     {
         const bool rim = f.twin[s] < 0;
@@ -64,13 +64,13 @@ inline taut::mesh<taut::triangle> loop_subdivision(const taut::mesh<taut::triang
             middle[s] = middle[at(f.twin[s])];
             continue;
         }
-        const auto side = static_cast<index>(s);
+        const auto side = static_cast<idx>(s);
         const auto [a, b] = taut::side_vertices(m, side);
         const taut::vec3 &p = old[at(a)], &q = old[at(b)];
         rings[at(a)].add(q, rim);
         rings[at(b)].add(p, rim);
-        const auto across = [&](index t) { return old[at(m.cells()[at(t / 3)][at(t % 3)])]; };
-        middle[s] = static_cast<index>(points.size());
+        const auto across = [&](idx t) { return old[at(m.cells()[at(t / 3)][at(t % 3)])]; };
+        middle[s] = static_cast<idx>(points.size());
         points.push_back(rim ? 0.5 * (p + q) : 0.375 * (p + q) + 0.125 * (across(side) + across(f.twin[s])));
     }
     for (std::size_t v = 0; v < old.size(); ++v) points[v] = rings[v].moved(old[v]);
@@ -80,7 +80,7 @@ inline taut::mesh<taut::triangle> loop_subdivision(const taut::mesh<taut::triang
     for (std::size_t c = 0; c < m.cells().size(); ++c)
     {
         const auto [i, j, k] = m.cells()[c];
-        const index jk = middle[3 * c], ki = middle[3 * c + 1], ij = middle[3 * c + 2];
+        const idx jk = middle[3 * c], ki = middle[3 * c + 1], ij = middle[3 * c + 2];
         cells.insert(cells.end(), {{i, ij, ki}, {j, jk, ij}, {k, ki, jk}, {ij, jk, ki}});
     }
     return {std::move(points), std::move(cells)};

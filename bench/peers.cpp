@@ -7,8 +7,8 @@
 
 #include <dlfcn.h>
 
+#include <taut/exact/certify.hpp>
 #include <taut/io/read_surface.hpp>
-#include <taut/map/certify.hpp>
 #include <taut/mesh/boundary.hpp>
 
 #include "measure.hpp"

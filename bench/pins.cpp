@@ -24,7 +24,7 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 struct tally
 {
@@ -80,7 +80,7 @@ tally measure(queue& q, const std::string& name, const mesh<triangle>& m, int ca
         auto wanted = constraints(m);
         while (static_cast<int>(wanted.pins().size()) < pins)
         {
-            const auto v = static_cast<index>(random() % free.uv.size());
+            const auto v = static_cast<idx>(random() % free.uv.size());
             const double length = most * side * std::sqrt(uniform(0, 1)), angle = uniform(0, 2 * std::numbers::pi);
             if (!wanted.pins().contains(v))
                 wanted.pin(v, free.uv[static_cast<std::size_t>(v)] + length * vec2(std::cos(angle), std::sin(angle)));

@@ -13,10 +13,10 @@
 
 #include <support/meshes.hpp>
 
+#include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/prob.hpp>
 #include <taut/map/parameterize.hpp>
-#include <taut/map/untangle/make_untangle_problem.hpp>
-#include <taut/map/untangle/untangle.hpp>
+#include <taut/untangle/untangle.hpp>
 
 #include "measure.hpp"
 
@@ -154,7 +154,7 @@ private:
         constraints<triangle> pins(problem.rest);
         for (std::size_t v = 0; v < problem.held.size(); ++v)
             for (int k = 0; k < 2; ++k)
-                if (problem.holds(v, k)) pins.pin(static_cast<taut::index>(v), k, problem.initial[v][k]);
+                if (problem.holds(v, k)) pins.pin(static_cast<taut::idx>(v), k, problem.initial[v][k]);
         map_result r;
         const double seconds = bench::seconds(
             [&]

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What is large to compile, for projects of many files: these define TAUT_SEPARATE and call it only.
 #include <taut/map/parameterize.hpp>
-#include <taut/map/untangle/untangle.hpp>
+#include <taut/untangle/untangle.hpp>
 
-#include <taut/map/parameterization.hpp>
-#include <taut/map/untangle/untangle_on_device.hpp>
+#include <taut/map/detail/parameterization.hpp>
+#include <taut/untangle/untangle_on_device.hpp>
 
 namespace taut
 {

@@ -8,29 +8,29 @@
 #include <string>
 #include <vector>
 
-#include <taut/io/picture/layout_svg.hpp>
-#include <taut/io/picture/side_by_side_svg.hpp>
-#include <taut/io/picture/symmetric_distortion.hpp>
+#include <picture/layout_svg.hpp>
+#include <picture/side_by_side_svg.hpp>
+#include <picture/symmetric_distortion.hpp>
 #include <taut/taut.hpp>
 
 using namespace taut;
 
 /// So many vertices inside a map, each as far as can be from the boundary and those before it.
-std::vector<taut::index> spread_out(const std::vector<vec2>& uv, const std::vector<taut::index>& boundary, int count)
+std::vector<taut::idx> spread_out(const std::vector<vec2>& uv, const std::vector<taut::idx>& boundary, int count)
 {
     std::vector<double> distance(uv.size(), INFINITY);
-    const auto approach = [&](taut::index from)
+    const auto approach = [&](taut::idx from)
     {
         for (std::size_t v = 0; v < uv.size(); ++v)
             distance[v] = std::min(distance[v], glm::distance(uv[v], uv[static_cast<std::size_t>(from)]));
     };
-    for (const taut::index v : boundary) approach(v);
-    std::vector<taut::index> chosen;
+    for (const taut::idx v : boundary) approach(v);
+    std::vector<taut::idx> chosen;
     while (static_cast<int>(chosen.size()) < count)
     {
         const auto farthest = std::max_element(distance.begin(), distance.end());
         if (*farthest == 0) break; // a small mesh
-        chosen.push_back(static_cast<taut::index>(farthest - distance.begin()));
+        chosen.push_back(static_cast<taut::idx>(farthest - distance.begin()));
         approach(chosen.back());
     }
     return chosen;

@@ -11,12 +11,12 @@
 using namespace taut;
 
 /// The vertex of a map that is nearest to a point.
-taut::index nearest(const std::vector<vec2>& uv, const vec2& p)
+taut::idx nearest(const std::vector<vec2>& uv, const vec2& p)
 {
     std::size_t best = 0;
     for (std::size_t v = 1; v < uv.size(); ++v)
         if (glm::distance(uv[v], p) < glm::distance(uv[best], p)) best = v;
-    return static_cast<taut::index>(best);
+    return static_cast<taut::idx>(best);
 }
 
 /// The disk that a map fills, about: the mean of its boundary, and the radius of a circle of its area.

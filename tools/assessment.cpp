@@ -13,7 +13,7 @@ namespace taut::tools
 namespace
 {
 
-std::size_t at(index i)
+std::size_t at(idx i)
 {
     return static_cast<std::size_t>(i);
 }
@@ -23,7 +23,7 @@ std::vector<mesh<triangle>::cell> solid_cells(const mesh<triangle>& surface)
 {
     auto [flat, inverted] = detail::bad_rest_cells(surface);
     std::vector<char> keep(surface.cells().size(), 1);
-    for (const index c : flat) keep[at(c)] = 0;
+    for (const idx c : flat) keep[at(c)] = 0;
     std::vector<mesh<triangle>::cell> cells;
     for (std::size_t c = 0; c < keep.size(); ++c)
         if (keep[c]) cells.push_back(surface.cells()[c]);
@@ -56,7 +56,7 @@ nlohmann::ordered_json to_json(const means& m)
 }
 
 /// ": 5, 9, 12, ...", the first of n.
-std::string first_ids(const std::vector<index>& ids, std::size_t n)
+std::string first_ids(const std::vector<idx>& ids, std::size_t n)
 {
     constexpr std::size_t most = 5;
     std::string text;

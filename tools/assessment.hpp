@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/map/crossings.hpp>
-#include <taut/map/quality.hpp>
+#include <taut/exact/crossings.hpp>
+#include <taut/measure/quality.hpp>
 
 #include "text_table.hpp"
 
@@ -21,7 +21,7 @@ namespace taut::tools
 /// A map of a surface and everything the programs say about it.
 struct assessment
 {
-    index vertices = 0;   ///< of the surface
+    idx vertices = 0;     ///< of the surface
     bool measured = true; ///< false: nothing but quality.flips is known
     taut::quality quality;
     std::size_t left_out = 0;   ///< triangles without area at rest: counted in flips only

@@ -10,11 +10,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <taut/exact/certify.hpp>
+#include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/read_surface.hpp>
-#include <taut/map/certify.hpp>
-#include <taut/map/untangle/infeasible.hpp>
-#include <taut/map/untangle/make_untangle_problem.hpp>
 #include <taut/mesh/validate.hpp>
+#include <taut/untangle/proofs/infeasible.hpp>
 
 #include "choices.hpp"
 #include "commands.hpp"
@@ -44,7 +44,7 @@ struct finding
     bool wrong = true;
     std::string about; ///< "file", "mesh", "pins" or "feasibility"
     std::string fault; ///< a word for programs
-    std::vector<index> ids;
+    std::vector<idx> ids;
     std::string message;
 };
 
@@ -84,7 +84,7 @@ void report_pins(check_report& report, const constraint_error& e, const io::pin<
 
 /// Adds the pins of the file one by one, so that each fault is found. cut: of a surface that is cut open.
 template <class Element>
-void read_constraints(check_report& report, const std::string& path, constraints<Element>& pins, index vertices,
+void read_constraints(check_report& report, const std::string& path, constraints<Element>& pins, idx vertices,
                       const std::optional<io::cut_surface>& cut = {})
 {
     if (path.empty()) return;

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include <picture/image.hpp>
 #include <taut/core/error.hpp>
-#include <taut/io/picture/image.hpp>
 
 namespace taut::tools
 {

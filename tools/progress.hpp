@@ -13,7 +13,7 @@
 
 #include <unistd.h>
 
-#include <taut/io/picture/format.hpp>
+#include <picture/format.hpp>
 
 namespace taut::tools
 {

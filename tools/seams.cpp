@@ -69,9 +69,9 @@ std::string describe(const io::cut_surface& cut)
 void require_undivided(std::span<const io::pin<2>> pins, const io::cut_surface& cut)
 {
     // Further sheets follow the vertices of the file.
-    std::vector<index> divided;
+    std::vector<idx> divided;
     for (std::size_t s = 0; s < cut.origins.size(); ++s)
-        if (cut.origins[s] != static_cast<index>(s)) divided.push_back(cut.origins[s]);
+        if (cut.origins[s] != static_cast<idx>(s)) divided.push_back(cut.origins[s]);
     std::sort(divided.begin(), divided.end());
     for (const auto& pin : pins)
         if (const auto sheets = std::equal_range(divided.begin(), divided.end(), pin.vertex);

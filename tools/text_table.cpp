@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <taut/io/picture/format.hpp>
+#include <picture/format.hpp>
 
 namespace taut::tools
 {

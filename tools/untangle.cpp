@@ -12,15 +12,15 @@
 #include <variant>
 #include <vector>
 
-#include <taut/io/picture/layout_picture.hpp>
-#include <taut/io/picture/layout_svg.hpp>
-#include <taut/io/picture/side_by_side_svg.hpp>
-#include <taut/io/picture/symmetric_distortion.hpp>
+#include <picture/layout_picture.hpp>
+#include <picture/layout_svg.hpp>
+#include <picture/side_by_side_svg.hpp>
+#include <picture/symmetric_distortion.hpp>
+#include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/write_files.hpp>
 #include <taut/io/write_map.hpp>
-#include <taut/map/untangle/infeasible.hpp>
-#include <taut/map/untangle/make_untangle_problem.hpp>
-#include <taut/map/untangle/untangle.hpp>
+#include <taut/untangle/proofs/infeasible.hpp>
+#include <taut/untangle/untangle.hpp>
 
 #include "commands.hpp"
 #include "failure.hpp"
@@ -51,7 +51,7 @@ struct layout_input
 io::layout_overlay overlay_of(const untangle_problem<triangle>& p, std::span<const vec2> x)
 {
     io::layout_overlay overlay;
-    for (const index v : branch_points(p.rest.cells(), x))
+    for (const idx v : branch_points(p.rest.cells(), x))
         overlay.branch_points.push_back(x[static_cast<std::size_t>(v)]);
     for (std::size_t v = 0; v < x.size(); ++v)
         if (p.held[v] != 0) overlay.pins.push_back({x[v], x[v], true, p.held[v]});
@@ -59,9 +59,9 @@ io::layout_overlay overlay_of(const untangle_problem<triangle>& p, std::span<con
 }
 
 /// The boundary edges as loops of their own: a mesh to untangle need not be a manifold.
-std::vector<std::vector<index>> outline_of(const mesh<triangle>& m)
+std::vector<std::vector<idx>> outline_of(const mesh<triangle>& m)
 {
-    std::vector<std::vector<index>> edges;
+    std::vector<std::vector<idx>> edges;
     for (const auto& [a, b] : boundary_facets(m)) edges.push_back({a, b});
     return edges;
 }

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/map/untangle/untangle_result.hpp>
+#include <taut/untangle/result.hpp>
 
 #include "exit_codes.hpp"
 
@@ -30,7 +30,7 @@ struct untangle_report
     exit_code code = exit_code::valid;
     std::string outcome; ///< "injective", "infeasible", "gave_up" or "interrupted"
     std::string reason;  ///< why there is no valid map
-    std::vector<index> ids;
+    std::vector<idx> ids;
     std::string written; ///< the file with the map; empty: none
     std::string device, device_label;
     std::size_t vertices = 0, elements = 0, pinned = 0;

@@ -7,15 +7,16 @@
 #include <string>
 #include <utility>
 
-#include <taut/io/picture/layout_picture.hpp>
-#include <taut/io/picture/layout_svg.hpp>
-#include <taut/io/picture/render_picture.hpp>
-#include <taut/io/picture/symmetric_distortion.hpp>
+#include <picture/layout_picture.hpp>
+#include <picture/layout_svg.hpp>
+#include <picture/render_picture.hpp>
+#include <picture/symmetric_distortion.hpp>
+#include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_files.hpp>
 #include <taut/io/write_obj.hpp>
 #include <taut/map/parameterize.hpp>
-#include <taut/map/untangle/make_untangle_problem.hpp>
+#include <taut/measure/describe_defects.hpp>
 
 #include "commands.hpp"
 #include "failure.hpp"

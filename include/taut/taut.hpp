@@ -15,7 +15,7 @@
 #include <taut/compute/queue.hpp>
 #include <taut/compute/vector_space.hpp>
 
-#include <taut/mesh/hierarchy/hierarchy.hpp>
+#include <taut/hierarchy/hierarchy.hpp>
 #include <taut/mesh/mesh.hpp>
 #include <taut/mesh/validate.hpp>
 
@@ -32,10 +32,10 @@
 #include <taut/io/write_map.hpp>
 #include <taut/io/write_obj.hpp>
 
-#include <taut/map/check_gradient.hpp>
-#include <taut/map/constraints.hpp>
-#include <taut/map/crossings.hpp>
+#include <taut/constrain/constraints.hpp>
+#include <taut/energy/check_gradient.hpp>
+#include <taut/exact/crossings.hpp>
+#include <taut/io/make_untangle_problem.hpp>
 #include <taut/map/parameterize.hpp>
-#include <taut/map/quality.hpp>
-#include <taut/map/untangle/make_untangle_problem.hpp>
-#include <taut/map/untangle/untangle.hpp>
+#include <taut/measure/quality.hpp>
+#include <taut/untangle/untangle.hpp>

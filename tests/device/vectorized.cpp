@@ -6,7 +6,7 @@
 #include <support/meshes.hpp>
 
 #include <taut/energy/isometric.hpp>
-#include <taut/map/problem.hpp>
+#include <taut/objective/map_objective.hpp>
 
 namespace
 {

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include <taut/map/constraints.hpp>
-#include <taut/map/untangle/make_untangle_problem.hpp>
+#include <taut/constrain/constraints.hpp>
+#include <taut/io/make_untangle_problem.hpp>
 
 #include "mutator.hpp"
 #include "require.hpp"
@@ -15,7 +15,7 @@ namespace
 using namespace taut;
 using fuzz::dice;
 
-constexpr index vertices = 4;
+constexpr idx vertices = 4;
 
 std::string generate(dice& random)
 {

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include <taut/map/certify.hpp>
-#include <taut/map/untangle/infeasible.hpp>
-#include <taut/map/untangle/make_untangle_problem.hpp>
+#include <taut/exact/certify.hpp>
+#include <taut/io/make_untangle_problem.hpp>
+#include <taut/untangle/proofs/infeasible.hpp>
 
 #include "mutator.hpp"
 #include "require.hpp"
@@ -53,11 +53,11 @@ void examine(std::string_view bytes)
     {
         constexpr int D = Element::dimension;
         auto file = io::parse_prob<Element>(bytes);
-        const auto n = static_cast<index>(file.rest.size());
+        const auto n = static_cast<idx>(file.rest.size());
         fuzz::require(file.initial.size() == file.rest.size(), "one position a vertex");
         for (const auto& cell : file.cells)
-            for (const index v : cell) fuzz::require(v >= 0 && v < n, "vertices in range");
-        for (const index v : file.fixed) fuzz::require(v >= 0 && v < n, "fixed vertices in range");
+            for (const idx v : cell) fuzz::require(v >= 0 && v < n, "vertices in range");
+        for (const idx v : file.fixed) fuzz::require(v >= 0 && v < n, "fixed vertices in range");
         const auto problem = make_untangle_problem(std::move(file));
         const auto found = find_infeasibility(problem);
         const auto flips = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial));

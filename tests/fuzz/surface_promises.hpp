@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <taut/io/cut_seams.hpp>
+#include <taut/io/detail/obj_output.hpp>
 #include <taut/io/obj.hpp>
-#include <taut/io/obj_output.hpp>
 #include <taut/mesh/boundary.hpp>
 #include <taut/mesh/order.hpp>
 #include <taut/mesh/validate.hpp>
@@ -26,10 +26,10 @@ inline void require_in_range(const io::surface_file& file)
     require(file.texcoord_cells.empty() || file.texcoord_cells.size() == cells.size(),
             "texture coordinates a triangle");
     for (const auto& cell : file.texcoord_cells)
-        for (const index t : cell)
-            require(t >= -1 && t < static_cast<index>(file.texcoords.size()), "texture coordinates in range");
+        for (const idx t : cell)
+            require(t >= -1 && t < static_cast<idx>(file.texcoords.size()), "texture coordinates in range");
     std::size_t corners = 0;
-    for (const index size : faces.sizes) corners += static_cast<std::size_t>(size);
+    for (const idx size : faces.sizes) corners += static_cast<std::size_t>(size);
     require(corners == faces.corners.size(), "faces have all corners");
     require(faces.triangles.empty() || faces.triangles.size() == cells.size(), "corners of each triangle");
     for (std::size_t c = 0; c < cells.size(); ++c)
@@ -59,7 +59,7 @@ struct text_output
 
 /// What is written reads back as the same surface, with the texture coordinates that were given.
 inline std::string require_round_trip(const io::surface_file& file, const std::vector<mesh<triangle>::cell>& cells,
-                                      std::span<const index> corners, std::size_t vertices)
+                                      std::span<const idx> corners, std::size_t vertices)
 {
     std::vector<vec2> uv;
     for (std::size_t v = 0; v < vertices; ++v) uv.emplace_back(static_cast<double>(v), 0.1);

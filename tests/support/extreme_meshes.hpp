@@ -51,7 +51,7 @@ mesh<triangle> swept_tube(int around, double length, Path path)
         ring(path(t), 1, j % 2 != 0);
     }
     const int rings = dome + along;
-    const auto at = [=](int i, int j) { return taut::index(1 + j * around + (i + around) % around); };
+    const auto at = [=](int i, int j) { return taut::idx(1 + j * around + (i + around) % around); };
     triangles cells;
     for (int i = 0; i < around; ++i) cells.push_back({0, at(i + 1, 0), at(i, 0)});
     for (int j = 0; j + 1 < rings; ++j)
@@ -91,17 +91,17 @@ inline mesh<triangle> sphere(int levels)
     triangles cells = start.cells();
     for (int l = 0; l < levels; ++l)
     {
-        std::map<std::pair<taut::index, taut::index>, taut::index> middle;
-        const auto mid = [&](taut::index a, taut::index b)
+        std::map<std::pair<taut::idx, taut::idx>, taut::idx> middle;
+        const auto mid = [&](taut::idx a, taut::idx b)
         {
-            const auto [at, fresh] = middle.try_emplace(std::minmax(a, b), taut::index(points.size()));
+            const auto [at, fresh] = middle.try_emplace(std::minmax(a, b), taut::idx(points.size()));
             if (fresh) points.push_back(glm::normalize(points[std::size_t(a)] + points[std::size_t(b)]));
             return at->second;
         };
         triangles finer;
         for (const auto& [a, b, c] : cells)
         {
-            const taut::index ab = mid(a, b), bc = mid(b, c), ca = mid(c, a);
+            const taut::idx ab = mid(a, b), bc = mid(b, c), ca = mid(c, a);
             finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
         }
         cells = std::move(finer);
@@ -117,12 +117,12 @@ mesh<triangle> body(int n, Inside inside, bool open_top = false)
     const auto filled = [&](int i, int j, int k) {
         return std::min({i, j, k}) >= 0 && std::max({i, j, k}) < n && inside(i, j, k);
     };
-    std::map<std::tuple<int, int, int>, taut::index> number;
+    std::map<std::tuple<int, int, int>, taut::idx> number;
     std::vector<vec3> points;
     triangles cells;
     const auto corner = [&](std::array<int, 3> p)
     {
-        const auto [at, fresh] = number.try_emplace(std::tuple(p[0], p[1], p[2]), taut::index(points.size()));
+        const auto [at, fresh] = number.try_emplace(std::tuple(p[0], p[1], p[2]), taut::idx(points.size()));
         if (fresh) points.emplace_back(p[0], p[1], p[2]);
         return at->second;
     };
@@ -138,7 +138,7 @@ mesh<triangle> body(int n, Inside inside, bool open_top = false)
                         if (open_top && axis == 2 && next[2] == n) continue;
                         std::array<int, 3> p{i, j, k};
                         p[axis] += side;
-                        std::array<taut::index, 4> q;
+                        std::array<taut::idx, 4> q;
                         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
                         q[0] = corner(p), ++p[u], q[1] = corner(p), ++p[v], q[2] = corner(p), --p[u], q[3] = corner(p);
                         if (side == 0) std::swap(q[1], q[3]);
@@ -196,37 +196,37 @@ inline mesh<triangle> animal(int n)
 
 /// A closed surface cut open along the shortest path of edges from vertex `from`, `edges` of them (2 at least), that
 /// ends as far away as so many edges reach: a disk with 2 * edges boundary vertices.
-inline mesh<triangle> slit(const mesh<triangle>& closed, int edges, taut::index from = 0)
+inline mesh<triangle> slit(const mesh<triangle>& closed, int edges, taut::idx from = 0)
 {
     // Breadth first, as far as the path is long.
     const auto around = vertex_neighbours(closed);
-    std::vector<taut::index> before(closed.points().size(), -1), reached = {from};
+    std::vector<taut::idx> before(closed.points().size(), -1), reached = {from};
     std::vector<int> depth(closed.points().size(), -1);
     depth[std::size_t(from)] = 0;
     for (std::size_t r = 0; depth[std::size_t(reached[r])] < edges; ++r)
-        for (const taut::index w : around.row(reached[r]))
+        for (const taut::idx w : around.row(reached[r]))
             if (depth[std::size_t(w)] < 0)
             {
                 depth[std::size_t(w)] = depth[std::size_t(reached[r])] + 1;
                 before[std::size_t(w)] = reached[r];
                 reached.push_back(w);
             }
-    std::vector<taut::index> path = {reached.back()};
+    std::vector<taut::idx> path = {reached.back()};
     while (path.back() != from) path.push_back(before[std::size_t(path.back())]);
 
     // Inner vertices of the path are doubled: triangles to its left keep the old one, those to its right get the new.
-    std::map<std::pair<taut::index, taut::index>, std::size_t> left; // directed edge -> its triangle
+    std::map<std::pair<taut::idx, taut::idx>, std::size_t> left; // directed edge -> its triangle
     for (std::size_t c = 0; c < closed.cells().size(); ++c)
         for (std::size_t k = 0; k < 3; ++k) left[{closed.cells()[c][k], closed.cells()[c][(k + 1) % 3]}] = c;
     std::vector<vec3> points = closed.points();
     triangles cells = closed.cells();
     for (std::size_t p = 1; p + 1 < path.size(); ++p)
     {
-        const taut::index v = path[p];
-        const auto twin = taut::index(points.size());
+        const taut::idx v = path[p];
+        const auto twin = taut::idx(points.size());
         points.push_back(points[std::size_t(v)]);
         // Turn about v from the edge to the next vertex of the path to the edge to the one before.
-        for (taut::index w = path[p + 1]; w != path[p - 1];)
+        for (taut::idx w = path[p + 1]; w != path[p - 1];)
         {
             const std::size_t c = left.at({w, v});
             const auto& t = closed.cells()[c];

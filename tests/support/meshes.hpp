@@ -15,7 +15,7 @@
 namespace taut::test
 {
 
-using triangles = std::vector<std::array<taut::index, 3>>;
+using triangles = std::vector<std::array<taut::idx, 3>>;
 
 /// The triangles of an nx by ny grid of quads over (nx + 1)(ny + 1) vertices, counter-clockwise; vertex = j (nx+1) + i.
 inline triangles grid_cells(int nx, int ny)
@@ -24,7 +24,7 @@ inline triangles grid_cells(int nx, int ny)
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i)
         {
-            const taut::index a = j * (nx + 1) + i, b = a + 1, c = a + nx + 1, d = c + 1;
+            const taut::idx a = j * (nx + 1) + i, b = a + 1, c = a + nx + 1, d = c + 1;
             // Alternating diagonals keep the valences between 4 and 8.
             if ((i + j) % 2 == 0)
                 cells.insert(cells.end(), {{a, b, d}, {a, d, c}});
@@ -50,18 +50,18 @@ mesh<triangle> rings(int n, Place place)
 {
     std::vector<vec3> points = {place(0.0, 0.0)};
     triangles cells;
-    taut::index inner = 0;
+    taut::idx inner = 0;
     for (int r = 1; r <= n; ++r)
     {
-        const auto outer = static_cast<taut::index>(points.size());
+        const auto outer = static_cast<taut::idx>(points.size());
         const int m = 6 * r, k = 6 * (r - 1);
         for (int i = 0; i < m; ++i) points.push_back(place(double(r) / n, 2 * std::numbers::pi * i / m));
         // Each of the six sectors has r outer and r - 1 inner edges.
         for (int s = 0; s < 6; ++s)
             for (int i = 0; i < r; ++i)
             {
-                const taut::index a = outer + (s * r + i) % m, b = outer + (s * r + i + 1) % m;
-                const taut::index c = k == 0 ? inner : inner + (s * (r - 1) + i) % k;
+                const taut::idx a = outer + (s * r + i) % m, b = outer + (s * r + i + 1) % m;
+                const taut::idx c = k == 0 ? inner : inner + (s * (r - 1) + i) % k;
                 cells.push_back({a, b, c});
                 if (i + 1 < r) cells.push_back({b, inner + (s * (r - 1) + i + 1) % k, c});
             }
@@ -107,7 +107,7 @@ inline mesh<triangle> bumpy(int n, double height = 0.15, std::uint32_t seed = 1)
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
         {
-            const taut::index a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+            const taut::idx a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
             // The jitter is below 1/4 of the spacing, so that both diagonals of a quad are good: pick one by lot.
             if (uniform() < 0.5)
                 cells.insert(cells.end(), {{a, b, d}, {a, d, c}});
@@ -120,7 +120,7 @@ inline mesh<triangle> bumpy(int n, double height = 0.15, std::uint32_t seed = 1)
         if (uniform() >= 0.15) continue;
         const auto [a, b, c] = cells[t];
         const vec3 m = (points[std::size_t(a)] + points[std::size_t(b)] + points[std::size_t(c)]) / 3.0;
-        const auto v = static_cast<taut::index>(points.size());
+        const auto v = static_cast<taut::idx>(points.size());
         points.push_back(lift(m.x, m.y));
         cells[t] = {a, b, v};
         cells.insert(cells.end(), {{b, c, v}, {c, a, v}});
@@ -140,7 +140,7 @@ inline mesh<triangle> tube(int around, double aspect)
             const double a = 2 * std::numbers::pi * i / around;
             points.emplace_back(std::cos(a), std::sin(a), 2 * aspect * j / along);
         }
-    const auto at = [=](int i, int j) { return taut::index(1 + j * around + i % around); };
+    const auto at = [=](int i, int j) { return taut::idx(1 + j * around + i % around); };
     for (int i = 0; i < around; ++i) cells.push_back({0, at(i + 1, 0), at(i, 0)}); // normals point out
     for (int j = 0; j < along; ++j)
         for (int i = 0; i < around; ++i)
@@ -185,7 +185,7 @@ inline mesh<triangle> annulus(int n)
     triangles cells;
     for (int i = 0; i < n; ++i)
     {
-        const taut::index a = 2 * i, b = a + 1, c = 2 * ((i + 1) % n), d = c + 1;
+        const taut::idx a = 2 * i, b = a + 1, c = 2 * ((i + 1) % n), d = c + 1;
         cells.insert(cells.end(), {{a, b, d}, {a, d, c}});
     }
     return {std::move(points), std::move(cells)};
@@ -204,8 +204,8 @@ inline mesh<triangle> moebius(int n)
     triangles cells;
     for (int i = 0; i < n; ++i)
     {
-        const taut::index a = 2 * i, b = a + 1;
-        const taut::index c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0; // the seam swaps the sides
+        const taut::idx a = 2 * i, b = a + 1;
+        const taut::idx c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0; // the seam swaps the sides
         cells.insert(cells.end(), {{a, b, d}, {a, d, c}});
     }
     return {std::move(points), std::move(cells)};
@@ -228,7 +228,7 @@ inline mesh<triangle> torus(int n, bool hole)
             const double a = 2 * std::numbers::pi * i / n, b = 2 * std::numbers::pi * j / n, r = 3 + std::cos(b);
             points.emplace_back(r * std::cos(a), r * std::sin(a), std::sin(b));
         }
-    const auto at = [=](int i, int j) { return taut::index((j % n) * n + i % n); };
+    const auto at = [=](int i, int j) { return taut::idx((j % n) * n + i % n); };
     triangles cells;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
@@ -271,8 +271,8 @@ inline mesh<tetrahedron> cube(int n)
     for (int k = 0; k <= n; ++k)
         for (int j = 0; j <= n; ++j)
             for (int i = 0; i <= n; ++i) points.emplace_back(double(i) / n, double(j) / n, double(k) / n);
-    const auto at = [=](int i, int j, int k) { return taut::index((k * (n + 1) + j) * (n + 1) + i); };
-    std::vector<std::array<taut::index, 4>> cells;
+    const auto at = [=](int i, int j, int k) { return taut::idx((k * (n + 1) + j) * (n + 1) + i); };
+    std::vector<std::array<taut::idx, 4>> cells;
     // A path along the axes in each of the six orders, from the lowest corner to the highest.
     constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     for (int k = 0; k < n; ++k)
@@ -281,7 +281,7 @@ inline mesh<tetrahedron> cube(int n)
                 for (int o = 0; o < 6; ++o)
                 {
                     std::array<int, 3> p = {i, j, k};
-                    std::array<taut::index, 4> t{at(i, j, k)};
+                    std::array<taut::idx, 4> t{at(i, j, k)};
                     for (int s = 0; s < 3; ++s)
                     {
                         ++p[std::size_t(orders[o][s])];

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <taut/map/layout.hpp>
-#include <taut/map/traced_element.hpp>
+#include <taut/mesh/layout.hpp>
+#include <taut/objective/traced_element.hpp>
 #include <taut/solve/host_objective.hpp>
 #include <taut/symbolic/evaluate.hpp>
 

@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/map/certify.hpp>
-#include <taut/map/untangle/untangle_problem.hpp>
-#include <taut/map/untangle/untangle_result.hpp>
+#include <taut/constrain/untangle_problem.hpp>
+#include <taut/exact/certify.hpp>
+#include <taut/untangle/result.hpp>
 
 namespace taut::test
 {

@@ -13,7 +13,7 @@ namespace taut::test
 
 /// Inner vertices whose angles in a map add up to more than one turn, ascending: the oracle for branch points, which
 /// the library finds without angles.
-inline std::vector<index> wound_vertices(const mesh<triangle>& m, const std::vector<vec2>& uv)
+inline std::vector<idx> wound_vertices(const mesh<triangle>& m, const std::vector<vec2>& uv)
 {
     const auto boundary = boundary_flags(uv.size(), boundary_loops(m));
     std::vector<double> angle(uv.size(), 0.0);
@@ -24,9 +24,9 @@ inline std::vector<index> wound_vertices(const mesh<triangle>& m, const std::vec
             const vec2 a = at(1) - at(0), b = at(2) - at(0);
             angle[static_cast<std::size_t>(t[k])] += std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
         }
-    std::vector<index> found;
+    std::vector<idx> found;
     for (std::size_t v = 0; v < uv.size(); ++v)
-        if (boundary[v] == 0 && angle[v] > 3 * std::numbers::pi) found.push_back(static_cast<index>(v));
+        if (boundary[v] == 0 && angle[v] > 3 * std::numbers::pi) found.push_back(static_cast<idx>(v));
     return found;
 }
 

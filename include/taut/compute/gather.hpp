@@ -34,7 +34,7 @@ class gather
 {
 public:
     /// Row v of the incidence is k = offsets[v] .. offsets[v + 1] - 1, with cell cells[k] and corner corners[k].
-    gather(queue& q, std::span<const index> offsets, std::span<const index> cells, std::span<const index> corners,
+    gather(queue& q, std::span<const idx> offsets, std::span<const idx> cells, std::span<const idx> corners,
            const gather_layout& layout)
         : components_(layout.components), vertices_(to_int(layout.vertex_stride)), cells_(to_int(layout.cell_stride))
     {
@@ -57,7 +57,7 @@ public:
         to_int(width_ * layout.vertex_stride);
         sums_ = D * layout.vertex_stride;
 
-        std::vector<index> columns(width_ * layout.vertex_stride, -1), which, rest_offsets{0}, rest;
+        std::vector<idx> columns(width_ * layout.vertex_stride, -1), which, rest_offsets{0}, rest;
         parallel_for(rows,
                      [&](std::size_t begin, std::size_t end)
                      {
@@ -65,7 +65,7 @@ public:
                          {
                              const auto first = static_cast<std::size_t>(offsets[v]);
                              for (std::size_t j = 0; j < std::min(width_, valence(v)); ++j)
-                                 columns[j * layout.vertex_stride + v] = static_cast<index>(place(first + j));
+                                 columns[j * layout.vertex_stride + v] = static_cast<idx>(place(first + j));
                          }
                      });
         for (std::size_t v = 0; v < rows; ++v)
@@ -73,15 +73,15 @@ public:
             if (valence(v) <= width_) continue;
             for (auto k = static_cast<std::size_t>(offsets[v]) + width_; k < static_cast<std::size_t>(offsets[v + 1]);
                  ++k)
-                rest.push_back(static_cast<index>(place(k)));
-            which.push_back(static_cast<index>(v));
-            rest_offsets.push_back(static_cast<index>(rest.size()));
+                rest.push_back(static_cast<idx>(place(k)));
+            which.push_back(static_cast<idx>(v));
+            rest_offsets.push_back(static_cast<idx>(rest.size()));
         }
-        columns_ = buffer<index>(q, columns);
+        columns_ = buffer<idx>(q, columns);
         rest_rows_ = to_int(which.size());
-        which_ = buffer<index>(q, which);
-        rest_offsets_ = buffer<index>(q, rest_offsets);
-        rest_ = buffer<index>(q, rest);
+        which_ = buffer<idx>(q, which);
+        rest_offsets_ = buffer<idx>(q, rest_offsets);
+        rest_ = buffer<idx>(q, rest);
 
         const std::string term = cl_name<Term>();
         const auto options = detail::vector_options<T>(q.device(), reduction_plan::for_device(q.device()));
@@ -110,11 +110,11 @@ public:
 private:
     /// The largest of the places of all contributions. Throws parameter_error for a cell beyond the stride.
     template <class Place>
-    static std::size_t largest_place(std::span<const index> cells, std::size_t cell_stride, const Place& place)
+    static std::size_t largest_place(std::span<const idx> cells, std::size_t cell_stride, const Place& place)
     {
         std::atomic<std::size_t> largest{0};
         std::atomic<bool> beyond{false};
-        const auto is_beyond = [&](index cell) { return cell < 0 || static_cast<std::size_t>(cell) >= cell_stride; };
+        const auto is_beyond = [&](idx cell) { return cell < 0 || static_cast<std::size_t>(cell) >= cell_stride; };
         parallel_for(cells.size(),
                      [&](std::size_t begin, std::size_t end)
                      {
@@ -130,7 +130,7 @@ private:
                              continue;
                      });
         if (!beyond) return largest;
-        const index cell = *std::find_if(cells.begin(), cells.end(), is_beyond);
+        const idx cell = *std::find_if(cells.begin(), cells.end(), is_beyond);
         throw parameter_error("gather_layout.cell_stride", "cell " + std::to_string(cell) + " is beyond it");
     }
 
@@ -155,21 +155,21 @@ private:
         return best;
     }
 
-    static index to_int(std::size_t n)
+    static idx to_int(std::size_t n)
     {
-        if (n > static_cast<std::size_t>(std::numeric_limits<index>::max()))
+        if (n > static_cast<std::size_t>(std::numeric_limits<idx>::max()))
             throw size_error("gather", "more than 2^31 contributions");
-        return static_cast<index>(n);
+        return static_cast<idx>(n);
     }
 
-    index components_, vertices_, cells_, rest_rows_ = 0;
+    idx components_, vertices_, cells_, rest_rows_ = 0;
     std::size_t reach_ = 0; ///< contributions up to the last one that is read
     std::size_t sums_ = 0;
     std::size_t width_ = 4;
-    buffer<index> columns_, which_, rest_offsets_, rest_;
-    using in = const buffer<index>;
-    typed_kernel<index, index, in, const buffer<Term>, buffer<T>> gather_;
-    typed_kernel<index, index, index, index, in, in, in, const buffer<Term>, buffer<T>> gather_rest_;
+    buffer<idx> columns_, which_, rest_offsets_, rest_;
+    using in = const buffer<idx>;
+    typed_kernel<idx, idx, in, const buffer<Term>, buffer<T>> gather_;
+    typed_kernel<idx, idx, idx, idx, in, in, in, const buffer<Term>, buffer<T>> gather_rest_;
 };
 
 } // namespace taut

@@ -61,7 +61,7 @@ public:
         return recording_.inout<T>();
     }
 
-    /// Records f and enqueues it over the indices 0 .. r.global - 1: once in a group. f takes the index, a sym<index>.
+    /// Records f and enqueues it over the indices 0 .. r.global - 1: once in a group. f takes the index, a sym<idx>.
     template <class F>
     void parallel_for(range r, F&& f)
     {

@@ -13,8 +13,8 @@ namespace taut
 /// How rows are dealt to the lanes of a device: `slice` rows lie together, an item does `lanes` of them (1 or 16).
 struct lane_form
 {
-    index slice = 16;
-    index lanes = 16;
+    idx slice = 16;
+    idx lanes = 16;
 
     /// The most coarse rows that an item on a CPU sums together in a product P' A P.
     static constexpr std::size_t product_rows = 64;
@@ -26,7 +26,7 @@ struct lane_form
     }
 
     /// Items that invert a dense matrix together.
-    constexpr index team() const { return lanes == 1 ? 64 : 1; }
+    constexpr idx team() const { return lanes == 1 ? 64 : 1; }
 
     /// The items of so many rows (a multiple of the slice), padded to whole groups.
     range items(std::size_t rows) const

@@ -149,11 +149,11 @@ inline range items_for(kernel_form form, const range& r)
 }
 
 /// The number of indices as the kernel takes it.
-inline index count_of(const queue_state& state, const std::string& name, const range& r)
+inline idx count_of(const queue_state& state, const std::string& name, const range& r)
 {
-    if (r.global > static_cast<std::size_t>(std::numeric_limits<index>::max()))
+    if (r.global > static_cast<std::size_t>(std::numeric_limits<idx>::max()))
         state.fail("launching " + name, "more than 2^31 indices");
-    return static_cast<index>(r.global);
+    return static_cast<idx>(r.global);
 }
 
 } // namespace detail
@@ -238,7 +238,7 @@ private:
 
     std::shared_ptr<detail::queue_state> state_;
     kernel_text text_;
-    typed_kernel<typename detail::tag_traits<Tags>::typed..., index> kernel_;
+    typed_kernel<typename detail::tag_traits<Tags>::typed..., idx> kernel_;
 };
 
 /// Records f(i, arguments...) as an OpenCL kernel; i is the index, and each tag becomes a traced

@@ -7,7 +7,7 @@
 #include <exception>
 #include <thread>
 
-#include <taut/core/crew.hpp>
+#include <taut/core/detail/crew.hpp>
 
 namespace taut
 {

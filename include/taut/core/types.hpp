@@ -9,7 +9,7 @@ namespace taut
 {
 
 /// Vertex, cell and edge numbers: 32 bits, signed, 0-based; the same type on the host and on the device.
-using index = std::int32_t;
+using idx = std::int32_t;
 
 /// A column vector of D numbers.
 template <int D, class T = double>

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <taut/core/disjoint_sets.hpp>
 #include <taut/io/surface_file.hpp>
-#include <taut/mesh/disjoint_sets.hpp>
 #include <taut/mesh/facets.hpp>
 
 namespace taut::io
@@ -20,8 +20,8 @@ struct cut_surface
 {
     mesh<triangle> surface;
     std::vector<vec2> uv;          ///< of the file, one a vertex; 0 for a vertex without a triangle
-    std::vector<index> origins;    ///< the vertex of the file, one a vertex
-    std::vector<index> corners;    ///< the vertex of each corner of file_faces
+    std::vector<idx> origins;      ///< the vertex of the file, one a vertex
+    std::vector<idx> corners;      ///< the vertex of each corner of file_faces
     std::size_t seam_vertices = 0; ///< vertices of the file that lie on a seam
 };
 
@@ -35,16 +35,16 @@ inline disjoint_sets joined_corners(const surface_file& file)
     const auto& cells = file.surface.cells();
     const auto sides = facets(file.surface);
     disjoint_sets joined(3 * file.surface.cell_count());
-    const auto ends = [](index side)
+    const auto ends = [](idx side)
     {
         const auto& local = triangle::facets[static_cast<std::size_t>(side % 3)];
-        return std::array<index, 2>{side / 3 * 3 + local[0], side / 3 * 3 + local[1]};
+        return std::array<idx, 2>{side / 3 * 3 + local[0], side / 3 * 3 + local[1]};
     };
-    const auto vertex = [&](index corner)
+    const auto vertex = [&](idx corner)
     { return cells[static_cast<std::size_t>(corner / 3)][static_cast<std::size_t>(corner % 3)]; };
-    const auto texcoord = [&](index corner)
+    const auto texcoord = [&](idx corner)
     { return file.texcoord(static_cast<std::size_t>(corner / 3), static_cast<std::size_t>(corner % 3)); };
-    const auto join = [&](index s, index t)
+    const auto join = [&](idx s, idx t)
     {
         auto [a, b] = ends(s);
         auto [c, d] = ends(t);
@@ -53,19 +53,19 @@ inline disjoint_sets joined_corners(const surface_file& file)
         joined.join(a, c);
         joined.join(b, d);
     };
-    std::vector<index> first(file.faces.corners.size(), -1);
+    std::vector<idx> first(file.faces.corners.size(), -1);
     for (std::size_t c = 0; c < cells.size(); ++c)
         for (std::size_t k = 0; k < 3; ++k)
         {
-            const auto corner = static_cast<index>(3 * c + k);
-            index& other = first[file.faces.corner(c, k)];
+            const auto corner = static_cast<idx>(3 * c + k);
+            idx& other = first[file.faces.corner(c, k)];
             if (other < 0) other = corner;
             joined.join(other, corner);
         }
     for (std::size_t s = 0; s < sides.twin.size(); ++s)
-        if (sides.twin[s] > static_cast<index>(s)) join(static_cast<index>(s), sides.twin[s]);
+        if (sides.twin[s] > static_cast<idx>(s)) join(static_cast<idx>(s), sides.twin[s]);
     for (const auto& crowd : sides.crowds)
-        for (const index side : crowd)
+        for (const idx side : crowd)
             if (side != crowd[0]) join(crowd[0], side);
     return joined;
 }
@@ -77,20 +77,20 @@ inline disjoint_sets joined_corners(const surface_file& file)
 /// Throws texcoord_error if a corner has none.
 inline std::optional<cut_surface> cut_seams(const surface_file& file)
 {
-    const auto at = [](index i) { return static_cast<std::size_t>(i); };
+    const auto at = [](idx i) { return static_cast<std::size_t>(i); };
     auto points = file.surface.points();
     auto cells = file.surface.cells();
     std::vector<vec2> uv(points.size(), vec2(0.0));
-    std::vector<index> sets(points.size(), -1); // the set of corners that has the vertex of the file
+    std::vector<idx> sets(points.size(), -1); // the set of corners that has the vertex of the file
     bool seams = false;
     for (std::size_t c = 0; c < cells.size(); ++c)
         for (std::size_t k = 0; k < 3; ++k)
         {
-            const index v = cells[c][k];
+            const idx v = cells[c][k];
             const vec2 x = file.texcoord(c, k);
             if (sets[at(v)] < 0)
             {
-                sets[at(v)] = static_cast<index>(3 * c + k);
+                sets[at(v)] = static_cast<idx>(3 * c + k);
                 uv[at(v)] = x;
             }
             seams = seams || uv[at(v)] != x;
@@ -98,20 +98,20 @@ inline std::optional<cut_surface> cut_seams(const surface_file& file)
     if (!seams) return std::nullopt;
 
     auto joined = detail::joined_corners(file);
-    std::vector<index> origins(points.size()), sheets(3 * cells.size(), -1);
-    for (std::size_t v = 0; v < points.size(); ++v) origins[v] = static_cast<index>(v);
+    std::vector<idx> origins(points.size()), sheets(3 * cells.size(), -1);
+    for (std::size_t v = 0; v < points.size(); ++v) origins[v] = static_cast<idx>(v);
     std::vector<char> divided(points.size(), 0);
     std::size_t seam_vertices = 0;
     for (std::size_t c = 0; c < cells.size(); ++c)
         for (std::size_t k = 0; k < 3; ++k)
         {
-            const index v = cells[c][k], set = joined.find(static_cast<index>(3 * c + k));
-            index& sheet = sheets[at(set)];
+            const idx v = cells[c][k], set = joined.find(static_cast<idx>(3 * c + k));
+            idx& sheet = sheets[at(set)];
             if (sheet < 0 && set == sets[at(v)]) // a set is called by its first corner, which is that of the vertex
                 sheet = v;
             else if (sheet < 0)
             {
-                sheet = static_cast<index>(points.size());
+                sheet = static_cast<idx>(points.size());
                 seam_vertices += divided[at(v)] ? 0 : 1;
                 divided[at(v)] = 1;
                 points.push_back(vec3(points[at(v)]));

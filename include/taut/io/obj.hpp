@@ -10,9 +10,9 @@
 #include <vector>
 
 #include <taut/core/parallel.hpp>
-#include <taut/io/obj_statements.hpp>
-#include <taut/io/polygon_soup.hpp>
-#include <taut/io/scanner.hpp>
+#include <taut/io/detail/obj_statements.hpp>
+#include <taut/io/detail/polygon_soup.hpp>
+#include <taut/io/detail/scanner.hpp>
 
 namespace taut::io
 {
@@ -116,7 +116,7 @@ private:
     }
 
     /// A number counted from 1, or back from -1, the last of `count`. The result is counted from 0.
-    index resolve(long long i, std::size_t count, largest& most, const char* position)
+    idx resolve(long long i, std::size_t count, largest& most, const char* position)
     {
         absolute_ = absolute_ && i > 0;
         const long long zero_based = i > 0 ? i - 1 : static_cast<long long>(count) + i;
@@ -124,14 +124,14 @@ private:
             in_.fail("a face names number " + std::to_string(i) + " of " + std::to_string(count) +
                      "; numbers start at 1, or at -1 from the end");
         if (zero_based >= most.number) most = {zero_based + 1, position, soup_.sizes.size()};
-        return static_cast<index>(zero_based);
+        return static_cast<idx>(zero_based);
     }
 
     void require_range(const largest& most, std::size_t count, const std::string& what) const
     {
         if (most.number > static_cast<long long>(count))
             throw mesh_error(mesh_fault::index_out_of_range,
-                             {static_cast<index>(most.face), static_cast<index>(most.number - 1)},
+                             {static_cast<idx>(most.face), static_cast<idx>(most.number - 1)},
                              place_prefix(in_.path(), in_.line_of(most.position)) + "a face names " + what + ' ' +
                                  std::to_string(most.number) + ", but there are " + std::to_string(count));
     }

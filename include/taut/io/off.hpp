@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/polygon_soup.hpp>
-#include <taut/io/scanner.hpp>
+#include <taut/io/detail/polygon_soup.hpp>
+#include <taut/io/detail/scanner.hpp>
 
 namespace taut::io
 {

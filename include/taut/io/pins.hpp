@@ -27,7 +27,7 @@ namespace taut::io
 template <int D>
 struct pin
 {
-    index vertex = 0;
+    idx vertex = 0;
     std::uint8_t held = 0;
     vec<D> target{0.0};
     double weight = std::numeric_limits<double>::infinity();
@@ -129,7 +129,7 @@ pin<D> read_pin(const pin_reader& in)
         in.fail(std::to_string(cells.size()) + (cells.size() == 1 ? " column" : " columns") + "; write " +
                 pin_columns<D>() + ", and nothing between two commas or after the last where a coordinate is free");
     pin<D> p;
-    p.vertex = in.number<index>(cells[0], "the number of a vertex");
+    p.vertex = in.number<idx>(cells[0], "the number of a vertex");
     if (p.vertex < 0) in.fail("vertex " + std::to_string(p.vertex) + "; vertices count from 0");
     for (int k = 0; k < D; ++k)
     {
@@ -155,11 +155,11 @@ pin<D> read_pin(const pin_reader& in)
 /// vertices: how many the mesh has. Throws io_error with the line.
 template <int D>
 std::vector<pin<D>> parse_pins(std::string_view text, const std::string& path = "pins",
-                               index vertices = std::numeric_limits<index>::max())
+                               idx vertices = std::numeric_limits<idx>::max())
 {
     detail::pin_reader in(text, path);
     std::vector<pin<D>> pins;
-    std::unordered_map<index, std::pair<std::uint8_t, std::size_t>> given; // bits, and the last line
+    std::unordered_map<idx, std::pair<std::uint8_t, std::size_t>> given; // bits, and the last line
     for (bool first = true; in.next(); first = false)
     {
         const std::string_view cell = in.cells()[0];
@@ -185,7 +185,7 @@ std::vector<pin<D>> parse_pins(std::string_view text, const std::string& path = 
 }
 
 template <int D>
-std::vector<pin<D>> read_pins(const std::filesystem::path& path, index vertices = std::numeric_limits<index>::max())
+std::vector<pin<D>> read_pins(const std::filesystem::path& path, idx vertices = std::numeric_limits<idx>::max())
 {
     return parse_pins<D>(read_file(path), path.string(), vertices);
 }

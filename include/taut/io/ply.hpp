@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/ply_header.hpp>
-#include <taut/io/ply_values.hpp>
-#include <taut/io/polygon_soup.hpp>
+#include <taut/io/detail/ply_header.hpp>
+#include <taut/io/detail/ply_values.hpp>
+#include <taut/io/detail/polygon_soup.hpp>
 
 namespace taut::io
 {
@@ -194,7 +194,7 @@ private:
         soup_.corner_coords.resize(soup_.corners.size() - corners, -1);
         for (std::size_t k = 0; k < corners; ++k)
         {
-            soup_.corner_coords.push_back(static_cast<index>(soup_.texcoords.size()));
+            soup_.corner_coords.push_back(static_cast<idx>(soup_.texcoords.size()));
             soup_.add_texcoord({coords_[2 * k], coords_[2 * k + 1]}, path_, here());
         }
     }

@@ -14,8 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include <taut/io/detail/scanner.hpp>
 #include <taut/io/read_file.hpp>
-#include <taut/io/scanner.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut::io
@@ -31,7 +31,7 @@ struct prob_file
     std::vector<vec3> rest;                          ///< rest coordinates; z = 0 where the file has two
     std::vector<typename mesh<Element>::cell> cells; ///< positive at rest
     std::vector<vec<D>> initial;                     ///< the map to start from; of fixed vertices, where they stay
-    std::vector<index> fixed;                        ///< as in the file, which may name a vertex twice
+    std::vector<idx> fixed;                          ///< as in the file, which may name a vertex twice
 };
 
 namespace detail
@@ -139,7 +139,7 @@ private:
     {
         in_.skip_space();
         const long long n = in_.integer(what.c_str());
-        if (n < 0 || n > std::numeric_limits<index>::max())
+        if (n < 0 || n > std::numeric_limits<idx>::max())
             in_.fail(what + " is " + std::to_string(n) + "; it must fit 32 bits");
         return static_cast<std::size_t>(n);
     }
@@ -158,13 +158,13 @@ private:
         return x;
     }
 
-    index read_vertex()
+    idx read_vertex()
     {
         const long long v = in_.integer("the number of a vertex");
         if (v < 0 || v >= static_cast<long long>(initial_count_))
             in_.fail("vertex " + std::to_string(v) + " of " + std::to_string(initial_count_) +
                      "; vertices count from 0");
-        return static_cast<index>(v);
+        return static_cast<idx>(v);
     }
 
     /// Goes to the next item of a block, past empty lines.

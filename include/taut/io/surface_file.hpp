@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/io/text_list.hpp>
+#include <taut/io/detail/text_list.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut::io
@@ -16,19 +16,19 @@ namespace taut::io
 class texcoord_error : public error
 {
 public:
-    texcoord_error(index vertex, const std::string& what) : error(what), vertex_(vertex) {}
-    index vertex() const noexcept { return vertex_; }
+    texcoord_error(idx vertex, const std::string& what) : error(what), vertex_(vertex) {}
+    idx vertex() const noexcept { return vertex_; }
 
 private:
-    index vertex_;
+    idx vertex_;
 };
 
 /// Faces as a file has them, before polygons are split into triangles.
 struct file_faces
 {
-    std::vector<index> sizes;                    ///< corners of each
-    std::vector<index> corners;                  ///< the vertex of each corner, one face after the other
-    std::vector<std::array<index, 3>> triangles; ///< the corners of each triangle; empty if all faces are triangles
+    std::vector<idx> sizes;                    ///< corners of each
+    std::vector<idx> corners;                  ///< the vertex of each corner, one face after the other
+    std::vector<std::array<idx, 3>> triangles; ///< the corners of each triangle; empty if all faces are triangles
 
     /// The corner that corner k of triangle c is.
     std::size_t corner(std::size_t c, std::size_t k) const
@@ -65,21 +65,20 @@ struct file_vertices
 struct surface_file
 {
     mesh<triangle> surface;
-    std::vector<vec2> texcoords; ///< as in the file; empty if it has none
-    std::vector<std::array<index, 3>>
-        texcoord_cells;                  ///< one triple a triangle, into texcoords; -1: that corner has none
-    std::vector<std::string> notes = {}; ///< what was changed in reading, in sentences
-    file_faces faces = {};               ///< what the triangles were made from
-    file_vertices vertices = {};         ///< OFF and PLY
-    obj_text obj = {};                   ///< OBJ; else empty
+    std::vector<vec2> texcoords;                    ///< as in the file; empty if it has none
+    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: that corner has none
+    std::vector<std::string> notes = {};            ///< what was changed in reading, in sentences
+    file_faces faces = {};                          ///< what the triangles were made from
+    file_vertices vertices = {};                    ///< OFF and PLY
+    obj_text obj = {};                              ///< OBJ; else empty
 
     /// The texture coordinate of corner k of triangle c.
     /// Throws texcoord_error if it has none, or one that is not there.
     vec2 texcoord(std::size_t c, std::size_t k) const
     {
-        const index t = texcoord_cells.empty() ? -1 : texcoord_cells[c][k];
+        const idx t = texcoord_cells.empty() ? -1 : texcoord_cells[c][k];
         if (t >= 0 && static_cast<std::size_t>(t) < texcoords.size()) return texcoords[static_cast<std::size_t>(t)];
-        const index v = surface.cells()[c][k];
+        const idx v = surface.cells()[c][k];
         throw texcoord_error(
             v, "triangle " + std::to_string(c) + " has " +
                    (t < 0 ? "no texture coordinate"
@@ -97,7 +96,7 @@ struct surface_file
         for (std::size_t c = 0; c < surface.cells().size(); ++c)
             for (std::size_t k = 0; k < 3; ++k)
             {
-                const index vertex = surface.cells()[c][k];
+                const idx vertex = surface.cells()[c][k];
                 const auto v = static_cast<std::size_t>(vertex);
                 const vec2 x = texcoord(c, k);
                 if (known[v] && result[v] != x)

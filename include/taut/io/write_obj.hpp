@@ -8,7 +8,7 @@
 
 #include <taut/io/atomic_file.hpp>
 #include <taut/io/cut_seams.hpp>
-#include <taut/io/obj_output.hpp>
+#include <taut/io/detail/obj_output.hpp>
 #include <taut/io/surface_file.hpp>
 #include <taut/mesh/mesh.hpp>
 

@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <taut/compute/queue.hpp>
-#include <taut/map/level_report.hpp>
-#include <taut/map/precision.hpp>
-#include <taut/map/start_map.hpp>
-#include <taut/map/untangle/untangle_result.hpp>
+#include <taut/compute/queue_counters.hpp>
+#include <taut/measure/describe_defects.hpp>
+#include <taut/objective/level_report.hpp>
+#include <taut/objective/precision.hpp>
+#include <taut/start/start_map.hpp>
+#include <taut/untangle/result.hpp>
 
 namespace taut
 {
@@ -41,7 +42,7 @@ struct map_report
 {
     taut::outcome outcome = outcome::no_valid_start;
     std::string reason;                          ///< why there is no valid map; empty if there is one
-    std::vector<index> ids;                      ///< what the reason is about, see outcome
+    std::vector<idx> ids;                        ///< what the reason is about, see outcome
     std::vector<std::string> notes;              ///< what the library decided on its own
     taut::precision precision = precision::fp64; ///< that the map was calculated in
     start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level

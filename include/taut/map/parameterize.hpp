@@ -25,5 +25,5 @@ map_result parameterize(queue& q, const mesh<Element>& m, const parameterize_par
 
 // Where TAUT_SEPARATE is defined, another file of the project instantiates it.
 #ifndef TAUT_SEPARATE
-#include <taut/map/parameterization.hpp>
+#include <taut/map/detail/parameterization.hpp>
 #endif

@@ -5,14 +5,15 @@
 #include <limits>
 #include <vector>
 
+#include <taut/constrain/constraints.hpp>
+#include <taut/constrain/placement.hpp>
+#include <taut/energy/any_energy.hpp>
 #include <taut/energy/isometric.hpp>
-#include <taut/map/any_energy.hpp>
-#include <taut/map/barycentric_map.hpp>
-#include <taut/map/constraints.hpp>
-#include <taut/map/placement.hpp>
-#include <taut/map/precision.hpp>
-#include <taut/map/untangle/untangle_params.hpp>
-#include <taut/solve/minimize.hpp>
+#include <taut/objective/precision.hpp>
+#include <taut/solve/observer.hpp>
+#include <taut/solve/params.hpp>
+#include <taut/start/barycentric_params.hpp>
+#include <taut/untangle/params.hpp>
 
 namespace taut
 {

@@ -22,7 +22,7 @@ inline std::string counted(std::size_t n, const std::string& thing, const std::s
 }
 
 /// "7 triangles (3, 14, 15, 92, 65, ...)" of n, whose first ids are known.
-inline std::string list_first_ids(const char* thing, const char* things, std::size_t n, const std::vector<index>& ids,
+inline std::string list_first_ids(const char* thing, const char* things, std::size_t n, const std::vector<idx>& ids,
                                   std::size_t group = 1)
 {
     constexpr std::size_t most = 5;
@@ -41,7 +41,7 @@ inline std::string list_first_ids(const char* thing, const char* things, std::si
 }
 
 /// The same of all that are in a list; ids in groups of `group` are written "3-14".
-inline std::string list_ids(const char* thing, const char* things, const std::vector<index>& ids, std::size_t group = 1)
+inline std::string list_ids(const char* thing, const char* things, const std::vector<idx>& ids, std::size_t group = 1)
 {
     return list_first_ids(thing, things, ids.size() / group, ids, group);
 }
@@ -50,7 +50,7 @@ inline std::string list_ids(const char* thing, const char* things, const std::ve
 
 /// The sentence for a fault of a mesh of `Element`s: how many, the first ids, what is wrong, and the remedy.
 template <class Element>
-mesh_finding describe(mesh_fault fault, std::vector<index> ids)
+mesh_finding describe(mesh_fault fault, std::vector<idx> ids)
 {
     const std::string cells = Element::names, facets = Element::facet_names;
     const auto of_cells = [&](std::size_t group = 1)

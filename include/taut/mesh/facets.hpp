@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/mesh/counting_sort.hpp>
+#include <taut/core/counting_sort.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut
@@ -19,12 +19,12 @@ namespace taut
 /// `cell` opposite its corner k.
 struct facet_table
 {
-    static constexpr index boundary = -1; ///< the side has no other side
-    static constexpr index crowded = -2;  ///< three or more cells share the facet
+    static constexpr idx boundary = -1; ///< the side has no other side
+    static constexpr idx crowded = -2;  ///< three or more cells share the facet
 
-    std::vector<index> twin;                 ///< other side of each side, or boundary, or crowded
-    std::vector<std::array<index, 2>> clash; ///< pairs of sides that run the same way: one cell is turned over
-    std::vector<std::vector<index>> crowds;  ///< the sides of each facet with three or more
+    std::vector<idx> twin;                 ///< other side of each side, or boundary, or crowded
+    std::vector<std::array<idx, 2>> clash; ///< pairs of sides that run the same way: one cell is turned over
+    std::vector<std::vector<idx>> crowds;  ///< the sides of each facet with three or more
 
     bool manifold() const { return crowds.empty(); }                  ///< at most two cells a facet
     bool oriented() const { return crowds.empty() && clash.empty(); } ///< and neighbours agree
@@ -32,11 +32,11 @@ struct facet_table
 
 /// The vertices of a side, oriented as the boundary of its cell.
 template <class Element>
-std::array<index, Element::dimension> side_vertices(const mesh<Element>& m, index side)
+std::array<idx, Element::dimension> side_vertices(const mesh<Element>& m, idx side)
 {
     const auto& t = m.cells()[static_cast<std::size_t>(side / Element::corners)];
     const auto& local = Element::facets[static_cast<std::size_t>(side % Element::corners)];
-    std::array<index, Element::dimension> v;
+    std::array<idx, Element::dimension> v;
     for (std::size_t k = 0; k < v.size(); ++k) v[k] = t[static_cast<std::size_t>(local[k])];
     return v;
 }
@@ -48,10 +48,10 @@ namespace detail
 template <int D>
 struct side_key
 {
-    std::array<index, D - 1> rest;
+    std::array<idx, D - 1> rest;
     std::uint32_t tag; // 2 * side + (the vertices are an odd permutation of the sorted ones)
 
-    index side() const { return static_cast<index>(tag >> 1); }
+    idx side() const { return static_cast<idx>(tag >> 1); }
     bool operator<(const side_key& o) const
     {
         // Not by the operators of std::array, which call a function to compare one or two numbers.
@@ -69,7 +69,7 @@ struct side_key
 
 /// The key of a side: sorts its vertices and leaves out the smallest.
 template <int D>
-side_key<D> make_side_key(std::array<index, D> v, index side)
+side_key<D> make_side_key(std::array<idx, D> v, idx side)
 {
     bool odd = false;
     const auto order = [&](std::size_t i, std::size_t j)
@@ -94,7 +94,7 @@ side_key<D> make_side_key(std::array<index, D> v, index side)
 
 /// Links the sides [first, last) of one facet. Returns false if the facet is faulty.
 template <int D>
-bool link(std::vector<index>& twin, const side_key<D>* first, const side_key<D>* last)
+bool link(std::vector<idx>& twin, const side_key<D>* first, const side_key<D>* last)
 {
     if (last - first == 1) return true;
     const bool crowded = last - first > 2;
@@ -153,14 +153,14 @@ facet_table facets(const mesh<Element>& m)
     const std::size_t sides = m.cells().size() * static_cast<std::size_t>(Element::corners);
     const auto smallest = [&](std::size_t s)
     {
-        const auto v = side_vertices(m, static_cast<index>(s));
+        const auto v = side_vertices(m, static_cast<idx>(s));
         return *std::min_element(v.begin(), v.end());
     };
     std::vector<key> keys(sides);
     const auto start = detail::counting_sort(
         sides, m.points().size(), smallest,
         [&](std::size_t s, std::size_t position)
-        { keys[position] = detail::make_side_key<D>(side_vertices(m, static_cast<index>(s)), static_cast<index>(s)); });
+        { keys[position] = detail::make_side_key<D>(side_vertices(m, static_cast<idx>(s)), static_cast<idx>(s)); });
 
     facet_table f;
     f.twin.assign(sides, facet_table::boundary);

@@ -48,7 +48,7 @@ inline mat3 invert_upper(const mat3& W)
 
 /// The corners of cell c of the mesh times `scale`.
 template <class Element>
-typename Element::rest_corners scaled_rest(const mesh<Element>& m, index c, double scale)
+typename Element::rest_corners scaled_rest(const mesh<Element>& m, idx c, double scale)
 {
     auto x = m.rest(c);
     for (vec3& p : x) p *= scale;
@@ -57,28 +57,28 @@ typename Element::rest_corners scaled_rest(const mesh<Element>& m, index c, doub
 
 /// W of cell c of the mesh times `scale`.
 template <class Element>
-mat<Element::dimension> ideal_of(const mesh<Element>& m, index c, double scale)
+mat<Element::dimension> ideal_of(const mesh<Element>& m, idx c, double scale)
 {
     return Element::ideal(scaled_rest(m, c, scale));
 }
 
 /// Cells that are flat, and cells that are inverted, at rest.
 template <class Element>
-std::pair<std::vector<index>, std::vector<index>> bad_rest_cells(const mesh<Element>& m)
+std::pair<std::vector<idx>, std::vector<idx>> bad_rest_cells(const mesh<Element>& m)
 {
     const double unit = unit_scale(m);
-    const auto flatness = [&](index c) { return Element::flatness(ideal_of(m, c, unit)); };
+    const auto flatness = [&](idx c) { return Element::flatness(ideal_of(m, c, unit)); };
     std::atomic<bool> any{false};
     parallel_for(m.cells().size(),
                  [&](std::size_t begin, std::size_t end)
                  {
                      for (std::size_t c = begin; c < end; ++c)
-                         if (!Element::is_thick(scaled_rest(m, static_cast<index>(c), unit)) &&
-                             !(flatness(static_cast<index>(c)) > flattest))
+                         if (!Element::is_thick(scaled_rest(m, static_cast<idx>(c), unit)) &&
+                             !(flatness(static_cast<idx>(c)) > flattest))
                              any = true;
                  });
-    std::pair<std::vector<index>, std::vector<index>> bad;
-    for (index c = 0; any && c < m.cell_count(); ++c)
+    std::pair<std::vector<idx>, std::vector<idx>> bad;
+    for (idx c = 0; any && c < m.cell_count(); ++c)
     {
         const double f = flatness(c);
         if (f < -flattest)
@@ -114,7 +114,7 @@ struct ideal_elements
                      {
                          for (std::size_t c = begin; c < end; ++c)
                          {
-                             const mat<D> W = detail::ideal_of(m, static_cast<index>(c), unit);
+                             const mat<D> W = detail::ideal_of(m, static_cast<idx>(c), unit);
                              if (!(Element::flatness(W) > flattest)) bad = true;
                              double det = measure_scale;
                              for (int k = 0; k < D; ++k) det *= W[k][k];

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <taut/mesh/counting_sort.hpp>
+#include <taut/core/counting_sort.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut
@@ -15,11 +15,11 @@ namespace taut
 /// Rows of varying length: row r is items[offsets[r]] .. items[offsets[r + 1] - 1].
 struct csr
 {
-    std::vector<index> offsets; ///< rows + 1
-    std::vector<index> items;
+    std::vector<idx> offsets; ///< rows + 1
+    std::vector<idx> items;
 
-    index rows() const { return static_cast<index>(offsets.size()) - 1; }
-    std::span<const index> row(index r) const
+    idx rows() const { return static_cast<idx>(offsets.size()) - 1; }
+    std::span<const idx> row(idx r) const
     {
         const auto first = static_cast<std::size_t>(offsets[static_cast<std::size_t>(r)]);
         const auto last = static_cast<std::size_t>(offsets[static_cast<std::size_t>(r) + 1]);
@@ -37,7 +37,7 @@ csr vertex_corners(const mesh<Element>& m)
     r.items.resize(m.cells().size() * n);
     r.offsets = detail::counting_sort(
         r.items.size(), m.points().size(), [&](std::size_t corner) { return m.cells()[corner / n][corner % n]; },
-        [&](std::size_t corner, std::size_t position) { r.items[position] = static_cast<index>(corner); });
+        [&](std::size_t corner, std::size_t position) { r.items[position] = static_cast<idx>(corner); });
     return r;
 }
 
@@ -46,7 +46,7 @@ template <class Element>
 csr vertex_cells(const mesh<Element>& m)
 {
     csr r = vertex_corners(m);
-    for (index& i : r.items) i /= Element::corners;
+    for (idx& i : r.items) i /= Element::corners;
     return r;
 }
 
@@ -59,15 +59,15 @@ csr vertex_neighbours(const mesh<Element>& m)
     r.offsets.reserve(around.offsets.size());
     r.offsets.push_back(0);
     r.items.reserve(around.items.size() + around.items.size() / 2);
-    for (index v = 0; v < m.vertex_count(); ++v)
+    for (idx v = 0; v < m.vertex_count(); ++v)
     {
         const auto first = static_cast<std::ptrdiff_t>(r.items.size());
-        for (const index i : around.row(v))
-            for (const index w : m.cells()[static_cast<std::size_t>(i / Element::corners)])
+        for (const idx i : around.row(v))
+            for (const idx w : m.cells()[static_cast<std::size_t>(i / Element::corners)])
                 if (w != v) r.items.push_back(w);
         std::sort(r.items.begin() + first, r.items.end());
         r.items.erase(std::unique(r.items.begin() + first, r.items.end()), r.items.end());
-        r.offsets.push_back(static_cast<index>(r.items.size()));
+        r.offsets.push_back(static_cast<idx>(r.items.size()));
     }
     return r;
 }

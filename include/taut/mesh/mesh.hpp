@@ -30,7 +30,7 @@ public:
     using element = Element;
     static constexpr int dimension = Element::dimension;
     static constexpr int corners = Element::corners;
-    using cell = std::array<index, static_cast<std::size_t>(corners)>;
+    using cell = std::array<idx, static_cast<std::size_t>(corners)>;
 
     /// Throws mesh_error: empty, too_large, index_out_of_range, repeated_vertex, non_finite.
     mesh(std::vector<vec3> points, std::vector<cell> cells) : points_(std::move(points)), cells_(std::move(cells))
@@ -45,11 +45,11 @@ public:
     // (with GLM as it comes; its aligned types have gaps).
     const std::vector<vec3>& points() const noexcept { return points_; } ///< rest positions, one a vertex
     const std::vector<cell>& cells() const noexcept { return cells_; }   ///< vertices of each cell, oriented
-    index vertex_count() const noexcept { return static_cast<index>(points_.size()); }
-    index cell_count() const noexcept { return static_cast<index>(cells_.size()); }
+    idx vertex_count() const noexcept { return static_cast<idx>(points_.size()); }
+    idx cell_count() const noexcept { return static_cast<idx>(cells_.size()); }
 
     /// The rest positions of the corners of cell c.
-    typename Element::rest_corners rest(index c) const
+    typename Element::rest_corners rest(idx c) const
     {
         const cell& t = cells_[static_cast<std::size_t>(c)];
         typename Element::rest_corners x;
@@ -62,7 +62,7 @@ private:
     {
         if (cells_.empty()) throw mesh_error(describe<Element>(mesh_fault::empty, {}));
         // Corners and facets are numbered cell * corners + k in 32 bits.
-        constexpr std::size_t limit = std::numeric_limits<index>::max();
+        constexpr std::size_t limit = std::numeric_limits<idx>::max();
         if (points_.size() > limit || cells_.size() > limit / static_cast<std::size_t>(corners))
             throw mesh_error(mesh_fault::too_large, {},
                              std::to_string(points_.size()) + " vertices and " + std::to_string(cells_.size()) + ' ' +
@@ -72,13 +72,13 @@ private:
     /// False for a cell that names a vertex twice. Throws mesh_error for one that names no vertex.
     bool is_proper(std::size_t c) const
     {
-        const index n = vertex_count();
+        const idx n = vertex_count();
         const cell& t = cells_[c];
         bool twice = false;
         for (std::size_t k = 0; k < t.size(); ++k)
         {
             if (t[k] < 0 || t[k] >= n)
-                throw mesh_error(mesh_fault::index_out_of_range, {static_cast<index>(c), t[k]},
+                throw mesh_error(mesh_fault::index_out_of_range, {static_cast<idx>(c), t[k]},
                                  std::string(Element::name) + ' ' + std::to_string(c) + ": vertex " +
                                      std::to_string(t[k]) + (t[k] < 0 ? " < 0" : " >= " + std::to_string(n)));
             for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
@@ -117,17 +117,17 @@ private:
 
     void require_cells() const
     {
-        std::vector<index> repeated;
+        std::vector<idx> repeated;
         for (std::size_t c = 0; c < cells_.size(); ++c)
-            if (!is_proper(c)) repeated.push_back(static_cast<index>(c));
+            if (!is_proper(c)) repeated.push_back(static_cast<idx>(c));
         if (!repeated.empty()) throw mesh_error(describe<Element>(mesh_fault::repeated_vertex, std::move(repeated)));
     }
 
     void require_finite() const
     {
-        std::vector<index> bad;
+        std::vector<idx> bad;
         for (std::size_t v = 0; v < points_.size(); ++v)
-            if (!is_finite(points_[v])) bad.push_back(static_cast<index>(v));
+            if (!is_finite(points_[v])) bad.push_back(static_cast<idx>(v));
         if (!bad.empty()) throw mesh_error(describe<Element>(mesh_fault::non_finite, std::move(bad)));
     }
 

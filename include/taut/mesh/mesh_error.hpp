@@ -81,7 +81,7 @@ constexpr const char* to_string(mesh_fault fault)
 struct mesh_finding
 {
     mesh_fault fault;
-    std::vector<index> ids; ///< 0-based; which kind: see mesh_fault
+    std::vector<idx> ids; ///< 0-based; which kind: see mesh_fault
     std::string message;
 };
 
@@ -93,17 +93,17 @@ public:
         : error(finding.message), fault_(finding.fault), ids_(std::move(finding.ids))
     {
     }
-    mesh_error(mesh_fault fault, std::vector<index> ids, const std::string& message)
+    mesh_error(mesh_fault fault, std::vector<idx> ids, const std::string& message)
         : error(message), fault_(fault), ids_(std::move(ids))
     {
     }
 
     mesh_fault fault() const noexcept { return fault_; }
-    const std::vector<index>& ids() const noexcept { return ids_; }
+    const std::vector<idx>& ids() const noexcept { return ids_; }
 
 private:
     mesh_fault fault_;
-    std::vector<index> ids_;
+    std::vector<idx> ids_;
 };
 
 } // namespace taut

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/mesh/counting_sort.hpp>
+#include <taut/core/counting_sort.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut
@@ -17,16 +17,16 @@ namespace taut
 /// A renumbering and its inverse.
 struct permutation
 {
-    std::vector<index> new_to_old; ///< new_to_old[i] is the old number of what is now i
-    std::vector<index> old_to_new;
+    std::vector<idx> new_to_old; ///< new_to_old[i] is the old number of what is now i
+    std::vector<idx> old_to_new;
 
-    explicit permutation(std::vector<index> from = {}) : new_to_old(std::move(from)), old_to_new(new_to_old.size())
+    explicit permutation(std::vector<idx> from = {}) : new_to_old(std::move(from)), old_to_new(new_to_old.size())
     {
         parallel_for(new_to_old.size(),
                      [this](std::size_t begin, std::size_t end)
                      {
                          for (std::size_t i = begin; i < end; ++i)
-                             old_to_new[static_cast<std::size_t>(new_to_old[i])] = static_cast<index>(i);
+                             old_to_new[static_cast<std::size_t>(new_to_old[i])] = static_cast<idx>(i);
                      });
     }
 
@@ -35,7 +35,7 @@ struct permutation
     {
         permutation p;
         p.new_to_old.resize(n);
-        std::iota(p.new_to_old.begin(), p.new_to_old.end(), index(0));
+        std::iota(p.new_to_old.begin(), p.new_to_old.end(), idx(0));
         p.old_to_new = p.new_to_old;
         return p;
     }
@@ -55,7 +55,7 @@ struct permutation
 
 private:
     template <class T>
-    static std::vector<T> pick(const std::vector<T>& values, const std::vector<index>& from)
+    static std::vector<T> pick(const std::vector<T>& values, const std::vector<idx>& from)
     {
         std::vector<T> r(from.size());
         parallel_for(r.size(),
@@ -100,7 +100,7 @@ inline std::uint64_t morton(const vec3& p)
 }
 
 /// Vertices along the Morton curve of their rest positions.
-inline std::vector<index> along_curve(const std::vector<vec3>& points)
+inline std::vector<idx> along_curve(const std::vector<vec3>& points)
 {
     vec3 low = points[0], high = points[0];
     for (const vec3& p : points)
@@ -111,7 +111,7 @@ inline std::vector<index> along_curve(const std::vector<vec3>& points)
     // Halves, because the extent of finite points may overflow.
     const vec3 half = 0.5 * high - 0.5 * low;
     const double extent = std::max({half.x, half.y, half.z});
-    using key = std::pair<std::uint64_t, index>;
+    using key = std::pair<std::uint64_t, idx>;
     std::vector<key> keys(points.size()), sorted(points.size());
     parallel_for(points.size(),
                  [&](std::size_t begin, std::size_t end)
@@ -119,7 +119,7 @@ inline std::vector<index> along_curve(const std::vector<vec3>& points)
                      for (std::size_t v = begin; v < end; ++v)
                      {
                          const vec3 unit = extent > 0 ? (0.5 * points[v] - 0.5 * low) / extent : vec3(0.0);
-                         keys[v] = {morton(2097151.0 * unit), static_cast<index>(v)};
+                         keys[v] = {morton(2097151.0 * unit), static_cast<idx>(v)};
                      }
                  });
 
@@ -128,7 +128,7 @@ inline std::vector<index> along_curve(const std::vector<vec3>& points)
     const auto start = counting_sort(
         keys.size(), std::size_t{1} << digits, [&](std::size_t i) { return keys[i].first >> (63 - digits); },
         [&](std::size_t i, std::size_t position) { sorted[position] = keys[i]; });
-    std::vector<index> order(points.size());
+    std::vector<idx> order(points.size());
     parallel_for(
         start.size() - 1,
         [&](std::size_t begin, std::size_t end)
@@ -151,21 +151,21 @@ template <class Element>
 mesh_order locality_order(const mesh<Element>& m)
 {
     mesh_order order{permutation(detail::along_curve(m.points())), permutation()};
-    std::vector<index> smallest(m.cells().size()), cells(m.cells().size());
+    std::vector<idx> smallest(m.cells().size()), cells(m.cells().size());
     parallel_for(smallest.size(),
                  [&](std::size_t begin, std::size_t end)
                  {
                      for (std::size_t c = begin; c < end; ++c)
                      {
-                         index least = m.vertex_count();
-                         for (const index v : m.cells()[c])
+                         idx least = m.vertex_count();
+                         for (const idx v : m.cells()[c])
                              least = std::min(least, order.vertices.old_to_new[static_cast<std::size_t>(v)]);
                          smallest[c] = least;
                      }
                  });
     detail::counting_sort(
         cells.size(), m.points().size(), [&](std::size_t c) { return smallest[c]; },
-        [&](std::size_t c, std::size_t position) { cells[position] = static_cast<index>(c); });
+        [&](std::size_t c, std::size_t position) { cells[position] = static_cast<idx>(c); });
     order.cells = permutation(std::move(cells));
     return order;
 }
@@ -174,7 +174,7 @@ mesh_order locality_order(const mesh<Element>& m)
 struct solution_order
 {
     mesh_order order;
-    index free_count = 0; ///< vertices [0, free_count) of the new order move, the rest are pinned
+    idx free_count = 0; ///< vertices [0, free_count) of the new order move, the rest are pinned
 
     /// pinned: one flag a vertex of the mesh, or empty.
     template <class Element>
@@ -184,8 +184,8 @@ struct solution_order
         if (pinned.empty()) return;
         auto numbers = std::move(order.vertices.new_to_old);
         const auto first_pinned = std::stable_partition(
-            numbers.begin(), numbers.end(), [&](index old) { return !pinned[static_cast<std::size_t>(old)]; });
-        free_count = static_cast<index>(first_pinned - numbers.begin());
+            numbers.begin(), numbers.end(), [&](idx old) { return !pinned[static_cast<std::size_t>(old)]; });
+        free_count = static_cast<idx>(first_pinned - numbers.begin());
         order.vertices = permutation(std::move(numbers));
     }
 };
@@ -201,7 +201,7 @@ mesh<Element> permute(const mesh<Element>& m, const mesh_order& order)
                      for (std::size_t c = begin; c < end; ++c)
                      {
                          cells[c] = m.cells()[static_cast<std::size_t>(order.cells.new_to_old[c])];
-                         for (index& v : cells[c]) v = order.vertices.old_to_new[static_cast<std::size_t>(v)];
+                         for (idx& v : cells[c]) v = order.vertices.old_to_new[static_cast<std::size_t>(v)];
                      }
                  });
     return {order.vertices.apply(m.points()), std::move(cells)};

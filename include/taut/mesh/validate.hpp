@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <taut/mesh/boundary.hpp>
+#include <taut/mesh/detail/manifold.hpp>
 #include <taut/mesh/ideal.hpp>
-#include <taut/mesh/manifold.hpp>
 
 namespace taut
 {
@@ -28,9 +28,9 @@ template <class Element>
 std::vector<mesh_finding> check(const mesh<Element>& m, const facet_table& f, const mesh_requirements& need = {})
 {
     std::vector<mesh_finding> found;
-    const auto report = [&](mesh_fault fault, std::vector<index> ids)
+    const auto report = [&](mesh_fault fault, std::vector<idx> ids)
     { found.push_back(describe<Element>(fault, std::move(ids))); };
-    const auto report_any = [&](mesh_fault fault, std::vector<index> ids)
+    const auto report_any = [&](mesh_fault fault, std::vector<idx> ids)
     {
         if (!ids.empty()) report(fault, std::move(ids));
     };
@@ -61,7 +61,7 @@ std::vector<mesh_finding> check(const mesh<Element>& m, const facet_table& f, co
         if (need.open && loops.empty()) report(mesh_fault::closed_surface, {});
         if (need.one_boundary && loops.size() > parts.first.size())
         {
-            std::vector<index> first;
+            std::vector<idx> first;
             for (const auto& loop : loops) first.push_back(loop[0]);
             report(mesh_fault::several_boundaries, std::move(first));
         }

@@ -2,41 +2,12 @@
 #pragma once
 
 #include <taut/solve/descent.hpp>
-#include <taut/solve/quasi_newton.hpp>
 
 #include <cmath>
 #include <utility>
 
 namespace taut::solve
 {
-
-/// beta of the conjugate directions, in the inner product of the preconditioner H = H_{k+1}. Negative ones, which
-/// inexact searches that stop short produce, become 0 (Nocedal & Wright, 5.45, for either formula).
-enum class conjugacy
-{
-    hestenes_stiefel, ///< y'H g_{k+1} / y'd_k: the paper's
-    polak_ribiere     ///< y'H g_{k+1} / g_k'H g_k: "PR+"
-};
-
-/// The paper's preconditioned nonlinear conjugate gradient.
-struct conjugate_gradient_params
-{
-    conjugacy beta = conjugacy::hestenes_stiefel;
-
-    /// The preconditioner: m pairs of L-BFGS (the paper compares several m, Figure 7; its released code takes 1). 0 is
-    /// the plain method.
-    memory_params memory = {.pairs = 5, .scaling = scaling::largest};
-
-    /// Forget the step before every so many iterations. Range >= 0; 0: only where the direction does not descend or
-    /// the line search fails. The number of unknowns is the classic choice for the plain method on small problems.
-    int restart_interval = 0;
-
-    void validate() const
-    {
-        memory.validate();
-        if (restart_interval < 0) throw parameter_error("conjugate_gradient.restart_interval", "must not be negative");
-    }
-};
 
 /// beta of Algorithm 1, line 2, as a rule for `descent`. With s = a d_k of the step before, beta d_k = (beta / a) s.
 ///
@@ -83,8 +54,8 @@ report conjugate_gradient(Objective& f, typename Objective::point& x, const conj
 {
     params.validate();
     common.validate();
-    return with_inverse_hessian(f, params.memory,
-                                [&](auto& h) { return descent(f, x, h, conjugate_rule(params), common, ask).run(); });
+    auto h = inverse_hessian(f, params.memory);
+    return descent(f, x, h, conjugate_rule(params), common, ask).run();
 }
 
 } // namespace taut::solve

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/solve/any_line.hpp>
-#include <taut/solve/descent_params.hpp>
-#include <taut/solve/objective_line.hpp>
+#include <taut/solve/gram.hpp>
+#include <taut/solve/line/any_line.hpp>
+#include <taut/solve/line/objective_line.hpp>
 #include <taut/solve/report.hpp>
+#include <taut/solve/stopping.hpp>
 
 #include <algorithm>
 #include <cmath>

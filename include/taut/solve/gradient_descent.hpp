@@ -2,7 +2,6 @@
 #pragma once
 
 #include <taut/solve/descent.hpp>
-#include <taut/solve/quasi_newton.hpp>
 
 namespace taut::solve
 {
@@ -16,7 +15,8 @@ report gradient_descent(Objective& f, typename Objective::point& x, const descen
 {
     common.validate();
     const memory_params none{.pairs = 0};
-    return with_inverse_hessian(f, none, [&](auto& h) { return descent(f, x, h, no_momentum{}, common, ask).run(); });
+    auto h = inverse_hessian(f, none);
+    return descent(f, x, h, no_momentum{}, common, ask).run();
 }
 
 } // namespace taut::solve

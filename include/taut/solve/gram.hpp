@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/solve/objective.hpp>
 #include <taut/solve/pair_memory.hpp>
 
 #include <algorithm>
@@ -249,5 +250,15 @@ private:
     double length_ = 1, step_ = 1, proposed_step_ = 1;
     bool skipped_ = false;
 };
+
+/// The inverse Hessian of an objective, with its preconditioner as H0 where it has one. Refers to the objective.
+template <objective Objective>
+gram_inverse_hessian<space_of<Objective>> inverse_hessian(Objective& f, const memory_params& params)
+{
+    preconditioner<vector_of<Objective>> h0;
+    if constexpr (has_precondition<Objective>)
+        h0 = [&f](const vector_of<Objective>& v, vector_of<Objective>& out) { f.precondition(v, out); };
+    return gram_inverse_hessian<space_of<Objective>>(f.space(), params, std::move(h0));
+}
 
 } // namespace taut::solve

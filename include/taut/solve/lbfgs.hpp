@@ -2,18 +2,9 @@
 #pragma once
 
 #include <taut/solve/descent.hpp>
-#include <taut/solve/quasi_newton.hpp>
 
 namespace taut::solve
 {
-
-/// The limited-memory BFGS method.
-struct lbfgs_params
-{
-    memory_params memory = {};
-
-    void validate() const { memory.validate(); }
-};
 
 /// Minimises f from x by d = -H_k g_k with the last m pairs in H_k (Nocedal & Wright, Algorithm 7.5). An objective with
 /// a preconditioner gives H0, scaled by s'y / y'H0 y; one with a Hessian is linearized at the start, and again as the
@@ -29,8 +20,8 @@ report lbfgs(Objective& f, typename Objective::point& x, const lbfgs_params& par
 {
     params.validate();
     common.validate();
-    return with_inverse_hessian(f, params.memory,
-                                [&](auto& h) { return descent(f, x, h, no_momentum{}, common, ask).run(); });
+    auto h = inverse_hessian(f, params.memory);
+    return descent(f, x, h, no_momentum{}, common, ask).run();
 }
 
 } // namespace taut::solve

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/solve/descent_params.hpp>
 #include <taut/solve/monitor.hpp>
 #include <taut/solve/objective.hpp>
+#include <taut/solve/params.hpp>
 #include <taut/solve/pcg.hpp>
 #include <taut/solve/report.hpp>
+#include <taut/solve/stopping.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,26 +21,6 @@
 
 namespace taut::solve
 {
-
-/// Newton's method with inexact directions.
-struct newton_params
-{
-    pcg_params pcg = {};
-
-    /// The Hessian itself takes the place of its positive semi-definite stand-in once an iteration lowers the value by
-    /// less than this part: near a minimum it halves the iterations, far from one it misleads. Range [0, 1).
-    double exact_below = 1e-3;
-
-    /// After a step shorter than this the objective is asked to relax what cut it short. Range [0, 1].
-    double relax_below = 0.5;
-
-    void validate() const
-    {
-        pcg.validate();
-        if (!(exact_below >= 0 && exact_below < 1)) throw parameter_error("newton.exact_below", "must be in [0, 1)");
-        if (!(relax_below >= 0 && relax_below <= 1)) throw parameter_error("newton.relax_below", "must be in [0, 1]");
-    }
-};
 
 namespace detail
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/core/error.hpp>
+#include <taut/solve/params.hpp>
 #include <taut/solve/vector_space.hpp>
 
 #include <algorithm>
@@ -12,40 +12,6 @@
 
 namespace taut::solve
 {
-
-/// The factor gamma of H0 = gamma I (or gamma times the objective's own H0).
-enum class scaling
-{
-    newest, ///< s'y / y'H0 y of the newest pair (Nocedal & Wright, 7.20)
-    largest ///< the larger of those of the oldest and the newest pair: the paper's [24] as its authors use it
-};
-
-/// The products of two inverse Hessian forms are the same up to rounding.
-enum class inverse_hessian_form
-{
-    gram,    ///< one multi_dot and one linear_combination an iteration: for devices
-    two_loop ///< 4 m products one by one: the textbook's, for the host and for comparison
-};
-
-struct memory_params
-{
-    /// m: pairs (s, y) kept. Range 0..64; 0 leaves H0. 5 to 20 are usual: more memory, fewer iterations.
-    int pairs = 8;
-
-    solve::scaling scaling = solve::scaling::newest;
-
-    inverse_hessian_form form = inverse_hessian_form::gram;
-
-    /// A pair with s'y <= cautious |s| |y| is left out (Li & Fukushima 2001), which keeps H positive definite.
-    /// Range [0, 1). Raise it where gradients are noisy.
-    double cautious = 1e-8;
-
-    void validate() const
-    {
-        if (pairs < 0 || pairs > 64) throw parameter_error("memory.pairs", "must be in 0..64");
-        if (!(cautious >= 0 && cautious < 1)) throw parameter_error("memory.cautious", "must be in [0, 1)");
-    }
-};
 
 /// H0 of an objective: out = H0 v. Empty stands for the identity.
 template <class Vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/core/error.hpp>
+#include <taut/solve/params.hpp>
 #include <taut/solve/vector_space.hpp>
 
 #include <algorithm>
@@ -12,29 +12,6 @@
 
 namespace taut::solve
 {
-
-/// How exactly a Newton system is solved.
-struct pcg_params
-{
-    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000.
-    int max_steps = 40;
-
-    /// Steps between two looks at the result, at most; each look is a host wait. The first system is looked at after
-    /// two, each further one after as many as the one before was found to need. Range 1..8.
-    int block = 6;
-
-    /// Go on while the last step brought more than this part of what the steps brought on average (Nash & Sofer 1990,
-    /// "Assessing a search direction within a truncated-Newton method"); of later blocks, their mean step. Range (0,
-    /// 1). Lower it for more exact directions.
-    double gain = 0.25;
-
-    void validate() const
-    {
-        if (max_steps < 1 || max_steps > 1000) throw parameter_error("pcg.max_steps", "must be in 1..1000");
-        if (block < 1 || block > 8) throw parameter_error("pcg.block", "must be in 1..8");
-        if (!(gain > 0 && gain < 1)) throw parameter_error("pcg.gain", "must be in (0, 1)");
-    }
-};
 
 /// What preconditioned conjugate gradients found.
 struct pcg_result

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/core/error.hpp>
+#include <taut/solve/params.hpp>
 #include <taut/solve/stop.hpp>
 
 #include <algorithm>
@@ -12,56 +12,6 @@
 
 namespace taut::solve
 {
-
-/// When to stop. A tolerance of 0 switches its test off.
-struct stopping_params
-{
-    /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
-    /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
-    double gradient_tolerance = 1e-6;
-
-    /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f - base|. A decrease along a
-    /// step that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only where the
-    /// gradient has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop
-    /// where the value, not the point, matters.
-    double decrease_tolerance = 1e-14;
-
-    /// A value that f cannot fall below, or 0. What is left above it, not the value itself, then tells what a decrease
-    /// is worth.
-    double base = 0;
-
-    /// Range >= 1. One small decrease is often an accident of the line search.
-    int decrease_count = 2;
-
-    /// Stop after `decrease_count` uncapped steps in a row of at most step_tolerance * the longest step of the run.
-    /// Range [0, 1); off by default.
-    double step_tolerance = 0;
-
-    /// Stop with stop::barrier after so many steps in a row that a barrier cut and that gained less than
-    /// decrease_tolerance. Range >= 1.
-    int barrier_count = 10;
-
-    /// Range >= 0.
-    int max_iterations = 10000;
-
-    /// Range > 0; infinite by default. The current evaluation is always finished.
-    std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()};
-
-    void validate() const
-    {
-        const auto fraction = [](double t, const char* field)
-        {
-            if (!(t >= 0 && t < 1)) throw parameter_error(field, "must be in [0, 1)");
-        };
-        fraction(gradient_tolerance, "stopping.gradient_tolerance");
-        fraction(decrease_tolerance, "stopping.decrease_tolerance");
-        fraction(step_tolerance, "stopping.step_tolerance");
-        if (decrease_count < 1) throw parameter_error("stopping.decrease_count", "must be at least 1");
-        if (barrier_count < 1) throw parameter_error("stopping.barrier_count", "must be at least 1");
-        if (max_iterations < 0) throw parameter_error("stopping.max_iterations", "must not be negative");
-        if (!(time_limit.count() > 0)) throw parameter_error("stopping.time_limit", "must be positive");
-    }
-};
 
 /// An accepted step as the stopping tests see it.
 struct step_record

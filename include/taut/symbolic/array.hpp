@@ -19,7 +19,7 @@ class element_reference
     using value = typename Sym::value_type;
 
 public:
-    element_reference(std::uint32_t argument, sym<index> at) noexcept : argument_(argument), at_(at) {}
+    element_reference(std::uint32_t argument, sym<idx> at) noexcept : argument_(argument), at_(at) {}
     element_reference(const element_reference&) = default;
 
     operator Sym() const { return load(); }
@@ -47,7 +47,7 @@ public:
 
 private:
     std::uint32_t argument_;
-    sym<index> at_;
+    sym<idx> at_;
 };
 
 /// An element that the kernel only writes. It does not convert, so that reading an output does not compile.
@@ -55,7 +55,7 @@ template <class Sym>
 class element_sink
 {
 public:
-    element_sink(std::uint32_t argument, sym<index> at) noexcept : argument_(argument), at_(at) {}
+    element_sink(std::uint32_t argument, sym<idx> at) noexcept : argument_(argument), at_(at) {}
     element_sink(const element_sink&) = delete;
 
     const element_sink& operator=(Sym x) const
@@ -67,7 +67,7 @@ public:
 
 private:
     std::uint32_t argument_;
-    sym<index> at_;
+    sym<idx> at_;
 };
 
 /// A pointer argument that the kernel only reads: x[i] is a traced value.
@@ -76,7 +76,7 @@ class in_array
 {
 public:
     explicit in_array(std::uint32_t argument) noexcept : argument_(argument) {}
-    sym<T> operator[](sym<index> at) const
+    sym<T> operator[](sym<idx> at) const
     {
         return sym<T>::of(tape::current().load(argument_, scalar_type_of<T>, at.id()));
     }
@@ -91,7 +91,7 @@ class out_array
 {
 public:
     explicit out_array(std::uint32_t argument) noexcept : argument_(argument) {}
-    element_sink<sym<T>> operator[](sym<index> at) const { return {argument_, at}; }
+    element_sink<sym<T>> operator[](sym<idx> at) const { return {argument_, at}; }
 
 private:
     std::uint32_t argument_;
@@ -103,7 +103,7 @@ class inout_array
 {
 public:
     explicit inout_array(std::uint32_t argument) noexcept : argument_(argument) {}
-    element_reference<sym<T>> operator[](sym<index> at) const { return {argument_, at}; }
+    element_reference<sym<T>> operator[](sym<idx> at) const { return {argument_, at}; }
 
 private:
     std::uint32_t argument_;

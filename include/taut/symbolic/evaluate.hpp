@@ -94,11 +94,11 @@ private:
     std::uint64_t run_loop(const detail::schedule& plan, const node& n)
     {
         const auto index_node = static_cast<node_id>(n.payload);
-        const auto begin = detail::from_bits<index>(value(n.operands[0]));
-        const auto end = detail::from_bits<index>(value(n.operands[1]));
+        const auto begin = detail::from_bits<idx>(value(n.operands[0]));
+        const auto end = detail::from_bits<idx>(value(n.operands[1]));
         const node add{.op = opcode::add, .type = n.type};
         std::uint64_t sum = 0; // the bits of every type's zero
-        for (index k = begin; k < end; ++k)
+        for (idx k = begin; k < end; ++k)
         {
             value(index_node) = detail::to_bits(k);
             run(plan, plan.body(index_node));

@@ -39,7 +39,7 @@ enum class kernel_form : std::uint8_t
 };
 
 /// Indices per work-item of kernel_form::run: long enough to hide the cost of starting one.
-inline constexpr index run_length = 256;
+inline constexpr idx run_length = 256;
 
 /// A complete OpenCL C 1.2 program with one kernel. Equal recordings give equal text, so the text is its own cache key.
 struct kernel_text

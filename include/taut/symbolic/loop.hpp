@@ -12,13 +12,13 @@ namespace taut
 /// The sum of summand(k) for k = begin, ..., end - 1, in this order: a loop of the kernel, for counts that are known
 /// only there, as the row of a sparse matrix (a `for` of the host is unrolled instead). Empty ranges give 0.
 ///
-/// `summand` maps a sym<index> to a sym<T>. What it loads is loaded inside of the loop; what it computes without k is
+/// `summand` maps a sym<idx> to a sym<T>. What it loads is loaded inside of the loop; what it computes without k is
 /// computed once. It cannot store, values cannot leave it but as the sum, and there is no derivative through it.
 template <class F>
-auto sum_over(sym<index> begin, sym<index> end, F&& summand)
+auto sum_over(sym<idx> begin, sym<idx> end, F&& summand)
 {
     tape& t = tape::current();
-    using result = decltype(+std::forward<F>(summand)(sym<index>())); // a proxy becomes its value
+    using result = decltype(+std::forward<F>(summand)(sym<idx>())); // a proxy becomes its value
     using value = typename result::value_type;
 
     struct open_loop // closes also when the summand throws
@@ -38,7 +38,7 @@ auto sum_over(sym<index> begin, sym<index> end, F&& summand)
     {
         const open_loop body(t);
         loop = body.index_node;
-        const result r = std::forward<F>(summand)(sym<index>::of(loop));
+        const result r = std::forward<F>(summand)(sym<idx>::of(loop));
         term = r.id();
     }
     return result::of(t.intern({.op = opcode::loop_sum,

@@ -62,10 +62,10 @@ public:
     }
 
     /// The number of the work-item along dimension 0, 1 or 2 of the range.
-    sym<index> global_id(unsigned dimension = 0)
+    sym<idx> global_id(unsigned dimension = 0)
     {
         if (dimension > 2) throw parameter_error("dimension", "a range has the dimensions 0, 1 and 2");
-        return sym<index>::of(tape_.intern({.op = opcode::global_id, .type = scalar_type::i32, .payload = dimension}));
+        return sym<idx>::of(tape_.intern({.op = opcode::global_id, .type = scalar_type::i32, .payload = dimension}));
     }
 
     const std::vector<kernel_argument>& arguments() const noexcept { return arguments_; }

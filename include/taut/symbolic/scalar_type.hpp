@@ -24,14 +24,14 @@ enum class scalar_type : std::uint8_t
 
 /// Host types with a traced counterpart sym<T>.
 template <class T>
-concept traceable = std::same_as<T, float> || std::same_as<T, double> || std::same_as<T, index>;
+concept traceable = std::same_as<T, float> || std::same_as<T, double> || std::same_as<T, idx>;
 
 /// The scalar_type of a host type.
 template <class T>
     requires(traceable<T> || std::same_as<T, bool>)
 inline constexpr scalar_type scalar_type_of = std::same_as<T, float>    ? scalar_type::f32
                                               : std::same_as<T, double> ? scalar_type::f64
-                                              : std::same_as<T, index>  ? scalar_type::i32
+                                              : std::same_as<T, idx>    ? scalar_type::i32
                                                                         : scalar_type::boolean;
 
 constexpr bool is_floating(scalar_type type) noexcept
@@ -89,7 +89,7 @@ constexpr decltype(auto) with_type(scalar_type type, F&& f)
     case scalar_type::f64:
         return f(std::type_identity<double>{});
     case scalar_type::i32:
-        return f(std::type_identity<index>{});
+        return f(std::type_identity<idx>{});
     case scalar_type::boolean:
         break;
     }

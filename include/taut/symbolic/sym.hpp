@@ -58,8 +58,8 @@ private:
     template <class A>
     static T narrow(A value)
     {
-        if constexpr (std::same_as<T, index>)
-            if (!std::in_range<index>(value)) throw tape_error("an integer constant does not fit into 32 bits");
+        if constexpr (std::same_as<T, idx>)
+            if (!std::in_range<idx>(value)) throw tape_error("an integer constant does not fit into 32 bits");
         return static_cast<T>(value);
     }
 

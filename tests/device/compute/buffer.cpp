@@ -5,9 +5,9 @@
 
 #include <taut/compute/buffer.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
-TEST_CASE_TEMPLATE("buffer: what is uploaded is downloaded", T, float, double, taut::index, std::uint64_t)
+TEST_CASE_TEMPLATE("buffer: what is uploaded is downloaded", T, float, double, taut::idx, std::uint64_t)
 {
     taut::queue q;
     std::vector<T> values(1000);

@@ -6,7 +6,7 @@
 #include <taut/compute/buffer.hpp>
 #include <taut/compute/quirks.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
 using taut::test::with_variable;
 

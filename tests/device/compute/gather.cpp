@@ -5,7 +5,7 @@
 
 #include <taut/compute/gather.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
 using taut::buffer;
 using taut::gather_layout;
@@ -18,9 +18,9 @@ namespace
 /// A random incidence: `rows` vertices, of which some meet no cell and one meets very many.
 struct incidence
 {
-    std::vector<taut::index> offsets{0}, cells, corners;
+    std::vector<taut::idx> offsets{0}, cells, corners;
 
-    incidence(std::size_t rows, taut::index cell_count, taut::index corner_count)
+    incidence(std::size_t rows, taut::idx cell_count, taut::idx corner_count)
     {
         std::mt19937 random(7);
         for (std::size_t v = 0; v < rows; ++v)
@@ -28,10 +28,10 @@ struct incidence
             const std::size_t valence = v == rows / 2 ? 75 : random() % 8;
             for (std::size_t k = 0; k < valence; ++k)
             {
-                cells.push_back(static_cast<taut::index>(random() % static_cast<unsigned>(cell_count)));
-                corners.push_back(static_cast<taut::index>(random() % static_cast<unsigned>(corner_count)));
+                cells.push_back(static_cast<taut::idx>(random() % static_cast<unsigned>(cell_count)));
+                corners.push_back(static_cast<taut::idx>(random() % static_cast<unsigned>(corner_count)));
             }
-            offsets.push_back(static_cast<taut::index>(cells.size()));
+            offsets.push_back(static_cast<taut::idx>(cells.size()));
         }
     }
 };
@@ -46,7 +46,7 @@ TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in ord
         CAPTURE(D);
         const std::size_t rows = sized_count(1000, 150), vertices = taut::padded(rows + 3, 64), cells = 192;
         const auto corners = static_cast<std::size_t>(D) + 1;
-        const incidence meet(rows, 190, static_cast<taut::index>(corners));
+        const incidence meet(rows, 190, static_cast<taut::idx>(corners));
         const taut::gather<T> sum(q, meet.offsets, meet.cells, meet.corners, {D, cells, vertices});
         CHECK(sum.width() == 8);
         CHECK(sum.overfull() == 1);
@@ -80,19 +80,19 @@ TEST_CASE("gather: agrees with the host at every width that its kernels have")
     for (const std::size_t valence : {1, 4, 5, 7, 10, 11, 16, 20, 30, 40, 48, 60})
     {
         CAPTURE(valence);
-        std::vector<taut::index> offsets{0}, cell, corner;
+        std::vector<taut::idx> offsets{0}, cell, corner;
         std::vector<double> expected(3 * 64, 0.0);
         for (std::size_t v = 0; v < rows; ++v)
         {
             for (std::size_t k = 0; k < valence; ++k)
             {
-                cell.push_back(static_cast<taut::index>(random() % cells));
-                corner.push_back(static_cast<taut::index>(random() % 4));
+                cell.push_back(static_cast<taut::idx>(random() % cells));
+                corner.push_back(static_cast<taut::idx>(random() % 4));
                 for (std::size_t c = 0; c < 3; ++c)
                     expected[c * 64 + v] += host[(static_cast<std::size_t>(corner.back()) * 3 + c) * cells +
                                                  static_cast<std::size_t>(cell.back())];
             }
-            offsets.push_back(static_cast<taut::index>(cell.size()));
+            offsets.push_back(static_cast<taut::idx>(cell.size()));
         }
         const taut::gather<double> sum(q, offsets, cell, corner, {3, cells, 64});
         if (valence <= 48) CHECK(sum.width() >= valence);
@@ -108,7 +108,7 @@ TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
 {
     taut::queue q;
     // One vertex, in corner 1 of cell 1; the place that fillers read, cell 0, holds NaN.
-    const std::vector<taut::index> offsets = {0, 1}, cells = {1}, corners = {1};
+    const std::vector<taut::idx> offsets = {0, 1}, cells = {1}, corners = {1};
     const taut::gather<double> sum(q, offsets, cells, corners, {2, 64, 64});
     std::vector<double> host(3 * 2 * 64, std::numeric_limits<double>::quiet_NaN());
     host[2 * 64 + 1] = 5;
@@ -126,12 +126,12 @@ TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
 TEST_CASE("gather: layouts that do not hold the mesh are refused")
 {
     taut::queue q;
-    const std::vector<taut::index> offsets = {0, 1}, cells = {70}, corners = {0};
+    const std::vector<taut::idx> offsets = {0, 1}, cells = {70}, corners = {0};
     CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 64, 64}), taut::parameter_error);
     CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 128, 100}), taut::parameter_error);
     CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 128, 0}), taut::parameter_error);
 
-    const std::vector<taut::index> first = {0};
+    const std::vector<taut::idx> first = {0};
     const taut::gather<double> one(q, offsets, first, first, {2, 64, 64});
     buffer<double> enough(q, 128), few(q, 64);
     CHECK_THROWS_AS(one(few, enough), taut::parameter_error);

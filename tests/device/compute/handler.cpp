@@ -4,7 +4,7 @@
 #include <taut/compute/handler.hpp>
 #include <taut/symbolic/loop.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
 using taut::buffer;
 using taut::handler;
@@ -59,8 +59,8 @@ TEST_CASE("handler: a captured host value is a literal, so another value is anot
 TEST_CASE("handler: rows of a graph are loops of the kernel, over more elements than there are indices")
 {
     taut::queue q;
-    const buffer<taut::index> starts(q, std::vector<taut::index>{0, 2, 2, 5});
-    const buffer<taut::index> columns(q, std::vector<taut::index>{1, 3, 0, 1, 2});
+    const buffer<taut::idx> starts(q, std::vector<taut::idx>{0, 2, 2, 5});
+    const buffer<taut::idx> columns(q, std::vector<taut::idx>{1, 3, 0, 1, 2});
     const buffer<float> x(q, std::vector<float>{1, 10, 100, 1000});
     buffer<float> sums(q, 3);
     q.submit(

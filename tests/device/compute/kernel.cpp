@@ -3,7 +3,7 @@
 
 #include <taut/compute/kernel.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
 namespace
 {
@@ -41,8 +41,8 @@ TEST_CASE("kernel: nothing runs over an empty range")
 TEST_CASE("kernel: the local size is the one asked for, or a usual one, or the driver's for odd sizes")
 {
     taut::queue q;
-    taut::buffer<taut::index> c(q, 130);
-    const auto k = q.kernel<taut::buffer<taut::index>>(axpy, "count");
+    taut::buffer<taut::idx> c(q, 130);
+    const auto k = q.kernel<taut::buffer<taut::idx>>(axpy, "count");
     k({128, 32}, c);
     CHECK(c.download()[0] == 32);
     k(128, c);
@@ -58,7 +58,7 @@ TEST_CASE("kernel: equal source and options are built once, other options again"
     using k = taut::typed_kernel<float, const taut::buffer<float>, taut::buffer<float>>;
     k(q, axpy, "axpy");
     k(q, axpy, "axpy");
-    taut::typed_kernel<taut::buffer<taut::index>>(q, axpy, "count");
+    taut::typed_kernel<taut::buffer<taut::idx>>(q, axpy, "count");
     CHECK(q.counters().builds == 1);
     k(q, axpy, "axpy", "-DX=1");
     CHECK(q.counters().builds == 2);
@@ -144,7 +144,7 @@ TEST_CASE("kernel: a scalar of another size is refused by name")
 TEST_CASE("kernel: a buffer of another queue's context is refused")
 {
     taut::queue q, other;
-    const auto k = q.kernel<taut::buffer<taut::index>>(axpy, "count");
-    taut::buffer<taut::index> foreign(other, 64);
+    const auto k = q.kernel<taut::buffer<taut::idx>>(axpy, "count");
+    taut::buffer<taut::idx> foreign(other, 64);
     CHECK_THROWS_AS(k(64, foreign), taut::device_error);
 }

@@ -7,7 +7,7 @@
 
 #include <taut/compute/kernel.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
 namespace
 {

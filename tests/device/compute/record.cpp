@@ -5,7 +5,7 @@
 
 #include <taut/compute/record.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
 using taut::buffer;
 using taut::test::random_values;
@@ -38,9 +38,9 @@ TEST_CASE_TEMPLATE("trace: a recorded kernel computes what the lambda says, for 
 TEST_CASE("trace: an argument of each kind, mixed precision and an index load")
 {
     taut::queue q;
-    const auto k = taut::trace<taut::in<taut::index>, taut::in<double>, taut::out<float>, taut::uniform<taut::index>>(
+    const auto k = taut::trace<taut::in<taut::idx>, taut::in<double>, taut::out<float>, taut::uniform<taut::idx>>(
         q, "pick", [](auto i, auto at, auto x, auto y, auto shift) { y[i] = taut::cast<float>(x[at[i] + shift]); });
-    const buffer<taut::index> at(q, std::vector<taut::index>{3, 0, 2});
+    const buffer<taut::idx> at(q, std::vector<taut::idx>{3, 0, 2});
     const buffer<double> x(q, std::vector<double>{0.25, 1.25, 2.25, 3.25, 4.25});
     buffer<float> y(q, 3);
     k(3, at, x, y, 1);

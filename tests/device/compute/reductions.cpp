@@ -6,7 +6,7 @@
 
 #include <taut/compute/reductions.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
 using taut::buffer;
 using taut::reduction_plan;

@@ -6,7 +6,7 @@
 #include <taut/compute/gather.hpp>
 #include <taut/compute/vector_space.hpp>
 
-#include "support.hpp"
+#include "support/device.hpp"
 
 using taut::device_vector;
 using taut::device_vectors;
@@ -179,7 +179,7 @@ TEST_CASE("device_vectors: vectors, reductions and gathers of a type share one b
     r.sum(x.data());
     r.minimum(x.data(), 100);
     r.fetch();
-    const std::vector<taut::index> offsets = {0, 1}, zero = {0};
+    const std::vector<taut::idx> offsets = {0, 1}, zero = {0};
     const taut::gather<float> sum(q, offsets, zero, zero, {.components = 3, .cell_stride = 64, .vertex_stride = 64});
     q.finish();
     CHECK(q.counters().builds == 1);

@@ -9,7 +9,8 @@
 
 #include <taut/energy/algebra.hpp>
 #include <taut/map/parameterize.hpp>
-#include <taut/map/quality.hpp>
+#include <taut/measure/quality.hpp>
+#include <taut/start/barycentric_map.hpp>
 
 namespace
 {
@@ -139,7 +140,7 @@ TEST_CASE("parameterize: a scale-invariant energy returns the area of the surfac
     const auto r = parameterize(q, m, {.energy = energy::shape{}, .solve = {.stopping = {.max_iterations = 50}}});
     REQUIRE(r);
     double rest = 0, mapped = 0;
-    for (taut::index c = 0; c < m.cell_count(); ++c)
+    for (taut::idx c = 0; c < m.cell_count(); ++c)
     {
         rest += glm::length(glm::cross(m.rest(c)[1] - m.rest(c)[0], m.rest(c)[2] - m.rest(c)[0])) / 2;
         const auto& t = m.cells()[static_cast<std::size_t>(c)];

@@ -13,6 +13,7 @@
 
 #include <taut/energy/shape.hpp>
 #include <taut/map/parameterize.hpp>
+#include <taut/start/barycentric_map.hpp>
 
 namespace
 {
@@ -58,8 +59,8 @@ TEST_CASE("pins: interior vertices that are moved stay bit for bit, the map is c
     const auto free = parameterize(q, m);
     REQUIRE(free);
     constraints<triangle> pins(m);
-    const auto n = static_cast<taut::index>(free.uv.size());
-    for (taut::index v = 3; v < n; v += n / 12)
+    const auto n = static_cast<taut::idx>(free.uv.size());
+    for (taut::idx v = 3; v < n; v += n / 12)
         pins.pin(v, swirled(free.uv[static_cast<std::size_t>(v)], 0.5) + vec2(7.0, -3.0));
     const auto r = parameterize(q, m, {.constraints = pins});
     CAPTURE(r.reason());
@@ -78,7 +79,7 @@ TEST_CASE("pins: none is met by the free map's turned, scaled or shifted image, 
     constraints<triangle> pins(m);
     const auto turned = [](const vec2& p) { return vec2(-p.y, p.x) + vec2(20, 30); };
     const auto n = free.uv.size();
-    for (const std::size_t v : {n / 5, n / 2}) pins.pin(static_cast<taut::index>(v), turned(free.uv[v]));
+    for (const std::size_t v : {n / 5, n / 2}) pins.pin(static_cast<taut::idx>(v), turned(free.uv[v]));
     const auto r = parameterize(q, m, {.constraints = pins});
     CHECK(certified(m, r));
     check_pins(pins, r);
@@ -130,8 +131,8 @@ TEST_CASE("springs: the stiffer, the nearer; together with a pin, too")
     for (const double weight : {0.1, 10.0, 1000.0})
     {
         constraints<triangle> wanted(m);
-        wanted.pin(0, free.uv[0]).pin(static_cast<taut::index>(n - 1), free.uv[n - 1]);
-        wanted.spring(static_cast<taut::index>(v), target, weight);
+        wanted.pin(0, free.uv[0]).pin(static_cast<taut::idx>(n - 1), free.uv[n - 1]);
+        wanted.spring(static_cast<taut::idx>(v), target, weight);
         const auto r = parameterize(q, m, {.constraints = wanted});
         CHECK(certified(m, r));
         check_pins(wanted, r);
@@ -177,14 +178,14 @@ TEST_CASE("pins: with a fixed boundary and a start of one's own they hold, too")
     const auto start = barycentric_map(m, facets(m), {}).uv;
     constraints<triangle> pins(m);
     const std::size_t v = start.size() / 2;
-    pins.pin(static_cast<taut::index>(v), start[v] + vec2(0.02, 0.03));
+    pins.pin(static_cast<taut::idx>(v), start[v] + vec2(0.02, 0.03));
     parameterize_params p{.boundary = boundary_mode::fixed, .constraints = pins, .initial = start};
     const auto r = parameterize(q, m, p);
     CAPTURE(r.reason());
     CHECK(certified(m, r));
     check_pins(pins, r);
     const auto loop = boundary_loops(m)[0];
-    for (const taut::index b : loop) CHECK(r.uv[static_cast<std::size_t>(b)] == start[static_cast<std::size_t>(b)]);
+    for (const taut::idx b : loop) CHECK(r.uv[static_cast<std::size_t>(b)] == start[static_cast<std::size_t>(b)]);
 }
 
 TEST_CASE("start: flipped, collapsed and scrambled triangles are untangled, mirrored ones turned over")
@@ -219,7 +220,7 @@ TEST_CASE("pins: an energy that does not see scale keeps the scale that the pins
     queue q;
     const auto m = hills();
     constraints<triangle> pins(m);
-    pins.pin(0, vec2(0, 0)).pin(static_cast<taut::index>(m.vertex_count() - 1), vec2(50, 0));
+    pins.pin(0, vec2(0, 0)).pin(static_cast<taut::idx>(m.vertex_count() - 1), vec2(50, 0));
     const auto r = parameterize(q, m, {.energy = energy::shape{}, .constraints = pins});
     CAPTURE(r.reason());
     CHECK(certified(m, r));
@@ -259,8 +260,8 @@ TEST_CASE("pins: a few that are moved far, with a free boundary, leave no vertex
         while (pins.pins().size() < 5)
         {
             const std::size_t v = random() % free.uv.size();
-            if (!pins.pins().contains(static_cast<taut::index>(v)))
-                pins.pin(static_cast<taut::index>(v), free.uv[v] + vec2(uniform(-0.3, 0.3), uniform(-0.3, 0.3)));
+            if (!pins.pins().contains(static_cast<taut::idx>(v)))
+                pins.pin(static_cast<taut::idx>(v), free.uv[v] + vec2(uniform(-0.3, 0.3), uniform(-0.3, 0.3)));
         }
         const auto r = parameterize(q, m, {.constraints = pins});
         CAPTURE(r.reason());

@@ -13,8 +13,8 @@
 
 #include <support/meshes.hpp>
 
+#include <taut/constrain/place_map.hpp>
 #include <taut/map/parameterize.hpp>
-#include <taut/map/place_map.hpp>
 
 namespace
 {
@@ -45,32 +45,32 @@ mesh<triangle> rounded(const mesh<triangle>& m)
 /// The same surface, its vertices and triangles in another order.
 struct shuffled
 {
-    std::vector<taut::index> new_to_old;
+    std::vector<taut::idx> new_to_old;
     mesh<triangle> surface;
 
     explicit shuffled(const mesh<triangle>& m, unsigned seed) : shuffled(m, order(m.points().size(), seed), seed) {}
 
 private:
-    shuffled(const mesh<triangle>& m, std::vector<taut::index> numbers, unsigned seed)
+    shuffled(const mesh<triangle>& m, std::vector<taut::idx> numbers, unsigned seed)
         : new_to_old(numbers), surface(renumbered(m, numbers, seed))
     {
     }
 
-    static std::vector<taut::index> order(std::size_t n, unsigned seed)
+    static std::vector<taut::idx> order(std::size_t n, unsigned seed)
     {
-        std::vector<taut::index> numbers(n);
+        std::vector<taut::idx> numbers(n);
         std::iota(numbers.begin(), numbers.end(), 0);
         std::shuffle(numbers.begin(), numbers.end(), std::mt19937(seed));
         return numbers;
     }
 
-    static mesh<triangle> renumbered(const mesh<triangle>& m, const std::vector<taut::index>& new_to_old, unsigned seed)
+    static mesh<triangle> renumbered(const mesh<triangle>& m, const std::vector<taut::idx>& new_to_old, unsigned seed)
     {
         std::vector<vec3> points;
-        std::vector<taut::index> old_to_new(new_to_old.size());
-        for (const taut::index v : new_to_old)
+        std::vector<taut::idx> old_to_new(new_to_old.size());
+        for (const taut::idx v : new_to_old)
         {
-            old_to_new[static_cast<std::size_t>(v)] = static_cast<taut::index>(points.size());
+            old_to_new[static_cast<std::size_t>(v)] = static_cast<taut::idx>(points.size());
             points.push_back(m.points()[static_cast<std::size_t>(v)]);
         }
         auto cells = m.cells();

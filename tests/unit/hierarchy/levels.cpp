@@ -14,14 +14,14 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 /// V - E + F.
 int euler(const mesh<triangle>& m)
 {
     const auto f = facets(m);
     int edges = 0;
-    for (std::size_t s = 0; s < f.twin.size(); ++s) edges += f.twin[s] < static_cast<taut::index>(s) ? 1 : 0;
+    for (std::size_t s = 0; s < f.twin.size(); ++s) edges += f.twin[s] < static_cast<taut::idx>(s) ? 1 : 0;
     return m.vertex_count() - edges + m.cell_count();
 }
 
@@ -46,7 +46,7 @@ bool same(const hierarchy& a, const hierarchy& b)
 std::pair<double, double> quality(const mesh<triangle>& m)
 {
     double sum = 0, least = 1;
-    for (taut::index c = 0; c < m.cell_count(); ++c)
+    for (taut::idx c = 0; c < m.cell_count(); ++c)
     {
         const auto x = m.rest(c);
         double squares = 0;
@@ -114,15 +114,15 @@ TEST_CASE("hierarchy: boundary vertices of a level are boundary vertices of the 
     const auto level = level_mesh(h, h.levels.size() - 1, m.points());
     for (const auto& loop : boundary_loops(level))
     {
-        std::vector<taut::index> ids;
-        for (const taut::index v : loop) ids.push_back(h.levels.back().vertices[static_cast<std::size_t>(v)]);
-        for (const taut::index v : ids) CHECK(open[static_cast<std::size_t>(v)]);
+        std::vector<taut::idx> ids;
+        for (const taut::idx v : loop) ids.push_back(h.levels.back().vertices[static_cast<std::size_t>(v)]);
+        for (const taut::idx v : ids) CHECK(open[static_cast<std::size_t>(v)]);
         // In the order of the fine loop, up to where it starts.
         const auto whole = std::find_if(
             fine.begin(), fine.end(), [&](const auto& f) { return std::find(f.begin(), f.end(), ids[0]) != f.end(); });
         REQUIRE(whole != fine.end());
         std::vector<std::ptrdiff_t> at;
-        for (const taut::index v : ids) at.push_back(std::find(whole->begin(), whole->end(), v) - whole->begin());
+        for (const taut::idx v : ids) at.push_back(std::find(whole->begin(), whole->end(), v) - whole->begin());
         std::rotate(at.begin(), std::min_element(at.begin(), at.end()), at.end());
         CHECK(std::is_sorted(at.begin(), at.end()));
     }
@@ -137,16 +137,16 @@ TEST_CASE("hierarchy: kept vertices are on every level and never the only corner
         auto keep = test::on_boundary(m); // a fixed boundary and some pins
         for (std::size_t v = 0; v < keep.size(); v += 37) keep[v] = 1;
         const auto h = make_hierarchy(m, keep);
-        std::vector<taut::index> kept;
+        std::vector<taut::idx> kept;
         for (std::size_t v = 0; v < keep.size(); ++v)
-            if (keep[v]) kept.push_back(static_cast<taut::index>(v));
+            if (keep[v]) kept.push_back(static_cast<taut::idx>(v));
         const auto locked = [&](const hierarchy::level& level)
         {
             int count = 0;
             for (const auto& t : level.cells)
                 count +=
                     std::all_of(t.begin(), t.end(),
-                                [&](taut::index v) { return keep[std::size_t(level.vertices[std::size_t(v)])] != 0; });
+                                [&](taut::idx v) { return keep[std::size_t(level.vertices[std::size_t(v)])] != 0; });
             return count;
         };
         for (const auto& level : h.levels)
@@ -251,7 +251,7 @@ TEST_CASE("hierarchy: vertices without triangles have no part in it")
     points.insert(points.begin(), 3, vec3(9, 9, 9));
     auto cells = m.cells();
     for (auto& t : cells)
-        for (taut::index& v : t) v += 3;
+        for (taut::idx& v : t) v += 3;
     const auto h = make_hierarchy(mesh<triangle>(points, cells));
     REQUIRE(h.steps.size() == 1);
     CHECK(h.levels[0].vertices.size() == points.size());
@@ -271,10 +271,10 @@ TEST_CASE("hierarchy: bad surfaces and parameters are refused with what is wrong
         {
             return e.ids();
         }
-        return std::vector<taut::index>{-1};
+        return std::vector<taut::idx>{-1};
     };
-    CHECK(fault(test::bowtie()) == std::vector<taut::index>{2});
-    CHECK(fault(test::three_on_an_edge()) == std::vector<taut::index>{0, 1});
+    CHECK(fault(test::bowtie()) == std::vector<taut::idx>{2});
+    CHECK(fault(test::three_on_an_edge()) == std::vector<taut::idx>{0, 1});
     CHECK(!fault(test::moebius(9)).empty());
     CHECK(fault(test::moebius(9))[0] >= 0);
 

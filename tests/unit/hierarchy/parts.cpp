@@ -8,14 +8,14 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include <taut/map/predicates.hpp>
-#include <taut/mesh/hierarchy/star_energy.hpp>
+#include <taut/exact/predicates.hpp>
+#include <taut/hierarchy/detail/star_energy.hpp>
 
 namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 detail::ring_image ring_of(const std::vector<vec2>& corners, bool open = false)
 {
@@ -46,7 +46,7 @@ TEST_CASE("rings: neighbours are in order, and the triangles come back")
     std::vector<char> open;
     const auto rings = detail::make_rings(m.cells(), m.points().size(), open, 1);
     auto cells = detail::ring_cells(rings, open);
-    const auto canonical = [](std::vector<std::array<taut::index, 3>> list)
+    const auto canonical = [](std::vector<std::array<taut::idx, 3>> list)
     {
         for (auto& t : list) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
         std::sort(list.begin(), list.end());
@@ -64,10 +64,10 @@ TEST_CASE("flat star: a planar star keeps its shape")
 {
     const auto spokes = star(7);
     std::vector<vec3> points = {vec3(3, -2, 1)};
-    std::vector<taut::index> ring;
+    std::vector<taut::idx> ring;
     for (const vec3& s : spokes)
     {
-        ring.push_back(static_cast<taut::index>(points.size()));
+        ring.push_back(static_cast<taut::idx>(points.size()));
         points.push_back(points[0] + vec3(s.y, s.z, s.x)); // in the plane y = -2
     }
     for (const bool open : {false, true})
@@ -86,10 +86,10 @@ TEST_CASE("flat star: a planar star keeps its shape")
 TEST_CASE("flat star: a cone fills the full turn")
 {
     std::vector<vec3> points = {vec3(0, 0, 2)};
-    std::vector<taut::index> ring;
+    std::vector<taut::idx> ring;
     for (int i = 0; i < 5; ++i)
     {
-        ring.push_back(static_cast<taut::index>(points.size()));
+        ring.push_back(static_cast<taut::idx>(points.size()));
         points.emplace_back(std::cos(0.4 * std::numbers::pi * i), std::sin(0.4 * std::numbers::pi * i), 0);
     }
     const auto flat = detail::flatten(points, 0, ring, false);

@@ -12,12 +12,12 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 std::vector<vec3> positions(const hierarchy& h, std::size_t level, const mesh<triangle>& m)
 {
     std::vector<vec3> x;
-    for (const taut::index v : h.levels[level].vertices) x.push_back(m.points()[static_cast<std::size_t>(v)]);
+    for (const taut::idx v : h.levels[level].vertices) x.push_back(m.points()[static_cast<std::size_t>(v)]);
     return x;
 }
 
@@ -48,8 +48,8 @@ TEST_CASE("prolongation: rows are barycentric coordinates in a coarse triangle")
         for (std::size_t l = 0; l < h.steps.size(); ++l)
         {
             const auto& P = h.steps[l].interpolation;
-            const auto coarse_count = static_cast<taut::index>(h.levels[l + 1].vertices.size());
-            REQUIRE(P.rows() == static_cast<taut::index>(h.levels[l].vertices.size()));
+            const auto coarse_count = static_cast<taut::idx>(h.levels[l + 1].vertices.size());
+            REQUIRE(P.rows() == static_cast<taut::idx>(h.levels[l].vertices.size()));
             const auto coarse = level_mesh(h, l + 1, m.points());
             const csr cells = vertex_cells(coarse);
             for (std::size_t i = 0; i < P.columns.size(); ++i)
@@ -64,10 +64,10 @@ TEST_CASE("prolongation: rows are barycentric coordinates in a coarse triangle")
                 }
                 CHECK(std::abs(sum - 1) < 1e-14);
                 bool found = false;
-                for (const taut::index c : cells.row(P.columns[i][0]))
+                for (const taut::idx c : cells.row(P.columns[i][0]))
                 {
                     bool all = true;
-                    for (const taut::index v : P.columns[i])
+                    for (const taut::idx v : P.columns[i])
                     {
                         const auto& t = coarse.cells()[static_cast<std::size_t>(c)];
                         all = all && std::find(t.begin(), t.end(), v) != t.end();
@@ -90,7 +90,7 @@ TEST_CASE("prolongation: a vertex that stays has one weight, 1")
         for (std::size_t j = 0; j < coarse.size(); ++j)
         {
             const auto i = std::size_t(std::lower_bound(fine.begin(), fine.end(), coarse[j]) - fine.begin());
-            CHECK(h.steps[l].interpolation.columns[i][0] == static_cast<taut::index>(j));
+            CHECK(h.steps[l].interpolation.columns[i][0] == static_cast<taut::idx>(j));
             CHECK(h.steps[l].interpolation.weights[i] == std::array<double, 3>{1, 0, 0});
         }
     }

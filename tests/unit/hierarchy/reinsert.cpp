@@ -7,16 +7,16 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include <taut/map/barycentric_map.hpp>
-#include <taut/map/certify.hpp>
-#include <taut/map/predicates.hpp>
-#include <taut/mesh/hierarchy/reinsert.hpp>
+#include <taut/exact/certify.hpp>
+#include <taut/exact/predicates.hpp>
+#include <taut/hierarchy/reinsert.hpp>
+#include <taut/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 /// From a map of the coarsest level to one of the mesh; checks every level exactly.
 std::vector<vec2> refine(const hierarchy& h, const mesh<triangle>& m, std::vector<vec2> uv,
@@ -36,7 +36,7 @@ std::vector<vec2> refine(const hierarchy& h, const mesh<triangle>& m, std::vecto
 std::vector<vec2> flat_positions(const hierarchy& h, std::size_t level, const mesh<triangle>& m)
 {
     std::vector<vec2> uv;
-    for (const taut::index v : h.levels[level].vertices)
+    for (const taut::idx v : h.levels[level].vertices)
         uv.emplace_back(m.points()[static_cast<std::size_t>(v)].x, m.points()[static_cast<std::size_t>(v)].y);
     return uv;
 }
@@ -107,7 +107,7 @@ TEST_CASE("reinsertion: maps at random, as bad as they may be, stay injective")
             const vec2 before = uv[v];
             uv[v] += 0.3 * vec2(uniform() - 0.5, uniform() - 0.5);
             for (const auto& t : coarsest.cells)
-                if (t[0] == taut::index(v) || t[1] == taut::index(v) || t[2] == taut::index(v))
+                if (t[0] == taut::idx(v) || t[1] == taut::idx(v) || t[2] == taut::idx(v))
                     if (orient2d(uv[std::size_t(t[0])], uv[std::size_t(t[1])], uv[std::size_t(t[2])]) <= 0)
                         uv[v] = before;
         }
@@ -163,7 +163,7 @@ TEST_CASE("reinsertion: a flipped coarse map is reported, with the vertices that
     const auto r = reinsert(h, 0, m.points(), uv);
     CHECK(r.failed.size() > m.points().size() / 4);
     CHECK(std::is_sorted(r.failed.begin(), r.failed.end()));
-    for (const taut::index v : r.failed)
+    for (const taut::idx v : r.failed)
         CHECK(!std::binary_search(h.levels[1].vertices.begin(), h.levels[1].vertices.end(), v));
 }
 

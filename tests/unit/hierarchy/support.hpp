@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/mesh/hierarchy/hierarchy.hpp>
+#include <taut/hierarchy/hierarchy.hpp>
 
 namespace taut::test
 {
@@ -23,19 +23,19 @@ inline mesh<triangle> window_frame(int n)
     for (const auto& t : whole.cells())
     {
         vec3 centre(0.0);
-        for (const taut::index v : t) centre += whole.points()[static_cast<std::size_t>(v)] / 3.0;
+        for (const taut::idx v : t) centre += whole.points()[static_cast<std::size_t>(v)] / 3.0;
         if (!in_window(centre)) cells.push_back(t);
     }
     // Only the vertices that are still used.
-    std::vector<taut::index> number(whole.points().size(), -1);
+    std::vector<taut::idx> number(whole.points().size(), -1);
     std::vector<vec3> points;
     for (auto& t : cells)
-        for (taut::index& v : t)
+        for (taut::idx& v : t)
         {
             auto& to = number[static_cast<std::size_t>(v)];
             if (to < 0)
             {
-                to = static_cast<taut::index>(points.size());
+                to = static_cast<taut::idx>(points.size());
                 points.push_back(whole.points()[static_cast<std::size_t>(v)]);
             }
             v = to;

@@ -107,8 +107,8 @@ TEST_CASE("write_obj: order, every coordinate and every texture coordinate come 
         uv.emplace_back(any_finite(), any_finite());
     }
     points[7] = vec3(-0.0, 5e-324, 0.1);
-    std::vector<std::array<taut::index, 3>> cells;
-    for (taut::index i = 0; i < 2999; i += 3) cells.push_back({i + 2, i, i + 1});
+    std::vector<std::array<taut::idx, 3>> cells;
+    for (taut::idx i = 0; i < 2999; i += 3) cells.push_back({i + 2, i, i + 1});
     const mesh<triangle> m(points, cells);
     io::write_obj(folder / "out.obj", m, uv);
     const auto back = io::read_surface_file(folder / "out.obj");

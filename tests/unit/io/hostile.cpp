@@ -38,7 +38,7 @@ void feed(Parse parse, const std::string& bytes)
         CHECK(f.surface.cell_count() > 0);
         if (!f.texcoord_cells.empty()) CHECK(f.texcoord_cells.size() == f.surface.cells().size());
         for (const auto& t : f.texcoord_cells)
-            for (const taut::index i : t) CHECK(i < static_cast<taut::index>(f.texcoords.size()));
+            for (const taut::idx i : t) CHECK(i < static_cast<taut::idx>(f.texcoords.size()));
     }
     catch (const error& e)
     {

@@ -15,8 +15,8 @@ namespace
 
 using namespace taut;
 using io::parse_obj;
-using taut::index;
-using cell = std::array<taut::index, 3>;
+using taut::idx;
+using cell = std::array<taut::idx, 3>;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -197,7 +197,7 @@ TEST_CASE("obj: polygons of any shape and plane are covered once, facing as they
         REQUIRE(m.cell_count() == 14);
         const vec3 normal = glm::cross(u, v);
         double sum = 0;
-        for (taut::index c = 0; c < m.cell_count(); ++c)
+        for (taut::idx c = 0; c < m.cell_count(); ++c)
         {
             const auto x = m.rest(c);
             const double a = 0.5 * glm::dot(glm::cross(x[1] - x[0], x[2] - x[0]), normal);
@@ -246,7 +246,7 @@ TEST_CASE("obj: texture coordinates by vertex, or the vertex on a seam is named"
         {
             return e.vertex();
         }
-        return taut::index(-1);
+        return taut::idx(-1);
     };
     CHECK(vertex_of(parse_obj(head + "f 1/1 2/2 3/3\nf 1/1 3/6 4/4\n")) == 2);
     CHECK(vertex_of(parse_obj(head + "f 1/1 2/2 3/3\nf 1/1 3/3 4\n")) == 3);
@@ -291,7 +291,7 @@ TEST_CASE("obj: a coordinate that is no finite number names vertex and line")
     {
         const auto e = mesh_error_of("v 0 0 0\n# gap\nv 1 " + std::string(bad) + " 0\n");
         CHECK(e.fault() == mesh_fault::non_finite);
-        CHECK(e.ids() == std::vector<taut::index>{1});
+        CHECK(e.ids() == std::vector<taut::idx>{1});
         CHECK(contains(e.what(), "x.obj, line 3: vertex 1"));
     }
 }
@@ -300,7 +300,7 @@ TEST_CASE("obj: a face that names a missing vertex is found with its line")
 {
     const auto e = mesh_error_of(square + "f 1 2 3\nf 1 2 7\nf 1 3 4\n");
     CHECK(e.fault() == mesh_fault::index_out_of_range);
-    CHECK(e.ids() == std::vector<taut::index>{1, 6});
+    CHECK(e.ids() == std::vector<taut::idx>{1, 6});
     CHECK(contains(e.what(), "x.obj, line 6"));
     CHECK(mesh_error_of(square + "f 1/1 2/2 3/3\n").fault() == mesh_fault::index_out_of_range);
 }
@@ -312,7 +312,7 @@ TEST_CASE("obj: nothing to read is an empty mesh; other faults of meshes name th
     CHECK(mesh_error_of(square).fault() == mesh_fault::empty);
     const auto e = mesh_error_of(square + "f 1 1 2\n");
     CHECK(e.fault() == mesh_fault::repeated_vertex);
-    CHECK(e.ids() == std::vector<taut::index>{0});
+    CHECK(e.ids() == std::vector<taut::idx>{0});
     CHECK(contains(e.what(), "x.obj"));
 }
 
@@ -332,7 +332,7 @@ TEST_CASE("obj: a large file, which is read in pieces, holds the same as its lin
         for (const auto& t : m.cells())
         {
             text += 'f';
-            for (const taut::index v : t)
+            for (const taut::idx v : t)
                 text += (v % 11 ? " " : " \\" + end) + std::to_string(relative ? v - m.vertex_count() : v + 1);
             text += end + "g group \\" + end + "f 1 1 1" + end;
         }
@@ -355,7 +355,7 @@ TEST_CASE("obj: a large file, which is read in pieces, holds the same as its lin
     const auto line = std::to_string(std::count(text.begin(), text.end(), '\n') + 1);
     CHECK(contains(io_error_of(text + "f 1 2 x\n").what(), "x.obj, line " + line));
     const auto e = mesh_error_of(text + "f 1 2 99999\nf 1 3 2\n");
-    CHECK(e.ids() == std::vector<taut::index>{m.cell_count(), 99998});
+    CHECK(e.ids() == std::vector<taut::idx>{m.cell_count(), 99998});
     CHECK(contains(e.what(), "x.obj, line " + line));
 }
 

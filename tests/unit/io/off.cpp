@@ -10,8 +10,8 @@ namespace
 
 using namespace taut;
 using io::parse_off;
-using taut::index;
-using cell = std::array<taut::index, 3>;
+using taut::idx;
+using cell = std::array<taut::idx, 3>;
 
 std::size_t line_of_error(const std::string& text)
 {
@@ -108,7 +108,7 @@ TEST_CASE("off: vertices that are missing or not finite are faults of the mesh")
     catch (const mesh_error& e)
     {
         CHECK(e.fault() == mesh_fault::index_out_of_range);
-        CHECK(e.ids() == std::vector<taut::index>{0, 3});
+        CHECK(e.ids() == std::vector<taut::idx>{0, 3});
         CHECK(std::string(e.what()).find("line 6") != std::string::npos);
     }
     CHECK_THROWS_AS(parse_off("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n"), mesh_error);

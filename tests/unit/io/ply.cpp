@@ -12,8 +12,8 @@ namespace
 
 using namespace taut;
 using io::parse_ply;
-using taut::index;
-using cell = std::array<taut::index, 3>;
+using taut::idx;
+using cell = std::array<taut::idx, 3>;
 
 /// Bytes of a value in the wanted order.
 template <class T>

@@ -49,8 +49,8 @@ TEST_CASE("problem files: rest shape, initial map, triangles and fixed vertices"
     CHECK(p.rest.size() == 4);
     CHECK(p.rest[2] == vec3(1, 1, 0));
     CHECK(p.initial[2] == vec2(0.25, 1e-3));
-    CHECK(p.cells == std::vector<std::array<taut::index, 3>>{{0, 1, 2}, {0, 2, 3}});
-    CHECK(p.fixed == std::vector<taut::index>{0, 3});
+    CHECK(p.cells == std::vector<std::array<taut::idx, 3>>{{0, 1, 2}, {0, 2, 3}});
+    CHECK(p.fixed == std::vector<taut::idx>{0, 3});
 
     // Lines ends of any kind, blank lines, a surface in space at rest.
     std::string other;

@@ -82,7 +82,7 @@ TEST_CASE("write_obj: a large OBJ, which is written in pieces, keeps its lines")
     {
         const std::string group = c % 100 != 50 ? "" : "usemtl m" + std::to_string(c) + '\n';
         faces += group + 'f', expected += group + 'f';
-        for (const taut::index v : m.cells()[c])
+        for (const taut::idx v : m.cells()[c])
         {
             faces += ' ' + std::to_string(v + 1);
             expected += ' ' + std::to_string(v + 1) + '/' + std::to_string(v + 1);
@@ -138,9 +138,9 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
     const std::string text = head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 1\nvt 5 1\nf 1/1 2/2 3/3\nf 2/4 4/5 3/6\n";
     const auto file = io::parse_obj(text);
     const auto cut = io::cut_seams(file).value();
-    CHECK(cut.surface.cells() == std::vector<std::array<taut::index, 3>>{{0, 1, 2}, {4, 3, 5}});
+    CHECK(cut.surface.cells() == std::vector<std::array<taut::idx, 3>>{{0, 1, 2}, {4, 3, 5}});
     CHECK(cut.surface.points()[5] == vec3(0, 1, 0));
-    CHECK(cut.origins == std::vector<taut::index>{0, 1, 2, 3, 1, 2});
+    CHECK(cut.origins == std::vector<taut::idx>{0, 1, 2, 3, 1, 2});
     CHECK(cut.uv == std::vector<vec2>{{0, 0}, {1, 0}, {0, 1}, {6, 1}, {5, 0}, {5, 1}});
     CHECK(cut.seam_vertices == 2);
     CHECK_FALSE(io::cut_seams(io::parse_obj(head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt -0 1\n"
@@ -153,8 +153,8 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
             .value();
     CHECK(tiles.surface.vertex_count() == 8);
     CHECK(tiles.seam_vertices == 2);
-    CHECK(std::vector<taut::index>(tiles.corners.begin(), tiles.corners.begin() + 4) ==
-          std::vector<taut::index>{0, 1, 4, 3});
+    CHECK(std::vector<taut::idx>(tiles.corners.begin(), tiles.corners.begin() + 4) ==
+          std::vector<taut::idx>{0, 1, 4, 3});
     CHECK(tiles.corners[4] + tiles.corners[7] == 6 + 7);
     CHECK_THROWS_AS(io::cut_seams(io::parse_obj(head + "vt 0 0\nf 1/1 2/1 3/1\nf 2/1 4 3/1\n")), io::texcoord_error);
 

@@ -8,9 +8,9 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
-double signed_area(const mesh<triangle>& m, const std::vector<taut::index>& loop)
+double signed_area(const mesh<triangle>& m, const std::vector<taut::idx>& loop)
 {
     double twice = 0;
     for (std::size_t i = 0; i < loop.size(); ++i)
@@ -28,7 +28,7 @@ TEST_CASE("boundary: one triangle is its own loop")
 {
     const auto loops = boundary_loops(test::single_triangle());
     REQUIRE(loops.size() == 1);
-    CHECK(loops[0] == std::vector<taut::index>{0, 1, 2});
+    CHECK(loops[0] == std::vector<taut::idx>{0, 1, 2});
 }
 
 TEST_CASE("boundary: a counter-clockwise disk has a counter-clockwise loop, the interior on the left")
@@ -75,8 +75,8 @@ TEST_CASE("boundary: parts that touch in a vertex keep their own loops")
 {
     const auto loops = boundary_loops(test::bowtie());
     REQUIRE(loops.size() == 2);
-    CHECK(loops[0] == std::vector<taut::index>{0, 1, 2});
-    CHECK(loops[1] == std::vector<taut::index>{2, 3, 4});
+    CHECK(loops[0] == std::vector<taut::idx>{0, 1, 2});
+    CHECK(loops[1] == std::vector<taut::idx>{2, 3, 4});
 }
 
 TEST_CASE("boundary: where left has no meaning the error says so")

@@ -12,18 +12,18 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 /// Compares the table with a std::map from sorted facets to sides.
 template <class Element>
 void check_against_map(const mesh<Element>& m)
 {
     const auto f = facets(m);
-    std::map<std::vector<taut::index>, std::vector<taut::index>> sides;
-    for (taut::index s = 0; s < m.cell_count() * Element::corners; ++s)
+    std::map<std::vector<taut::idx>, std::vector<taut::idx>> sides;
+    for (taut::idx s = 0; s < m.cell_count() * Element::corners; ++s)
     {
         const auto v = side_vertices(m, s);
-        std::vector<taut::index> key(v.begin(), v.end());
+        std::vector<taut::idx> key(v.begin(), v.end());
         std::sort(key.begin(), key.end());
         sides[key].push_back(s);
     }
@@ -67,12 +67,12 @@ TEST_CASE("facets: random cells, with crowds and duplicates")
     std::mt19937 rng(3);
     for (int trial = 0; trial < 20; ++trial)
     {
-        std::vector<std::array<taut::index, 3>> cells;
-        std::vector<std::array<taut::index, 4>> volumes;
+        std::vector<std::array<taut::idx, 3>> cells;
+        std::vector<std::array<taut::idx, 4>> volumes;
         while (cells.size() < 40)
         {
-            std::array<taut::index, 4> t{};
-            for (auto& v : t) v = static_cast<taut::index>(rng() % 9);
+            std::array<taut::idx, 4> t{};
+            for (auto& v : t) v = static_cast<taut::idx>(rng() % 9);
             auto sorted = t;
             std::sort(sorted.begin(), sorted.end());
             if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) continue;
@@ -106,13 +106,13 @@ TEST_CASE("facets: neighbours that run the same way clash")
 TEST_CASE("facets: sides are oriented as the boundary of their cell")
 {
     const auto tri = test::single_triangle();
-    CHECK(side_vertices(tri, 0) == std::array<taut::index, 2>{1, 2});
-    CHECK(side_vertices(tri, 1) == std::array<taut::index, 2>{2, 0});
-    CHECK(side_vertices(tri, 2) == std::array<taut::index, 2>{0, 1});
+    CHECK(side_vertices(tri, 0) == std::array<taut::idx, 2>{1, 2});
+    CHECK(side_vertices(tri, 1) == std::array<taut::idx, 2>{2, 0});
+    CHECK(side_vertices(tri, 2) == std::array<taut::idx, 2>{0, 1});
 
     const auto tet = test::single_tetrahedron();
     REQUIRE(tetrahedron::determinant(tet.rest(0)) > 0);
-    for (taut::index s = 0; s < 4; ++s)
+    for (taut::idx s = 0; s < 4; ++s)
     {
         const auto v = side_vertices(tet, s);
         const auto x = [&](int k) { return tet.points()[static_cast<std::size_t>(k)]; };

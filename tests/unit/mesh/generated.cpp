@@ -5,12 +5,12 @@
 #include <taut/mesh/incidence.hpp>
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 TEST_CASE("generated meshes: planar ones are counter-clockwise")
 {
     for (const auto& m : {test::grid(5, 3), test::flat_disk(9), test::fan(7), test::annulus(9), test::bumpy(9, 0.0)})
-        for (taut::index c = 0; c < m.cell_count(); ++c)
+        for (taut::idx c = 0; c < m.cell_count(); ++c)
         {
             const auto x = m.rest(c);
             CHECK(triangle::determinant({vec2(x[0]), vec2(x[1]), vec2(x[2])}) > 0);
@@ -21,7 +21,7 @@ TEST_CASE("generated meshes: closed and curved ones face outward")
 {
     const auto outward = [](const mesh<triangle>& m, vec3 centre)
     {
-        for (taut::index c = 0; c < m.cell_count(); ++c)
+        for (taut::idx c = 0; c < m.cell_count(); ++c)
         {
             const auto x = m.rest(c);
             CHECK(glm::dot(glm::cross(x[1] - x[0], x[2] - x[0]), x[0] - centre) > 0);
@@ -37,7 +37,7 @@ TEST_CASE("generated meshes: the bumpy disk is irregular, and the same every tim
     const auto m = test::bumpy(20);
     const auto around = vertex_neighbours(m);
     std::size_t low = 99, high = 0;
-    for (taut::index v = 0; v < m.vertex_count(); ++v)
+    for (taut::idx v = 0; v < m.vertex_count(); ++v)
     {
         low = std::min(low, around.row(v).size());
         high = std::max(high, around.row(v).size());

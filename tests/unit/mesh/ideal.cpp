@@ -14,7 +14,7 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 mesh<triangle> one(vec3 a, vec3 b, vec3 c)
 {
@@ -22,12 +22,12 @@ mesh<triangle> one(vec3 a, vec3 b, vec3 c)
 }
 
 /// Edge matrix A of cell c at rest, for a planar surface or a volume.
-mat2 edges(const mesh<triangle>& m, taut::index c)
+mat2 edges(const mesh<triangle>& m, taut::idx c)
 {
     const auto x = m.rest(c);
     return mat2(vec2(x[1] - x[0]), vec2(x[2] - x[0]));
 }
-mat3 edges(const mesh<tetrahedron>& m, taut::index c)
+mat3 edges(const mesh<tetrahedron>& m, taut::idx c)
 {
     const auto x = m.rest(c);
     return mat3(x[1] - x[0], x[2] - x[0], x[3] - x[0]);
@@ -49,7 +49,7 @@ TEST_CASE("ideal: at rest S is a rotation and the measures add up")
     const auto disk = test::flat_disk(8);
     const ideal_elements<triangle> flat(disk);
     double area = 0;
-    for (taut::index c = 0; c < disk.cell_count(); ++c)
+    for (taut::idx c = 0; c < disk.cell_count(); ++c)
     {
         check_rotation<2>(edges(disk, c) * flat.inverse[static_cast<std::size_t>(c)]);
         area += flat.measure[static_cast<std::size_t>(c)];
@@ -59,7 +59,7 @@ TEST_CASE("ideal: at rest S is a rotation and the measures add up")
     const auto solid = test::cube(3);
     const ideal_elements<tetrahedron> tets(solid);
     double volume = 0;
-    for (taut::index c = 0; c < solid.cell_count(); ++c)
+    for (taut::idx c = 0; c < solid.cell_count(); ++c)
     {
         check_rotation<3>(edges(solid, c) * tets.inverse[static_cast<std::size_t>(c)]);
         volume += tets.measure[static_cast<std::size_t>(c)];
@@ -207,7 +207,7 @@ TEST_CASE("ideal: cells without one are all named")
     catch (const mesh_error& e)
     {
         CHECK(e.fault() == mesh_fault::degenerate_cell);
-        CHECK(e.ids() == std::vector<taut::index>{0, 2});
+        CHECK(e.ids() == std::vector<taut::idx>{0, 2});
     }
     auto cells = test::cube(1).cells();
     std::swap(cells[3][0], cells[3][1]);
@@ -219,7 +219,7 @@ TEST_CASE("ideal: cells without one are all named")
     catch (const mesh_error& e)
     {
         CHECK(e.fault() == mesh_fault::inverted_cell);
-        CHECK(e.ids() == std::vector<taut::index>{3});
+        CHECK(e.ids() == std::vector<taut::idx>{3});
     }
 }
 

@@ -11,9 +11,9 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
-using cells3 = std::vector<std::array<taut::index, 3>>;
+using cells3 = std::vector<std::array<taut::idx, 3>>;
 const std::vector<vec3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 /// The error of building a mesh from these; the test fails if there is none.
@@ -44,7 +44,7 @@ TEST_CASE("mesh: keeps points, cells and their order")
     CHECK(m.vertex_count() == 4);
     CHECK(m.cell_count() == 2);
     CHECK(m.points() == square);
-    CHECK(m.cells()[0] == std::array<taut::index, 3>{2, 3, 0});
+    CHECK(m.cells()[0] == std::array<taut::idx, 3>{2, 3, 0});
     CHECK(m.rest(0)[1] == vec3(0, 1, 0));
 }
 
@@ -58,10 +58,10 @@ TEST_CASE("mesh: an index out of range is named with its cell")
 {
     const auto high = error_of(square, {{0, 1, 2}, {0, 2, 4}});
     CHECK(high.fault() == mesh_fault::index_out_of_range);
-    CHECK(high.ids() == std::vector<taut::index>{1, 4});
+    CHECK(high.ids() == std::vector<taut::idx>{1, 4});
     CHECK(contains(high, "triangle 1: vertex 4 >= 4"));
     const auto low = error_of(square, {{0, -1, 2}});
-    CHECK(low.ids() == std::vector<taut::index>{0, -1});
+    CHECK(low.ids() == std::vector<taut::idx>{0, -1});
     CHECK(contains(low, "vertex -1 < 0"));
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("mesh: every vertex with a coordinate that is not finite is named")
     points[3].z = -std::numeric_limits<double>::infinity();
     const auto e = error_of(points, {{0, 1, 2}});
     CHECK(e.fault() == mesh_fault::non_finite);
-    CHECK(e.ids() == std::vector<taut::index>{1, 3});
+    CHECK(e.ids() == std::vector<taut::idx>{1, 3});
     CHECK(contains(e, "2 vertices (1, 3)"));
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("mesh: cells that repeat a vertex are named")
 {
     const auto e = error_of(square, {{0, 1, 2}, {0, 2, 2}, {1, 3, 1}});
     CHECK(e.fault() == mesh_fault::repeated_vertex);
-    CHECK(e.ids() == std::vector<taut::index>{1, 2});
+    CHECK(e.ids() == std::vector<taut::idx>{1, 2});
 }
 
 TEST_CASE("mesh: a long list of ids is cut in the message but not in the data")

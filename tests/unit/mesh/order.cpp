@@ -14,16 +14,16 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 /// The mesh with its vertices and cells in random order.
 template <class Element>
 mesh<Element> shuffled(const mesh<Element>& m)
 {
     std::mt19937 rng(9);
-    std::vector<taut::index> v(m.points().size()), c(m.cells().size());
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = static_cast<taut::index>(i);
-    for (std::size_t i = 0; i < c.size(); ++i) c[i] = static_cast<taut::index>(i);
+    std::vector<taut::idx> v(m.points().size()), c(m.cells().size());
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = static_cast<taut::idx>(i);
+    for (std::size_t i = 0; i < c.size(); ++i) c[i] = static_cast<taut::idx>(i);
     std::shuffle(v.begin(), v.end(), rng);
     std::shuffle(c.begin(), c.end(), rng);
     return permute(m, {permutation(v), permutation(c)});
@@ -47,7 +47,7 @@ TEST_CASE("permutation: apply and undo are inverse")
     const std::vector<int> values = {10, 11, 12, 13};
     CHECK(p.apply(values) == std::vector<int>{12, 10, 13, 11});
     CHECK(p.undo(p.apply(values)) == values);
-    CHECK(p.old_to_new == std::vector<taut::index>{1, 3, 0, 2});
+    CHECK(p.old_to_new == std::vector<taut::idx>{1, 3, 0, 2});
 }
 
 TEST_CASE_TEMPLATE("order: the mesh stays the same mesh", Element, triangle, tetrahedron)
@@ -63,7 +63,7 @@ TEST_CASE_TEMPLATE("order: the mesh stays the same mesh", Element, triangle, tet
     const auto m = permute(original, order);
     REQUIRE(m.cell_count() == original.cell_count());
     REQUIRE(m.vertex_count() == original.vertex_count());
-    for (taut::index c = 0; c < m.cell_count(); ++c)
+    for (taut::idx c = 0; c < m.cell_count(); ++c)
         CHECK(m.rest(c) == original.rest(order.cells.new_to_old[static_cast<std::size_t>(c)]));
     // Undone on output, bit for bit.
     CHECK(order.vertices.undo(m.points()) == original.points());
@@ -88,12 +88,12 @@ TEST_CASE("order: neighbours come close and cells follow their vertices")
     const auto original = shuffled(test::flat_disk(40));
     const auto m = permute(original, locality_order(original));
     CHECK(span(m) < 0.1 * span(original));
-    const auto least = [&](taut::index c)
+    const auto least = [&](taut::idx c)
     {
         const auto& t = m.cells()[static_cast<std::size_t>(c)];
         return *std::min_element(t.begin(), t.end());
     };
-    for (taut::index c = 1; c < m.cell_count(); ++c) CHECK(least(c - 1) <= least(c));
+    for (taut::idx c = 1; c < m.cell_count(); ++c) CHECK(least(c - 1) <= least(c));
 
     const auto solid = shuffled(test::cube(8));
     CHECK(span(permute(solid, locality_order(solid))) < 0.4 * span(solid));
@@ -119,10 +119,10 @@ TEST_CASE("incidence: the corners of each vertex, sorted, each once")
     const csr r = vertex_corners(m);
     REQUIRE(r.rows() == m.vertex_count());
     CHECK(r.items.size() == 3 * m.cells().size());
-    for (taut::index v = 0; v < r.rows(); ++v)
+    for (taut::idx v = 0; v < r.rows(); ++v)
     {
         CHECK(std::is_sorted(r.row(v).begin(), r.row(v).end()));
-        for (const taut::index i : r.row(v))
+        for (const taut::idx i : r.row(v))
             CHECK(m.cells()[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)] == v);
     }
     const csr cells = vertex_cells(m);
@@ -132,8 +132,8 @@ TEST_CASE("incidence: the corners of each vertex, sorted, each once")
 TEST_CASE("incidence: neighbours share a cell; a vertex without a cell has an empty row")
 {
     const auto fan = vertex_neighbours(test::fan(3));
-    CHECK(std::vector<taut::index>(fan.row(0).begin(), fan.row(0).end()) == std::vector<taut::index>{1, 2, 3, 4});
-    CHECK(std::vector<taut::index>(fan.row(1).begin(), fan.row(1).end()) == std::vector<taut::index>{0, 2});
+    CHECK(std::vector<taut::idx>(fan.row(0).begin(), fan.row(0).end()) == std::vector<taut::idx>{1, 2, 3, 4});
+    CHECK(std::vector<taut::idx>(fan.row(1).begin(), fan.row(1).end()) == std::vector<taut::idx>{0, 2});
 
     auto points = test::single_triangle().points();
     points.push_back(vec3(1.0));
@@ -142,7 +142,7 @@ TEST_CASE("incidence: neighbours share a cell; a vertex without a cell has an em
     CHECK(loose.row(3).empty());
 
     const auto tets = vertex_neighbours(test::single_tetrahedron());
-    for (taut::index v = 0; v < 4; ++v) CHECK(tets.row(v).size() == 3);
+    for (taut::idx v = 0; v < 4; ++v) CHECK(tets.row(v).size() == 3);
 }
 
 TEST_CASE("order: pinned vertices come last, all else stays in locality order")
@@ -152,12 +152,12 @@ TEST_CASE("order: pinned vertices come last, all else stays in locality order")
     for (std::size_t v = 0; v < pinned.size(); ++v) pinned[v] = v % 3 == 0;
     const auto all = locality_order(m);
     const solution_order s(m, pinned);
-    CHECK(s.free_count == static_cast<taut::index>(std::count(pinned.begin(), pinned.end(), false)));
+    CHECK(s.free_count == static_cast<taut::idx>(std::count(pinned.begin(), pinned.end(), false)));
     CHECK(s.order.cells.new_to_old == all.cells.new_to_old);
     for (std::size_t i = 0; i < pinned.size(); ++i)
     {
         const auto number = [&](std::size_t at) { return static_cast<std::size_t>(s.order.vertices.new_to_old[at]); };
-        CHECK(pinned[number(i)] == (static_cast<taut::index>(i) >= s.free_count));
+        CHECK(pinned[number(i)] == (static_cast<taut::idx>(i) >= s.free_count));
         if (i > 0 && pinned[number(i)] == pinned[number(i - 1)])
             CHECK(all.vertices.old_to_new[number(i - 1)] < all.vertices.old_to_new[number(i)]);
     }

@@ -12,7 +12,7 @@ namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 std::vector<mesh_fault> faults(const std::vector<mesh_finding>& found)
 {
@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
-using ids = std::vector<taut::index>;
+using ids = std::vector<taut::idx>;
 
 } // namespace
 
@@ -69,7 +69,7 @@ TEST_CASE("validate: throws the first finding with fault, ids and remedy")
 
 TEST_CASE("validate: flat triangles are named, slivers pass")
 {
-    const std::vector<std::array<taut::index, 3>> cells = {{0, 1, 2}, {0, 2, 3}};
+    const std::vector<std::array<taut::idx, 3>> cells = {{0, 1, 2}, {0, 2, 3}};
     const auto with_height = [&](double h) {
         return mesh<triangle>({{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 1, 0}}, cells);
     };
@@ -100,7 +100,7 @@ TEST_CASE("validate: the scale of the mesh does not matter")
 
 TEST_CASE("validate: duplicate triangles are named in pairs")
 {
-    for (const taut::index original : {4, 8}) // at the boundary and inside, its corners in three orders
+    for (const taut::idx original : {4, 8}) // at the boundary and inside, its corners in three orders
         for (std::size_t turn = 0; turn < 3; ++turn)
         {
             auto cells = test::grid(3, 3).cells();

@@ -9,14 +9,14 @@
 
 #include <support/size.hpp>
 #include <support/untangle_checks.hpp>
-#include <taut/map/barycentric_map.hpp>
-#include <taut/map/untangle/untangle_host.hpp>
+#include <taut/start/barycentric_map.hpp>
+#include <taut/untangle/untangle_host.hpp>
 
 namespace
 {
 
 using namespace taut;
-using taut::index;
+using taut::idx;
 
 /// Small disks of random connectivity and shape: a triangle that grew ears, filled notches and split triangles.
 class random_disk
@@ -38,7 +38,7 @@ public:
 private:
     std::size_t pick(std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_); }
 
-    void add(index a, index b, index c)
+    void add(idx a, idx b, idx c)
     {
         cells_.push_back({a, b, c});
         for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
@@ -48,7 +48,7 @@ private:
     void grow()
     {
         const std::size_t n = rim_.size(), i = pick(n);
-        const index a = rim_[i], b = rim_[(i + 1) % n], c = rim_[(i + 2) % n];
+        const idx a = rim_[i], b = rim_[(i + 1) % n], c = rim_[(i + 2) % n];
         switch (pick(3))
         {
         case 0: // an ear on the edge ab
@@ -70,10 +70,10 @@ private:
     }
 
     std::mt19937& random_;
-    index vertices_ = 3;
+    idx vertices_ = 3;
     std::vector<mesh<triangle>::cell> cells_{{0, 1, 2}};
-    std::vector<index> rim_{0, 1, 2};
-    std::set<std::pair<index, index>> edges_{{0, 1}, {1, 2}, {0, 2}};
+    std::vector<idx> rim_{0, 1, 2};
+    std::set<std::pair<idx, idx>> edges_{{0, 1}, {1, 2}, {0, 2}};
 };
 
 } // namespace

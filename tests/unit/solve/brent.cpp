@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/solve/brent.hpp>
+#include <taut/solve/line/brent.hpp>
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "functions.hpp"
 
+#include "support/two_loop.hpp"
 #include <doctest/doctest.h>
 
 using namespace taut::solve;
@@ -125,16 +126,13 @@ TEST_CASE("conjugate gradient: both forms of the preconditioner give the same it
     {
         auto f = functions::chain(50);
         std::vector<double> x = functions::noise(50), y = x;
-        for (auto* point : {&x, &y})
-            minimize(
-                f, *point,
-                {.method = method::conjugate_gradient,
-                 .conjugate_gradient = {.beta = beta,
-                                        .memory = {.pairs = 3,
-                                                   .form = point == &x ? inverse_hessian_form::gram
-                                                                       : inverse_hessian_form::two_loop}},
-                 .line_search = {.method = line_search_method::strong_wolfe}, // Brent's steps are noise from 1e-8 on
-                 .stopping = {.gradient_tolerance = 0, .max_iterations = 30}});
+        const params p{.method = method::conjugate_gradient,
+                       .conjugate_gradient = {.beta = beta, .memory = {.pairs = 3}},
+                       // Brent's steps are noise from 1e-8 on.
+                       .line_search = {.method = line_search_method::strong_wolfe},
+                       .stopping = {.gradient_tolerance = 0, .max_iterations = 30}};
+        minimize(f, x, p);
+        minimize_by_two_loops(f, y, p);
         CHECK(functions::distance(x, y) < 1e-10);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "functions.hpp"
 
+#include "support/two_loop.hpp"
 #include <doctest/doctest.h>
 
 using namespace taut::solve;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/two_loop.hpp"
 #include <doctest/doctest.h>
 
 using namespace taut::solve;
@@ -84,16 +85,11 @@ TEST_CASE("lbfgs: the two forms of the inverse Hessian give the same iterates to
                 auto f = functions::chain(50);
                 std::vector<double> x = functions::noise(50), y = x;
                 const stopping_params stopping{.gradient_tolerance = 0, .max_iterations = iterations};
-                const auto run = [&](auto& point, inverse_hessian_form form)
-                {
-                    return minimize(
-                        f, point,
-                        {.lbfgs = {.memory = {.pairs = pairs, .scaling = scale, .form = form}},
-                         .line_search = {.method =
-                                             line_search_method::strong_wolfe}, // Brent's steps are noise from 1e-8 on
-                         .stopping = stopping});
-                };
-                const auto gram = run(x, inverse_hessian_form::gram), loop = run(y, inverse_hessian_form::two_loop);
+                const params p{.lbfgs = {.memory = {.pairs = pairs, .scaling = scale}},
+                               // Brent's steps are noise from 1e-8 on.
+                               .line_search = {.method = line_search_method::strong_wolfe},
+                               .stopping = stopping};
+                const auto gram = minimize(f, x, p), loop = minimize_by_two_loops(f, y, p);
                 CHECK(gram.evaluations == loop.evaluations);
                 CHECK(functions::distance(x, y) < 1e-10);
             }
@@ -166,16 +162,13 @@ TEST_CASE("lbfgs: with the exact inverse Hessian as preconditioner a quadratic t
     };
     static_assert(has_precondition<preconditioned>);
 
-    for (const auto form : {inverse_hessian_form::gram, inverse_hessian_form::two_loop})
+    for (const bool two_loops : {false, true})
         for (const auto which : {method::lbfgs, method::conjugate_gradient, method::gradient_descent})
         {
             preconditioned f(8);
             std::vector<double> x(8, 5.0);
-            const auto r = minimize(f, x,
-                                    {.method = which,
-                                     .lbfgs = {.memory = {.form = form}},
-                                     .conjugate_gradient = {.memory = {.form = form}},
-                                     .stopping = {.gradient_tolerance = 1e-9}});
+            const params p{.method = which, .stopping = {.gradient_tolerance = 1e-9}};
+            const auto r = two_loops ? minimize_by_two_loops(f, x, p) : minimize(f, x, p);
             CHECK(r.stop == stop::gradient);
             CHECK(r.iterations <= 3);
             CHECK(functions::distance(x, 1) <= 1e-6);

@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/solve/backtracking.hpp>
-#include <taut/solve/bracket.hpp>
-#include <taut/solve/hybrid.hpp>
-#include <taut/solve/strong_wolfe.hpp>
+#include <taut/solve/line/backtracking.hpp>
+#include <taut/solve/line/bracket.hpp>
+#include <taut/solve/line/hybrid.hpp>
+#include <taut/solve/line/strong_wolfe.hpp>
 
 #include <functional>
 #include <string>

@@ -10,24 +10,8 @@
 #include <taut/compute/detail/sole_use.hpp>
 #include <taut/compute/event.hpp>
 #include <taut/compute/program_cache.hpp>
+#include <taut/compute/queue_counters.hpp>
 #include <taut/compute/range.hpp>
-
-namespace taut
-{
-
-/// What a queue has done since it was made or since reset: the cost model of the library is waits first, launches
-/// second.
-struct queue_counters
-{
-    std::uint64_t launches = 0;      ///< kernels enqueued
-    std::uint64_t waits = 0;         ///< times the host blocked: reads, writes, finish
-    std::uint64_t bytes_read = 0;    ///< device to host
-    std::uint64_t bytes_written = 0; ///< host to device
-    std::uint64_t builds = 0;        ///< programs compiled
-    double build_seconds = 0;        ///< host seconds spent compiling them
-};
-
-} // namespace taut
 
 namespace taut::detail
 {

@@ -17,22 +17,22 @@ namespace taut::detail
 // leaves undefined.
 
 /// Integer arithmetic of the device: it wraps around; a division without a result has none.
-inline std::optional<index> apply_integer(opcode op, index a, index b)
+inline std::optional<idx> apply_integer(opcode op, idx a, idx b)
 {
     // through unsigned numbers, for overflow of signed ones is undefined in C++
     const auto ua = static_cast<std::uint32_t>(a);
     const auto ub = static_cast<std::uint32_t>(b);
-    const bool divides = b != 0 && !(a == std::numeric_limits<index>::min() && b == -1);
+    const bool divides = b != 0 && !(a == std::numeric_limits<idx>::min() && b == -1);
     switch (op)
     {
     case opcode::neg:
-        return static_cast<index>(0u - ua);
+        return static_cast<idx>(0u - ua);
     case opcode::add:
-        return static_cast<index>(ua + ub);
+        return static_cast<idx>(ua + ub);
     case opcode::sub:
-        return static_cast<index>(ua - ub);
+        return static_cast<idx>(ua - ub);
     case opcode::mul:
-        return static_cast<index>(ua * ub);
+        return static_cast<idx>(ua * ub);
     case opcode::div:
         return divides ? std::optional(a / b) : std::nullopt;
     case opcode::rem:
@@ -110,7 +110,7 @@ std::optional<bool> apply_comparison(opcode op, T a, T b)
 template <class To, class From>
 std::optional<To> apply_cast(From value)
 {
-    if constexpr (std::is_floating_point_v<From> && std::is_same_v<To, index>)
+    if constexpr (std::is_floating_point_v<From> && std::is_same_v<To, idx>)
     {
         const double wide = value;
         if (!(wide > -2147483649.0 && wide < 2147483648.0)) return std::nullopt;
@@ -160,7 +160,7 @@ inline std::optional<std::uint64_t> apply(const node& n, scalar_type from, std::
     case scalar_type::f64:
         return bits(apply_floating(n.op, from_bits<double>(a), from_bits<double>(b)));
     case scalar_type::i32:
-        return bits(apply_integer(n.op, from_bits<index>(a), from_bits<index>(b)));
+        return bits(apply_integer(n.op, from_bits<idx>(a), from_bits<idx>(b)));
     case scalar_type::boolean:
         break;
     }

@@ -22,10 +22,10 @@ std::string literal(T value)
 {
     if constexpr (std::is_same_v<T, bool>)
         return value ? "true" : "false";
-    else if constexpr (std::is_same_v<T, index>)
+    else if constexpr (std::is_same_v<T, idx>)
     {
         // There are no negative literals, and 2147483648 would be a long.
-        if (value == std::numeric_limits<index>::min()) return "(-2147483647 - 1)";
+        if (value == std::numeric_limits<idx>::min()) return "(-2147483647 - 1)";
         return value < 0 ? concat("(", std::to_string(value), ")") : std::to_string(value);
     }
     else

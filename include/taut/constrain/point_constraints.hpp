@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <taut/constrain/constraints.hpp>
+#include <taut/mesh/order.hpp>
+
+namespace taut
+{
+
+/// What is asked of single vertices besides being pinned, which is the matter of the layout: coordinates that are held
+/// alone, and springs. Units are those of the map.
+template <int D>
+struct point_constraints
+{
+    std::vector<std::uint8_t> held; ///< one a vertex, or none; bit k: coordinate k does not move
+    std::vector<spring<D>> springs; ///< each adds weight * |x - target|^2 to the energy's mean
+
+    bool empty() const { return held.empty() && springs.empty(); }
+
+    /// For vertices in other numbers.
+    point_constraints renumbered(const permutation& p) const
+    {
+        point_constraints r;
+        if (!held.empty()) r.held = p.apply(held);
+        for (spring<D> s : springs)
+        {
+            s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];
+            r.springs.push_back(s);
+        }
+        return r;
+    }
+
+    /// For a map whose lengths are `factor` times as long.
+    point_constraints scaled(double factor) const
+    {
+        point_constraints r = *this;
+        for (auto& s : r.springs)
+        {
+            s.target *= factor;
+            s.weight /= factor * factor;
+        }
+        return r;
+    }
+
+    /// One flag a vertex: true if it has any.
+    std::vector<bool> touched(std::size_t vertices) const
+    {
+        std::vector<bool> any(vertices, false);
+        for (std::size_t v = 0; v < held.size(); ++v) any[v] = held[v] != 0;
+        for (const auto& s : springs) any[static_cast<std::size_t>(s.vertex)] = true;
+        return any;
+    }
+};
+
+} // namespace taut

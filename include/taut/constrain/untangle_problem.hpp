@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <taut/core/error.hpp>
+#include <taut/mesh/boundary.hpp>
+
+namespace taut
+{
+
+/// A map to be made injective while some coordinates of some vertices stay exactly where they are.
+template <class Element>
+struct untangle_problem
+{
+    static constexpr int D = Element::dimension;
+
+    mesh<Element> rest;             ///< the shape that the map distorts as little as possible; planar meshes have z = 0
+    std::vector<vec<D>> initial;    ///< one a vertex, in any state; a held coordinate is a hard constraint
+    std::vector<std::uint8_t> held; ///< one a vertex: bit k says that coordinate k is held
+    /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
+    /// empty: none is known.
+    std::vector<vec<D>> draft = {};
+
+    static constexpr std::uint8_t all = (1u << D) - 1; ///< of held: the vertex is pinned
+
+    /// True if coordinate k of vertex v is held.
+    bool holds(std::size_t v, int k) const { return (held[v] >> k & 1u) != 0; }
+    bool pinned(std::size_t v) const { return held[v] == all; }
+
+    /// True if no vertex of the boundary can move.
+    bool outline_pinned() const
+    {
+        const auto outline = boundary_facets(rest);
+        return std::all_of(outline.begin(), outline.end(),
+                           [this](const auto& facet) {
+                               return std::all_of(facet.begin(), facet.end(),
+                                                  [this](idx v) { return pinned(static_cast<std::size_t>(v)); });
+                           });
+    }
+
+    /// Throws parameter_error: one initial position and one set of held coordinates a vertex, all of it finite.
+    void validate() const
+    {
+        const std::size_t n = rest.points().size();
+        if (initial.size() != n)
+            throw parameter_error("initial", "one position a vertex: " + std::to_string(n) + ", not " +
+                                                 std::to_string(initial.size()));
+        if (held.size() != n)
+            throw parameter_error("held", "one set of coordinates a vertex: " + std::to_string(n) + ", not " +
+                                              std::to_string(held.size()));
+        if (!draft.empty() && draft.size() != n)
+            throw parameter_error("draft", "one position a vertex, or none at all: " + std::to_string(n) + ", not " +
+                                               std::to_string(draft.size()));
+        for (std::size_t v = 0; v < n; ++v)
+        {
+            for (int k = 0; k < D; ++k)
+                if (!std::isfinite(initial[v][k]))
+                    throw parameter_error("initial", "vertex " + std::to_string(v) + " is not finite");
+            if (held[v] > all)
+                throw parameter_error("held", "vertex " + std::to_string(v) + " has only " + std::to_string(D) +
+                                                  " coordinates");
+        }
+    }
+};
+
+} // namespace taut

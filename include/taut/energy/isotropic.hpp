@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <taut/energy/any_energy.hpp>
+#include <taut/symbolic/differentiate.hpp>
+
+namespace taut
+{
+
+/// First and second derivatives of an energy E = psi(I, d) by the invariants I = |S|^2 and d = det S.
+template <class Real>
+struct invariant_derivatives
+{
+    Real I, d;
+    Real by_I, by_d;
+    Real by_II, by_Id, by_dd;
+};
+
+/// The derivatives by the invariants if the recording of E(S) shows that S enters through norm2(S) and det S alone;
+/// nothing otherwise.
+///
+/// The tape keeps one node for equal expressions, so the energy's own norm2(e.S) is the node I, and so is e.det d. A
+/// sweep that stops at these two reaches an entry of S only if the energy uses it in another way. Hence nobody declares
+/// anything, sums and products of energies qualify when their parts do, and no declaration can be wrong; an energy that
+/// spells |S|^2 differently goes the numeric way, which is right, too, and slower.
+///
+/// The invariants rather than singular values s1, s2: what comes from E(s1, s2) needs (E_1 - E_2)/(s1 - s2), which is
+/// 0/0 at every similarity, the very state that maps tend to.
+template <class R>
+std::optional<invariant_derivatives<sym<R>>> derivatives_by_invariants(sym<R> value, const glm::mat<2, 2, sym<R>>& S)
+{
+    const sym<R> I = norm2(S), d = glm::determinant(S);
+    const std::array<node_id, 6> stops = {I.id(), d.id(), S[0][0].id(), S[0][1].id(), S[1][0].id(), S[1][1].id()};
+    const auto partials = detail::reverse_sweep(tape::current(), value.id(), stops);
+    for (std::size_t k = 2; k < stops.size(); ++k)
+        if (partials[k] != no_node) return std::nullopt;
+
+    const auto first = differentiate(value, {I, d});
+    const auto of_I = differentiate(first[0], {I, d});
+    return invariant_derivatives<sym<R>>{I, d, first[0], first[1], of_I[0], of_I[1], differentiate(first[1], d)};
+}
+
+/// True if the energy gets the closed form of plane_modes.hpp, found by recording it once.
+inline bool is_isotropic(const any_energy& energy)
+{
+    using real = sym<double>;
+    tape recorded;
+    const tape_scope scope(recorded);
+    glm::mat<2, 2, real> S;
+    for (int c = 0; c < 2; ++c)
+        for (int r = 0; r < 2; ++r) S[c][r] = real::variable();
+    const real value = energy(element<real, 2>{S, glm::determinant(S), real::variable()});
+    return derivatives_by_invariants(value, S).has_value();
+}
+
+} // namespace taut

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/core/types.hpp>
+#include <taut/exact/predicates.hpp>
+
+namespace taut
+{
+
+namespace detail
+{
+
+/// True if r, known to lie on the line through p and q, is on the closed segment.
+inline bool between(const vec2& p, const vec2& q, const vec2& r)
+{
+    return std::min(p.x, q.x) <= r.x && r.x <= std::max(p.x, q.x) && std::min(p.y, q.y) <= r.y &&
+           r.y <= std::max(p.y, q.y);
+}
+
+/// True if the closed segments ab and cd have a common point; exact.
+inline bool segments_meet(const vec2& a, const vec2& b, const vec2& c, const vec2& d)
+{
+    const int abc = orient2d(a, b, c);
+    const int abd = orient2d(a, b, d);
+    const int cda = orient2d(c, d, a);
+    const int cdb = orient2d(c, d, b);
+    if (abc * abd < 0 && cda * cdb < 0) return true;
+    return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
+           (cdb == 0 && between(c, d, b));
+}
+
+/// True if segments ab and bc share more than b: c folds back over ab.
+inline bool folds_back(const vec2& a, const vec2& b, const vec2& c)
+{
+    return orient2d(a, b, c) == 0 && (between(a, b, c) || between(b, c, a));
+}
+
+/// True if the images of two edges have a common point beyond a common end vertex.
+inline bool edges_meet(const std::array<idx, 2>& e, const std::array<idx, 2>& f, std::span<const vec2> x)
+{
+    const auto at = [&x](idx v) { return x[static_cast<std::size_t>(v)]; };
+    const auto [a, b] = e;
+    const auto [c, d] = f;
+    if ((a == c && b == d) || (a == d && b == c)) return true;
+    if (b == c) return folds_back(at(a), at(b), at(d));
+    if (a == d) return folds_back(at(b), at(a), at(c));
+    if (a == c) return folds_back(at(b), at(a), at(d));
+    if (b == d) return folds_back(at(a), at(b), at(c));
+    return segments_meet(at(a), at(b), at(c), at(d));
+}
+
+/// A binary tree of boxes about edges: halves along the longer side of what a node holds.
+class edge_tree
+{
+public:
+    /// Edges with finite ends.
+    edge_tree(std::span<const std::array<idx, 2>> edges, std::span<const vec2> x) : order_(edges.size())
+    {
+        for (const auto& [i, j] : edges)
+        {
+            const vec2 &p = x[static_cast<std::size_t>(i)], &q = x[static_cast<std::size_t>(j)];
+            edges_.push_back({glm::min(p, q), glm::max(p, q)});
+        }
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        if (!edges.empty()) build(0, edges.size());
+    }
+
+    /// Calls look(i, j), i < j, for each pair of edges whose boxes meet, until it returns false.
+    template <class Look>
+    void for_each_pair(Look&& look) const
+    {
+        if (!nodes_.empty()) visit(0, 0, look);
+    }
+
+private:
+    struct box
+    {
+        vec2 low, high;
+
+        bool meets(const box& o) const
+        {
+            return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y;
+        }
+    };
+
+    struct node
+    {
+        box bounds;
+        std::size_t first, last;         // of order_
+        std::size_t left = 0, right = 0; // 0: a leaf
+    };
+
+    static constexpr std::size_t leaf = 4;
+
+    std::size_t build(std::size_t first, std::size_t last)
+    {
+        box bounds = edges_[order_[first]];
+        for (std::size_t k = first; k < last; ++k)
+        {
+            bounds.low = glm::min(bounds.low, edges_[order_[k]].low);
+            bounds.high = glm::max(bounds.high, edges_[order_[k]].high);
+        }
+        const std::size_t self = nodes_.size();
+        nodes_.push_back({bounds, first, last});
+        if (last - first <= leaf) return self;
+        const int side = bounds.high.x / 2 - bounds.low.x / 2 >= bounds.high.y / 2 - bounds.low.y / 2 ? 0 : 1;
+        const std::size_t middle = first + (last - first) / 2;
+        const auto centre = [&](std::size_t e) { return edges_[e].low[side] / 2 + edges_[e].high[side] / 2; };
+        const auto at = [this](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
+        std::nth_element(at(first), at(middle), at(last),
+                         [&](std::size_t e, std::size_t f)
+                         { return std::pair(centre(e), e) < std::pair(centre(f), f); });
+        const std::size_t left = build(first, middle), right = build(middle, last);
+        nodes_[self].left = left;
+        nodes_[self].right = right;
+        return self;
+    }
+
+    /// Looks at the pairs of an edge of node a and one of node b; a == b: at those within it.
+    template <class Look>
+    bool visit(std::size_t a, std::size_t b, Look& look) const
+    {
+        const node &m = nodes_[a], &n = nodes_[b];
+        if (!m.bounds.meets(n.bounds)) return true;
+        if (m.left == 0 && n.left == 0)
+        {
+            for (std::size_t i = m.first; i < m.last; ++i)
+                for (std::size_t j = a == b ? i + 1 : n.first; j < n.last; ++j)
+                    if (edges_[order_[i]].meets(edges_[order_[j]]) &&
+                        !look(std::min(order_[i], order_[j]), std::max(order_[i], order_[j])))
+                        return false;
+            return true;
+        }
+        if (a == b) return visit(m.left, m.left, look) && visit(m.right, m.right, look) && visit(m.left, m.right, look);
+        // The larger one is halved.
+        if (n.left == 0 || (m.left != 0 && m.last - m.first >= n.last - n.first))
+            return visit(m.left, b, look) && visit(m.right, b, look);
+        return visit(a, n.left, look) && visit(a, n.right, look);
+    }
+
+    std::vector<box> edges_;
+    std::vector<std::size_t> order_;
+    std::vector<node> nodes_;
+};
+
+/// Calls meet(i, j), i < j, for the numbers of each pair of edges that meet, until it returns false or `tests` pairs
+/// whose boxes meet were looked at. O(n log n) plus those pairs. Returns whether all were.
+template <class Meet>
+bool for_each_meeting(std::span<const std::array<idx, 2>> edges, std::span<const vec2> x, Meet&& meet,
+                      std::size_t tests = std::numeric_limits<std::size_t>::max())
+{
+    bool all = true;
+    edge_tree(edges, x).for_each_pair(
+        [&](std::size_t i, std::size_t j)
+        {
+            all = tests > 0;
+            if (!all) return false;
+            --tests;
+            all = !edges_meet(edges[i], edges[j], x) || meet(i, j);
+            return all;
+        });
+    return all;
+}
+
+inline std::vector<std::array<idx, 2>> edges_of(std::span<const std::vector<idx>> loops)
+{
+    std::vector<std::array<idx, 2>> edges;
+    for (const auto& loop : loops)
+        for (std::size_t k = 0; k < loop.size(); ++k) edges.push_back({loop[k], loop[(k + 1) % loop.size()]});
+    return edges;
+}
+
+} // namespace detail
+
+/// Number of pairs of boundary edges whose images have a common point beyond a common end vertex: crossings, touchings
+/// and overlaps. Exact. 0 together with a clean certificate means that a disk's map is injective.
+///
+/// loops: boundary loops as vertex indices, each of at least two; x: #V image points, finite.
+inline std::size_t boundary_crossings(std::span<const std::vector<idx>> loops, std::span<const vec2> x)
+{
+    std::size_t count = 0;
+    detail::for_each_meeting(detail::edges_of(loops), x,
+                             [&count](std::size_t, std::size_t)
+                             {
+                                 ++count;
+                                 return true;
+                             });
+    return count;
+}
+
+/// Crossings that were counted as far as it took little time.
+struct crossing_count
+{
+    std::size_t pairs = 0;
+    bool all = true; ///< false: there are at least so many
+};
+
+/// boundary_crossings() that ends at `most` crossings, or where there is too much to look at: charts that lie on each
+/// other have as many crossings as pairs of edges.
+inline crossing_count count_boundary_crossings(std::span<const std::vector<idx>> loops, std::span<const vec2> x,
+                                               std::size_t most = 100'000)
+{
+    const auto edges = detail::edges_of(loops);
+    crossing_count count;
+    count.all = detail::for_each_meeting(
+        edges, x, [&](std::size_t, std::size_t) { return ++count.pairs < most; }, 64 * edges.size() + 10 * most);
+    return count;
+}
+
+} // namespace taut

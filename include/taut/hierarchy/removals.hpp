@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <taut/mesh/incidence.hpp>
+
+namespace taut
+{
+
+/// How a level was thinned to the next coarser one: vertices pulled into a neighbour each, in rounds. In a round no two
+/// removed vertices are neighbours, so all of it can be done, and undone, at once. Numbers are those of the finer
+/// level.
+struct removals
+{
+    std::vector<idx> vertex; ///< the removed vertices, ascending in each round
+    std::vector<idx> target; ///< position in the ring of the neighbour that it was pulled into
+    std::vector<char> open;  ///< it is on the boundary: its ring starts and ends along the boundary
+    csr rings;               ///< neighbours of each when it was removed, counter-clockwise: triangles (v, r[i], r[i+1])
+    std::vector<idx> rounds; ///< round r: removals rounds[r] .. rounds[r + 1] - 1
+
+    std::size_t round_count() const { return rounds.size() - 1; }
+};
+
+} // namespace taut

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include <taut/io/detail/scanner.hpp>
+
+/// How OBJ text falls into statements and faces into corners, for who reads it and who writes it anew.
+namespace taut::io::detail
+{
+
+/// Calls statement(key, begin) for each statement: its first word, behind which the scanner stands, and its first byte.
+/// What the call does not read is skipped.
+template <class Statement>
+void for_each_statement(scanner& in, Statement statement)
+{
+    while (!in.done())
+    {
+        const char* const begin = in.position();
+        const std::string_view key = in.word();
+        statement(key, begin);
+        // Comments end with their line; every other statement may be joined to the next line.
+        in.next_line(!key.starts_with('#'));
+    }
+}
+
+/// A corner of a face: v, v/vt, v//vn or v/vt/vn.
+struct obj_corner
+{
+    long long vertex = 0, texcoord = 0; ///< as written: from 1, or back from -1; texcoord 0: none
+    const char* vertex_end = nullptr;   ///< what stands between these is "", "/" or "/vt"
+    const char* texcoord_end = nullptr;
+    bool has_texcoord = false;
+};
+
+/// Reads a corner. The normal is not looked at. Throws io_error.
+inline obj_corner read_obj_corner(scanner& in)
+{
+    constexpr const char* number = "a corner such as 7, 7/7 or 7//7";
+    obj_corner c;
+    c.vertex = in.leading_integer(number);
+    c.vertex_end = in.position();
+    const bool more = in.take('/');
+    c.has_texcoord = more && !in.at('/') && !in.word_ends();
+    if (c.has_texcoord) c.texcoord = in.leading_integer(number);
+    c.texcoord_end = in.position();
+    if (more && in.take('/') && !in.word_ends()) in.leading_integer("a normal");
+    if (!in.word_ends()) in.fail_at_word("a blank after the corner of a face");
+    return c;
+}
+
+/// The text in pieces of about `size` bytes that end with a statement.
+inline std::vector<std::string_view> cut_statements(std::string_view text, std::size_t size)
+{
+    std::vector<std::string_view> pieces;
+    std::size_t begin = 0;
+    while (text.size() - begin > size)
+    {
+        std::size_t end = begin + size;
+        const auto joined = [&]
+        {
+            const std::size_t last = text[end - 1] == '\r' ? end - 2 : end - 1;
+            return text[last] == '\\';
+        };
+        do end = text.find('\n', end + 1);
+        while (end != text.npos && joined());
+        if (end == text.npos) break;
+        pieces.push_back(text.substr(begin, end + 1 - begin));
+        begin = end + 1;
+    }
+    pieces.push_back(text.substr(begin));
+    return pieces;
+}
+
+} // namespace taut::io::detail

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/constrain/point_constraints.hpp>
+#include <taut/constrain/untangle_problem.hpp>
+#include <taut/map/parameterize_params.hpp>
+#include <taut/measure/similarity.hpp>
+#include <taut/mesh/boundary.hpp>
+
+namespace taut::detail
+{
+
+/// What does not move in a run of parameterize(): the boundary if it is fixed, and what the constraints hold.
+/// Inside, lengths are `unit` times the user's.
+class held_coordinates
+{
+public:
+    /// Throws parameter_error for constraints of another mesh.
+    held_coordinates(const mesh<triangle>& m, const facet_table& sides, const parameterize_params& params, double unit)
+        : wanted_(params.constraints), free_boundary_(params.boundary == boundary_mode::free), unit_(unit)
+    {
+        const std::size_t n = m.points().size();
+        for (const auto& [v, pin] : wanted_.pins()) require(v, n);
+        for (const auto& s : wanted_.springs()) require(s.vertex, n);
+        if (free_boundary_ && wanted_.pins().empty()) return;
+        bits_.assign(n, 0);
+        if (!free_boundary_)
+        {
+            const auto loops = boundary_loops(m, sides);
+            for (const idx v : loops[longest_loop(m.points(), loops)]) bits_[static_cast<std::size_t>(v)] = all;
+        }
+        for (const auto& [v, pin] : wanted_.pins()) bits_[static_cast<std::size_t>(v)] |= pin.held;
+        pinned_.resize(n);
+        for (std::size_t v = 0; v < n; ++v) pinned_[v] = bits_[v] == all;
+    }
+
+    bool constrained() const { return !wanted_.empty(); }
+
+    /// One flag a vertex: pinned in all coordinates; empty if nothing is held.
+    const std::vector<bool>& pinned() const { return pinned_; }
+
+    /// True if the constraints pin every vertex of the boundary.
+    bool outline_pinned(const mesh<triangle>& m, const facet_table& sides) const
+    {
+        if (pinned_.empty()) return false;
+        for (const auto& loop : boundary_loops(m, sides))
+            for (const idx v : loop)
+                if (!pinned_[static_cast<std::size_t>(v)]) return false;
+        return true;
+    }
+
+    /// Moves a map by the similarity that brings it closest to what the constraints ask, if its boundary is free: to
+    /// two or more pinned vertices; else to these and the springs. One vertex shifts the map, none leaves it. Targets
+    /// that no similarity explains, and which would shrink the map to nothing, only turn and shift it.
+    void bring_near(std::vector<vec2>& uv) const
+    {
+        if (!free_boundary_ || obeys(uv)) return;
+        std::vector<anchor> anchors;
+        for (const auto& [v, p] : wanted_.pins())
+            if (p.held == all) anchors.push_back({uv[static_cast<std::size_t>(v)], p.value * unit_});
+        if (anchors.size() < 2)
+        {
+            double heaviest = 0;
+            for (const auto& s : wanted_.springs()) heaviest = std::max(heaviest, s.weight);
+            for (const auto& s : wanted_.springs())
+                if (s.weight > 0)
+                    anchors.push_back({uv[static_cast<std::size_t>(s.vertex)], s.target * unit_, s.weight / heaviest});
+        }
+        if (anchors.empty()) return;
+        auto [map, explained] = fit_similarity(anchors);
+        const double scale = std::abs(map.turn);
+        if (!(scale > 0) || !std::isfinite(scale))
+            map.turn = 1;
+        else if (explained <= 0.25)
+            map.turn /= scale;
+        for (vec2& p : uv) p = map(p);
+    }
+
+    /// Puts held coordinates where the constraints want them, in lengths of `unit` times the user's.
+    void impose(std::vector<vec2>& uv, double unit) const
+    {
+        for (const auto& [v, pin] : wanted_.pins())
+            for (int k = 0; k < 2; ++k)
+                if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k] * unit;
+    }
+    void impose(std::vector<vec2>& uv) const { impose(uv, unit_); }
+
+    /// The points of a map at the vertices of constraints::pins(), in their order.
+    std::vector<vec2> pinned_points(const std::vector<vec2>& uv) const
+    {
+        std::vector<vec2> points;
+        for (const auto& [v, pin] : wanted_.pins()) points.push_back(uv[static_cast<std::size_t>(v)]);
+        return points;
+    }
+
+    /// Gives held coordinates the values that they have in another map, bit for bit.
+    void restore(std::vector<vec2>& uv, const std::vector<vec2>& from) const
+    {
+        for (std::size_t v = 0; v < bits_.size(); ++v)
+            for (int k = 0; k < 2; ++k)
+                if ((bits_[v] >> k & 1u) != 0) uv[v][k] = from[v][k];
+    }
+
+    untangle_problem<triangle> problem(const mesh<triangle>& m, std::vector<vec2> uv) const
+    {
+        auto held = bits_;
+        held.resize(m.points().size(), 0);
+        return {m, std::move(uv), std::move(held)};
+    }
+
+    /// What is asked of vertices that are not pinned, for a map whose origin is `centre`.
+    point_constraints<2> beyond_pins(const vec2& centre) const
+    {
+        point_constraints<2> r;
+        if (std::any_of(bits_.begin(), bits_.end(), [](auto b) { return b != 0 && b != all; }))
+        {
+            r.held = bits_;
+            std::replace(r.held.begin(), r.held.end(), all, std::uint8_t(0));
+        }
+        r.springs = wanted_.springs();
+        r = r.scaled(unit_);
+        for (auto& s : r.springs) s.target -= centre;
+        return r;
+    }
+
+private:
+    /// True if there are pins and all are where they should be; a similarity could only add rounding.
+    bool obeys(const std::vector<vec2>& uv) const
+    {
+        for (const auto& [v, pin] : wanted_.pins())
+            for (int k = 0; k < 2; ++k)
+                if ((pin.held >> k & 1u) != 0 && uv[static_cast<std::size_t>(v)][k] != pin.value[k] * unit_)
+                    return false;
+        return !wanted_.pins().empty();
+    }
+
+    static constexpr std::uint8_t all = untangle_problem<triangle>::all;
+
+    static void require(idx v, std::size_t vertices)
+    {
+        if (v >= 0 && static_cast<std::size_t>(v) < vertices) return;
+        throw parameter_error("constraints", "vertex " + std::to_string(v) + " is not one of this mesh's " +
+                                                 std::to_string(vertices) +
+                                                 "; make them with the mesh that is parameterized");
+    }
+
+    constraints<triangle> wanted_;
+    bool free_boundary_;
+    double unit_;
+    std::vector<std::uint8_t> bits_; ///< one a vertex, bit k: coordinate k is held; empty if nothing is
+    std::vector<bool> pinned_;
+};
+
+} // namespace taut::detail

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <taut/map/detail/held_coordinates.hpp>
+#include <taut/mesh/ideal.hpp>
+#include <taut/mesh/validate.hpp>
+
+namespace taut::detail
+{
+
+/// The surface of a run of parameterize(), checked, with what all phases ask of it. Lengths are those of the user times
+/// a power of two (unit_scale), so that nothing overflows; undoing that is exact.
+struct run_surface
+{
+    double unit;
+    mesh<triangle> surface;
+    facet_table sides;
+    ideal_elements<triangle> ideal;
+    held_coordinates held;
+
+    /// Throws mesh_error, and parameter_error for constraints of another mesh.
+    run_surface(const mesh<triangle>& m, const parameterize_params& params)
+        : unit(unit_scale(m)),
+          surface(scaled(m, unit)),
+          sides(checked(surface, !params.holes)),
+          ideal(surface),
+          held(surface, sides, params, unit)
+    {
+    }
+
+private:
+    static mesh<triangle> scaled(const mesh<triangle>& m, double unit)
+    {
+        auto points = m.points();
+        for (vec3& p : points) p *= unit;
+        return {std::move(points), m.cells()};
+    }
+
+    static facet_table checked(const mesh<triangle>& m, bool one_boundary)
+    {
+        auto sides = facets(m);
+        validate(m, sides, {.one_boundary = one_boundary});
+        return sides;
+    }
+};
+
+} // namespace taut::detail

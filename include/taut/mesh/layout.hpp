@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <taut/core/parallel.hpp>
+#include <taut/mesh/incidence.hpp>
+#include <taut/mesh/order.hpp>
+#include <taut/mesh/padding.hpp>
+
+namespace taut
+{
+
+/// A mesh as the kernels see it: vertices and cells renumbered for locality with the free vertices first, ideal
+/// elements in units in which the mean cell has a measure near 1, everything as structures of arrays of padded length.
+///
+/// Entry k of cell c stands at [k * cell_stride + c]; coordinate k of vertex v at [k * vertex_stride + v].
+template <class Element>
+struct layout
+{
+    static constexpr int D = Element::dimension;
+    static constexpr int triangle_size = D * (D + 1) / 2; ///< entries of an upper triangular D x D matrix
+    static constexpr std::size_t step = 256;              ///< strides are multiples of this
+
+    mesh_order order;   ///< between the user's numbers and these
+    idx free_count = 0; ///< vertices [0, free_count) move, the rest are pinned
+    idx vertex_count = 0;
+    idx cell_count = 0;
+    double scale = 1; ///< user's lengths -> lengths here; a power of two, so that undoing it is exact
+    std::size_t cell_stride = 0, vertex_stride = 0;
+    std::vector<idx> corners;    ///< (D + 1) x cell_stride: vertex of each corner
+    std::vector<double> inverse; ///< triangle_size x cell_stride: W^-1 by columns, (0,0) (0,1) (1,1) (0,2) ...
+    std::vector<double> measure; ///< cell_stride: rest measure in these units; 0 for padding
+    csr vertex_corners;          ///< corners of each vertex, as corners * cell + k
+
+    /// Renumbers the mesh: free vertices first, otherwise for locality.
+    /// `pinned`: one flag a vertex of the mesh, or empty. Throws mesh_error for degenerate cells.
+    explicit layout(const mesh<Element>& m, const std::vector<bool>& pinned = {}) : layout(m, solution_order(m, pinned))
+    {
+    }
+
+    /// Of a mesh that has its final order: its first `free` vertices move, the rest are pinned. `numbers` leads from
+    /// the user's mesh to this one; identity_order() where they are the same. Throws mesh_error for degenerate cells.
+    layout(const mesh<Element>& local, mesh_order numbers, idx free)
+        : order(std::move(numbers)),
+          free_count(free),
+          vertex_count(local.vertex_count()),
+          cell_count(local.cell_count()),
+          vertex_corners(taut::vertex_corners(local))
+    {
+        const ideal_elements<Element> ideal(local);
+        const double total = std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0);
+        scale = std::exp2(std::round(std::log2(static_cast<double>(cell_count) / total) / D));
+        cell_stride = round_up(local.cells().size(), step);
+        vertex_stride = round_up(local.points().size(), step);
+        spread(local.cells(), ideal);
+    }
+
+    /// Coordinates here, D x vertex_stride, from the user's.
+    std::vector<double> to_local(const std::vector<vec<D>>& x) const
+    {
+        std::vector<double> local(D * vertex_stride, 0.0);
+        parallel_for(x.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t v = begin; v < end; ++v)
+                         {
+                             const vec<D>& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
+                             for (int k = 0; k < D; ++k)
+                                 local[static_cast<std::size_t>(k) * vertex_stride + v] = p[k] * scale;
+                         }
+                     });
+        return local;
+    }
+
+    /// The user's coordinates from those here; exact inverse of to_local.
+    std::vector<vec<D>> to_user(const std::vector<double>& local) const
+    {
+        std::vector<vec<D>> x(static_cast<std::size_t>(vertex_count));
+        parallel_for(x.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t v = begin; v < end; ++v)
+                         {
+                             vec<D>& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
+                             for (int k = 0; k < D; ++k)
+                                 p[k] = local[static_cast<std::size_t>(k) * vertex_stride + v] / scale;
+                         }
+                     });
+        return x;
+    }
+
+private:
+    /// Braces, which evaluate from left to right: the order is used before it is moved.
+    layout(const mesh<Element>& m, solution_order s) : layout{permute(m, s.order), std::move(s.order), s.free_count} {}
+
+    /// The arrays from the cells, lengthened as pad() does.
+    void spread(const std::vector<typename mesh<Element>::cell>& cells, const ideal_elements<Element>& ideal)
+    {
+        corners.resize((D + 1) * cell_stride);
+        inverse.resize(triangle_size * cell_stride);
+        measure.resize(cell_stride);
+        const double measure_scale = std::pow(scale, D), unscale = 1 / scale; // exact: a power of two
+        parallel_for(cell_stride,
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t c = begin; c < end; ++c)
+                         {
+                             const std::size_t from = std::min(c, cells.size() - 1);
+                             for (std::size_t k = 0; k <= D; ++k) corners[k * cell_stride + c] = cells[from][k];
+                             std::size_t entry = 0;
+                             for (int column = 0; column < D; ++column)
+                                 for (int row = 0; row <= column; ++row)
+                                     inverse[entry++ * cell_stride + c] = ideal.inverse[from][column][row] * unscale;
+                             measure[c] = c < cells.size() ? ideal.measure[c] * measure_scale : 0.0;
+                         }
+                     });
+    }
+};
+
+} // namespace taut

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <taut/compute/record.hpp>
+#include <taut/energy/eigenvalue_clamp.hpp>
+#include <taut/energy/plane_modes.hpp>
+#include <taut/objective/traced_element.hpp>
+
+namespace taut
+{
+
+/// What becomes of the negative eigenvalues of an element's Hessian.
+enum class definiteness
+{
+    indefinite, ///< kept: the Hessian itself, for the last iterations
+    projected   ///< set to 0 in the space of S, before the change to corners, which keeps the sign
+};
+
+/// How an element's Hessian is stored: blocks of D x D for pairs of corners k <= l in the order (0,0) (0,1) .. (0,D)
+/// (1,1) .. (D,D). A block on the diagonal has its upper triangle by rows (2D: xx xy yy), the others all entries by
+/// rows, which belong to corner k (2D: xx xy yx yy). Slot n of cell c stands at [n * cell_stride + c].
+template <int D>
+struct hessian_slots
+{
+    static constexpr int diagonal = D * (D + 1) / 2; ///< entries of a block (k, k)
+    static constexpr int count = (D + 1) * diagonal + D * (D + 1) / 2 * D * D;
+
+    /// The slot of d2 E / d(coordinate i of corner k) d(coordinate j of corner l), in either order.
+    static constexpr int at(int k, int i, int l, int j)
+    {
+        if (k > l || (k == l && i > j)) return at(l, j, k, i);
+        int slot = 0;
+        for (int row = 0; row < k; ++row) slot += diagonal + (D - row) * D * D;
+        if (k == l) return slot + i * D - i * (i - 1) / 2 + (j - i);
+        return slot + diagonal + (l - k - 1) * D * D + i * D + j;
+    }
+};
+
+/// The second derivatives of weight * energy by the corners of each element, one work-item an element; arrays and
+/// ranges as in element_kernels. Nothing is tested against the domain: outside of a barrier's the result means nothing.
+///
+/// In the plane an energy of |S|^2 and det S takes the closed form of plane_modes.hpp. Any other, and all in space, is
+/// differentiated twice on the tape, and projected by Jacobi rotations.
+template <class Element, class P, class R>
+struct element_hessian_kernels
+{
+    static constexpr int D = Element::dimension;
+    using slots = hessian_slots<D>;
+
+    /// corners, W^-1, measure, weight, x -> hessian, slots::count x cell_stride
+    using kernel = traced_kernel<in<idx>, in<R>, in<R>, in<R>, in<P>, out<R>, uniform<idx>, uniform<idx>>;
+    kernel projected, indefinite;
+
+    element_hessian_kernels(const queue& q, const any_energy& energy)
+        : element_hessian_kernels(traced_program(q, record(energy, detail::form_for(q.device()))))
+    {
+    }
+
+    /// From a program with all that record() gives.
+    explicit element_hessian_kernels(const traced_program& p)
+        : projected(p, name_of(definiteness::projected)), indefinite(p, name_of(definiteness::indefinite))
+    {
+        static_assert(D == 2, "taut: in space the projection is 0.8 MB of unrolled rotations, which a driver compiles "
+                              "for half a minute; take record() for the indefinite kernel");
+    }
+
+    /// Both kernels as text, for a program that others share.
+    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    {
+        return {record(energy, definiteness::projected, form), record(energy, definiteness::indefinite, form)};
+    }
+
+    /// One as text. In space, too; see the constructor for what a projected one costs there.
+    static kernel_text record(const any_energy& energy, definiteness sign, kernel_form form)
+    {
+        recording r;
+        const auto corners = r.in<idx>("corners");
+        const auto inverse = r.in<R>("inverse"), measure = r.in<R>("measure"), weight = r.in<R>("weight");
+        const auto x = r.in<P>("x");
+        auto hessian = r.out<R>("hessian");
+        const auto cell_stride = r.scalar<idx>("cell_stride"), vertex_stride = r.scalar<idx>("vertex_stride");
+        const auto cell = r.global_id();
+
+        const typename traced::rest W(cell, inverse, cell_stride);
+        const auto S = W.shape_matrix(traced::edges(cell, corners, x, cell_stride, vertex_stride));
+        const auto H = corner_hessian(by_shape_matrix(energy, S, measure[cell], weight[cell], sign), W);
+        for (int k = 0; k <= D; ++k)
+            for (int l = k; l <= D; ++l)
+                for (int i = 0; i < D; ++i)
+                    for (int j = k == l ? i : 0; j < D; ++j)
+                        hessian[cell + slots::at(k, i, l, j) * cell_stride] = H(k * D + i, l * D + j);
+        return r.finish(name_of(sign), form);
+    }
+
+private:
+    using traced = traced_element<D, P, R>;
+    using real = typename traced::real;
+    using matrix = typename traced::matrix;
+    static constexpr int N = D * D;
+
+    static const char* name_of(definiteness sign)
+    {
+        return sign == definiteness::projected ? "element_hessian_projected" : "element_hessian";
+    }
+
+    /// Second derivatives of weight * energy by the entries of S, by columns.
+    static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const matrix& S, real measure,
+                                                     real weight, definiteness sign)
+    {
+        const real value = energy(element<real, D>{S, glm::determinant(S), measure});
+        if constexpr (D == 2)
+            if (const auto psi = derivatives_by_invariants(value, S))
+                return plane_modes<R>(S, *psi, sign == definiteness::projected).hessian(weight);
+
+        std::vector<real> entries;
+        for (int c = 0; c < D; ++c)
+            for (int r = 0; r < D; ++r) entries.push_back(S[c][r]);
+        const auto gradient = differentiate(value, entries);
+        symmetric_matrix<real, N> H;
+        for (int j = 0; j < N; ++j)
+        {
+            const std::span<const real> upper(entries.data(), static_cast<std::size_t>(j) + 1);
+            const auto row = differentiate(gradient[static_cast<std::size_t>(j)], upper);
+            for (int i = 0; i <= j; ++i) H(i, j) = weight * row[static_cast<std::size_t>(i)];
+        }
+        return sign == definiteness::projected ? eigenvalue_clamp<R, N>::apply(H) : H;
+    }
+
+    /// From the entries of S to the corners: S is linear in the edges A = S W, and an edge is a corner less corner 0,
+    /// which so takes minus the sum of the others.
+    static symmetric_matrix<real, D*(D + 1)> corner_hessian(const symmetric_matrix<real, N>& H,
+                                                            const typename traced::rest& W)
+    {
+        symmetric_matrix<real, D*(D + 1)> result;
+        // Rows of edges, columns of entries of S: the product from the left. Row k of W^-1 begins at column k.
+        const auto half = [&](int k, int i, int entry)
+        {
+            real sum = W(k, k) * H(k * D + i, entry);
+            for (int c = k + 1; c < D; ++c) sum = sum + W(k, c) * H(c * D + i, entry);
+            return sum;
+        };
+        for (int k = 0; k < D; ++k)
+            for (int i = 0; i < D; ++i)
+                for (int l = k; l < D; ++l)
+                    for (int j = k == l ? i : 0; j < D; ++j)
+                    {
+                        real sum = half(k, i, l * D + j) * W(l, l);
+                        for (int c = l + 1; c < D; ++c) sum = sum + half(k, i, c * D + j) * W(l, c);
+                        result((k + 1) * D + i, (l + 1) * D + j) = sum;
+                    }
+        for (int l = 1; l <= D; ++l)
+            for (int i = 0; i < D; ++i)
+                for (int j = 0; j < D; ++j) result(i, l * D + j) = minus_sum(result, i, l * D + j);
+        for (int i = 0; i < D; ++i)
+            for (int j = i; j < D; ++j) result(i, j) = minus_sum(result, j, i);
+        return result;
+    }
+
+    /// Minus the sum over corners 1..D of the entries (coordinate i of the corner, column).
+    static real minus_sum(const symmetric_matrix<real, D*(D + 1)>& H, int i, int column)
+    {
+        real sum = H(D + i, column);
+        for (int k = 2; k <= D; ++k) sum = sum + H(k * D + i, column);
+        return -sum;
+    }
+};
+
+} // namespace taut

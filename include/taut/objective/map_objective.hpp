@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <taut/compute/gather.hpp>
+#include <taut/compute/vector_space.hpp>
+#include <taut/energy/characteristic_gradient.hpp>
+#include <taut/objective/constraint_terms.hpp>
+#include <taut/objective/element_arrays.hpp>
+#include <taut/objective/element_kernels.hpp>
+
+namespace taut
+{
+
+/// The distortion of a map of a mesh as an objective for the solvers (solve/objective.hpp), evaluated on a device:
+///
+///     f(x) = sum over cells of w_c E(S_c(x)) / sum of w_c + sum over springs of k_v |x_v - t_v|^2
+///
+/// with w_c = 1 or the rest measure. A point holds the coordinates of all vertices in layout order, D x vertex_stride,
+/// in P; vectors have the same shape in R and are zero on what is pinned or held, so that it never moves.
+/// Kernels per evaluation: elements, gather (paper Fig. 8), one reduction; one host wait.
+template <class Element, class P, class R>
+class problem
+{
+public:
+    static constexpr int D = Element::dimension;
+    using space_type = device_vectors<R>;
+    using vector = typename space_type::vector;
+    using point = device_vector<P>;
+
+    using kernels = element_kernels<Element, P, R>;
+
+    /// constraints: besides the pins of the layout, in the user's numbers.
+    problem(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
+            energy::weighting weights, const point_constraints<D>& constraints = {})
+        : problem(q, std::move(mesh_layout), energy, weights, std::make_shared<const kernels>(q, energy), constraints)
+    {
+    }
+
+    /// With kernels of the same energy that another problem has traced already.
+    problem(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
+            energy::weighting weights, std::shared_ptr<const kernels> traced,
+            const point_constraints<D>& constraints = {})
+        : queue_(std::move(q)),
+          layout_(std::move(mesh_layout)),
+          space_(queue_, D * layout_->vertex_stride),
+          reductions_(queue_),
+          kernels_(std::move(traced)),
+          arrays_(std::make_shared<const element_arrays<Element, R>>(queue_, *layout_, weights)),
+          energies_(queue_, kernels::trials * layout_->cell_stride),
+          one_(queue_, std::vector<R>(1, R(1))),
+          limit_(queue_, std::vector<R>(1, R(1))),
+          corner_gradients_(queue_, (D + 1) * D * layout_->cell_stride),
+          gather_(make_gather()),
+          terms_(queue_, *layout_, constraints),
+          gradient_scale_(characteristic_gradient(*layout_, energy, weights))
+    {
+    }
+
+    const space_type& space() const { return space_; }
+    const taut::layout<Element>& layout() const { return *layout_; }
+    point make_point() const { return space_.template make_points<P>(); }
+    void copy(const point& x, point& y) const { space_.copy(x, y); }
+    void step(const point& x, double a, const vector& d, point& out) const { space_.step(x, a, d, out); }
+
+    /// Coordinates in the user's order and units, to the device and back.
+    void upload(const std::vector<vec<D>>& x, point& p) const { p.upload(to<P>(layout_->to_local(x))); }
+    std::vector<vec<D>> download(const point& p) const { return layout_->to_user(to<double>(p.download())); }
+
+    double value(const point& x)
+    {
+        kernels_->value(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
+                        energies_, cell_stride(), vertex_stride());
+        terms_.add_energy(x, energies_);
+        return summed();
+    }
+
+    double value_gradient(const point& x, vector& g)
+    {
+        gradient(x, g);
+        return summed();
+    }
+
+    /// The same; square = g'g.
+    double value_gradient(const point& x, vector& g, double& square)
+    {
+        gradient(x, g);
+        const auto sum = enqueue_sum();
+        const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
+        reductions_.fetch();
+        square = reductions_.value(norm);
+        return reductions_.value(sum);
+    }
+
+    /// g = the gradient; nothing waits.
+    void gradient(const point& x, vector& g)
+    {
+        kernels_->gradient(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
+                           energies_, corner_gradients_, cell_stride(), vertex_stride());
+        terms_.add_energy(x, energies_);
+        terms_.add_gradient(x, corner_gradients_);
+        gather_(corner_gradients_, g.data());
+        terms_.mask(g);
+    }
+
+    /// f at x + a[i] d, four step lengths a launch, one wait in all.
+    void values(const point& x, const vector& d, std::span<const double> a, std::span<double> out)
+    {
+        const auto results = enqueue_values(x, d, one_, a);
+        if (!results.empty()) reductions_.fetch();
+        fold_values(results, out);
+    }
+
+    /// The largest a for which no element has flipped anywhere on [x, x + a d); infinity if none ever does.
+    double max_step(const point& x, const vector& d)
+    {
+        const auto least = enqueue_max_step(x, d);
+        reductions_.fetch();
+        return reductions_.value(least);
+    }
+
+    /// The elements that flip first along d, up to sixteen within twice the least step, in the user's numbers.
+    std::vector<int> capping(const point& x, const vector& d)
+    {
+        constexpr std::size_t most = 16;
+        const double least = max_step(x, d);
+        std::vector<R> flips(static_cast<std::size_t>(layout_->cell_count));
+        energies_.download(std::span(flips));
+        std::vector<int> found;
+        for (std::size_t c = 0; c < flips.size() && found.size() < most; ++c)
+            if (static_cast<double>(flips[c]) <= 2 * least) found.push_back(layout_->order.cells.new_to_old[c]);
+        return found;
+    }
+
+    /// f at x + u a[i] d with u = min(1, fraction * max_step), which is returned. One wait in all.
+    double capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
+                         std::span<double> out)
+    {
+        const auto capped = enqueue_capped_values(x, d, fraction, a);
+        reductions_.fetch();
+        return fold_capped_values(capped, fraction, out);
+    }
+
+    /// The same, and full = x + d with its gradient g; returns g'g second. Still one wait.
+    std::pair<double, double> capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
+                                            std::span<double> out, point& full, vector& g)
+    {
+        const auto capped = enqueue_capped_values(x, d, fraction, a);
+        step(x, 1, d, full);
+        gradient(full, g);
+        const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
+        reductions_.fetch();
+        return {fold_capped_values(capped, fraction, out), reductions_.value(norm)};
+    }
+
+    /// Launches every kernel once, so that what the driver compiles at the first launch is compiled: those of the
+    /// elements, and the vector operations in the shapes in which the solvers ask for them.
+    void warm_up(const point& x)
+    {
+        auto g = space_.make(), d = space_.make();
+        auto y = make_point();
+        value_gradient(x, g);
+        value(x);
+        max_step(x, g);
+        const double a[8] = {};
+        double e[15];
+        values(x, g, std::span(a).first(1), e);
+        capped_values(x, g, 0.5, std::span(a).first(1), e);
+
+        const vector* const v[8] = {&g, &g, &g, &g, &g, &g, &g, &g};
+        for (const std::size_t n : {2U, 4U, 8U}) space_.linear_combination(std::span(a, n), std::span(v, n), d);
+        space_.axpby(0, g, 0, d);
+        space_.dot(g, g);
+        space_.multi_dot(std::span(v, 3), std::span(v, 5), e);
+        step(x, 0, d, y);
+        queue_.finish();
+    }
+
+    /// Norm of a gradient that is typical of the mesh: the same relative gradient then means the same on every mesh and
+    /// scale. After Zhu, Bridson, Kaufman 2018 ("Blended cured quasi-Newton"), section 4.
+    double gradient_scale(const point&) const { return gradient_scale_; }
+
+    std::uint64_t waits() const { return queue_.counters().waits; }
+
+    /// Relative rounding error of a value: sums are in double, and the errors of many elements average out.
+    double rounding() const { return std::is_same_v<R, double> ? 1e-14 : 1e-8; }
+
+protected:
+    range cells() const { return {layout_->cell_stride, taut::layout<Element>::step}; }
+    idx cell_stride() const { return static_cast<idx>(layout_->cell_stride); }
+    idx vertex_stride() const { return static_cast<idx>(layout_->vertex_stride); }
+
+    const std::shared_ptr<const element_arrays<Element, R>>& arrays() const { return arrays_; }
+
+    constraint_terms<Element, P, R>& terms() { return terms_; }
+
+    /// Launches a kernel of element_hessian_kernels.
+    template <class Kernel>
+    void launch_hessian(const Kernel& kernel, const point& x, buffer<R>& hessian)
+    {
+        kernel(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(), hessian,
+               cell_stride(), vertex_stride());
+    }
+
+private:
+    template <class To, class From>
+    static std::vector<To> to(const std::vector<From>& values)
+    {
+        return {values.begin(), values.end()};
+    }
+
+    /// Rows of free vertices only: the others get zero.
+    gather<P, R> make_gather()
+    {
+        const auto& corners = layout_->vertex_corners;
+        const auto rows = static_cast<std::size_t>(layout_->free_count);
+        const auto used = static_cast<std::size_t>(corners.offsets[rows]);
+        std::vector<idx> cell(used), corner(used);
+        parallel_for(used,
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t k = begin; k < end; ++k)
+                         {
+                             cell[k] = corners.items[k] / Element::corners;
+                             corner[k] = corners.items[k] % Element::corners;
+                         }
+                     });
+        return gather<P, R>(
+            queue_, std::span(corners.offsets).first(rows + 1), cell, corner,
+            {.components = D, .cell_stride = layout_->cell_stride, .vertex_stride = layout_->vertex_stride});
+    }
+
+    using sums = std::vector<reductions::result>;
+
+    sums enqueue_values(const point& x, const vector& d, const buffer<R>& unit, std::span<const double> a)
+    {
+        sums results;
+        for (std::size_t first = 0; first < a.size(); first += kernels::trials)
+        {
+            const auto step = [&](std::size_t k) { return static_cast<R>(a[std::min(first + k, a.size() - 1)]); };
+            kernels_->along(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
+                            d.data(), unit, energies_, cell_stride(), vertex_stride(), step(0), step(1), step(2),
+                            step(3));
+            terms_.add_energies(x, d, unit, std::array{step(0), step(1), step(2), step(3)}, energies_);
+            // Commands run in order: the next launch overwrites the energies after they are summed.
+            results.push_back(
+                reductions_.sum(energies_, {.count = std::min<std::size_t>(kernels::trials, a.size() - first),
+                                            .length = static_cast<std::size_t>(layout_->cell_count),
+                                            .stride = layout_->cell_stride}));
+        }
+        return results;
+    }
+
+    struct capped_sums
+    {
+        reductions::result least;
+        sums values;
+    };
+
+    capped_sums enqueue_capped_values(const point& x, const vector& d, double fraction, std::span<const double> a)
+    {
+        const auto least = enqueue_max_step(x, d);
+        reductions_.limit(least, fraction, 1, limit_);
+        return {least, enqueue_values(x, d, limit_, a)};
+    }
+
+    double fold_capped_values(const capped_sums& r, double fraction, std::span<double> out) const
+    {
+        fold_values(r.values, out);
+        const double bound = fraction * reductions_.value(r.least);
+        return bound >= 1 ? 1 : bound;
+    }
+
+    void fold_values(const sums& results, std::span<double> out) const
+    {
+        std::size_t i = 0;
+        for (const auto& r : results)
+            for (std::size_t k = 0; k < r.count; ++k) out[i++] = reductions_.value(r, k);
+    }
+
+    reductions::result enqueue_max_step(const point& x, const vector& d)
+    {
+        kernels_->first_flips(cells(), arrays_->corners, x.data(), d.data(), energies_, cell_stride(), vertex_stride());
+        return reductions_.minimum(energies_, static_cast<std::size_t>(layout_->cell_count));
+    }
+
+    reductions::result enqueue_sum()
+    {
+        return reductions_.sum(energies_, {.length = static_cast<std::size_t>(layout_->cell_count)});
+    }
+
+    double summed()
+    {
+        const auto sum = enqueue_sum();
+        reductions_.fetch();
+        return reductions_.value(sum);
+    }
+
+    queue queue_;
+    std::shared_ptr<const taut::layout<Element>> layout_;
+    space_type space_;
+    reductions reductions_;
+    std::shared_ptr<const kernels> kernels_;
+    std::shared_ptr<const element_arrays<Element, R>> arrays_;
+    buffer<R> energies_;
+    buffer<R> one_, limit_; ///< units of step lengths
+    buffer<P> corner_gradients_;
+    gather<P, R> gather_;
+    constraint_terms<Element, P, R> terms_;
+    double gradient_scale_;
+};
+
+} // namespace taut

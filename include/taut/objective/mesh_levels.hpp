@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/hierarchy/hierarchy.hpp>
+#include <taut/mesh/layout.hpp>
+#include <taut/sparse/transfer_weights.hpp>
+
+namespace taut
+{
+
+/// A surface in solution order and its coarser levels, with what solvers want of each: connectivity, layout, and the
+/// transfers between levels. Levels keep the numbering of the finest one, so free vertices are first on each.
+class mesh_levels
+{
+public:
+    /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level. Throws mesh_error.
+    explicit mesh_levels(const mesh<triangle>& m, const std::vector<bool>& pinned = {},
+                         const hierarchy_params& params = {})
+        : numbering_(m, pinned), finest_(permute(m, numbering_.order))
+    {
+        std::vector<char> keep;
+        if (!pinned.empty())
+        {
+            keep.assign(finest_.points().size(), 0);
+            std::fill(keep.begin() + numbering_.free_count, keep.end(), char(1));
+        }
+        hierarchy_ = make_hierarchy(finest_, keep, params);
+        for (const auto& level : hierarchy_.levels)
+        {
+            const auto end = std::lower_bound(level.vertices.begin(), level.vertices.end(), numbering_.free_count);
+            free_.push_back(static_cast<idx>(end - level.vertices.begin()));
+            fixed_.emplace_back(level.vertices.size(), char(0));
+            std::fill(fixed_.back().begin() + free_.back(), fixed_.back().end(), char(1));
+        }
+    }
+
+    std::size_t size() const noexcept { return hierarchy_.levels.size(); }
+    const taut::hierarchy& hierarchy() const noexcept { return hierarchy_; }
+    std::span<const vec3> points() const { return finest_.points(); }
+    std::size_t vertices(std::size_t l) const { return hierarchy_.levels[l].vertices.size(); }
+
+    /// Between the user's numbers and those of the finest level.
+    const mesh_order& order() const noexcept { return numbering_.order; }
+
+    /// A level as a mesh of its own.
+    mesh<triangle> surface(std::size_t l) const
+    {
+        return l == 0 ? finest_ : level_mesh(hierarchy_, l, finest_.points());
+    }
+    const std::vector<mesh<triangle>::cell>& cells(std::size_t l) const { return hierarchy_.levels[l].cells; }
+
+    /// In the numbers of the level; for the finest one, to and from the numbers of the level, too, not the user's.
+    std::shared_ptr<const layout<triangle>> make_layout(std::size_t l) const
+    {
+        const auto m = surface(l);
+        return std::make_shared<const layout<triangle>>(m, identity_order(m), free_[l]);
+    }
+
+    bool pinned() const { return free_[0] < static_cast<idx>(vertices(0)); }
+    /// One flag a vertex.
+    std::span<const char> fixed(std::size_t l) const { return fixed_[l]; }
+
+    /// From each level that is coarser than l to the next finer one. Refers to this object.
+    std::vector<transfer_weights> transfers(std::size_t l) const
+    {
+        std::vector<transfer_weights> all;
+        for (; l < hierarchy_.steps.size(); ++l)
+        {
+            const prolongation& P = hierarchy_.steps[l].interpolation;
+            all.push_back({.columns = P.columns,
+                           .weights = P.weights,
+                           .coarse = vertices(l + 1),
+                           .fixed = fixed(l + 1),
+                           .offsets = P.transpose.offsets,
+                           .places = P.transpose.items});
+        }
+        return all;
+    }
+
+private:
+    solution_order numbering_;
+    mesh<triangle> finest_;
+    taut::hierarchy hierarchy_;
+    std::vector<idx> free_;
+    std::vector<std::vector<char>> fixed_;
+};
+
+} // namespace taut

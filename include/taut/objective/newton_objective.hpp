@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/objective/element_hessian.hpp>
+#include <taut/objective/map_objective.hpp>
+#include <taut/objective/newton_plan.hpp>
+#include <taut/objective/vertex_relaxation.hpp>
+#include <taut/sparse/block_assembly.hpp>
+#include <taut/sparse/multigrid.hpp>
+
+namespace taut
+{
+
+/// The kernels of one energy for Newton's method, traced once, built as one program and shared by all levels of a
+/// hierarchy.
+template <class Element, class P, class R>
+struct newton_kernels
+{
+    element_kernels<Element, P, R> first;
+    element_hessian_kernels<Element, P, R> second;
+    relaxation_kernels<Element, P, R> relaxation;
+
+    newton_kernels(const queue& q, const any_energy& energy)
+        : newton_kernels(traced_program(q, record(energy, detail::form_for(q.device()))), energy)
+    {
+    }
+
+private:
+    newton_kernels(const traced_program& p, const any_energy& energy) : first(p), second(p), relaxation(p, energy) {}
+
+    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    {
+        auto all = decltype(first)::record(energy, form);
+        for (auto& text : decltype(second)::record(energy, form)) all.push_back(std::move(text));
+        for (auto& text : decltype(relaxation)::record(energy, form)) all.push_back(std::move(text));
+        return all;
+    }
+};
+
+/// A problem that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into block-sparse
+/// matrices on the device, and a multigrid V-cycle over the hierarchy of the mesh is the preconditioner. The positive
+/// semi-definite stand-in has the element Hessians projected.
+template <class Element, class P, class R>
+class newton_problem : public problem<Element, P, R>
+{
+    using base = problem<Element, P, R>;
+
+public:
+    static constexpr int D = Element::dimension;
+    using typename base::point;
+    using typename base::vector;
+    using kernels = newton_kernels<Element, P, R>;
+
+    using plan = newton_plan<Element, R>;
+
+    /// host: made with the lane_form of the queue's device. constraints: besides the pins of the layout.
+    newton_problem(queue q, plan host, const any_energy& energy, energy::weighting weights,
+                   std::shared_ptr<const kernels> traced, const point_constraints<D>& constraints = {})
+        : base(q, host.layout, energy, weights,
+               std::shared_ptr<const element_kernels<Element, P, R>>(traced, &traced->first), constraints),
+          kernels_(std::move(traced)),
+          hessian_(q, hessian_slots<D>::count * host.layout->cell_stride),
+          cycle_(q, std::move(host.cycle)),
+          assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))), // freed once they are on the device
+          relaxation_(q, host.layout,
+                      std::shared_ptr<const relaxation_kernels<Element, P, R>>(kernels_, &kernels_->relaxation),
+                      this->arrays(), constraints.touched(static_cast<std::size_t>(host.layout->vertex_count)))
+    {
+    }
+
+    void linearize(const point& x, bool exact)
+    {
+        element_hessians(kernels_->second.projected, x);
+        assemble_(hessian_, cycle_.matrix());
+        cycle_.refresh();
+        exact_ = exact;
+        if (!exact) return;
+        if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
+        element_hessians(kernels_->second.indefinite, x);
+        assemble_(hessian_, *indefinite_);
+    }
+    void hessian_product(const vector& v, vector& out)
+    {
+        (exact_ ? *indefinite_ : cycle_.matrix()).multiply(v, out);
+        this->terms().mask(out);
+    }
+    /// The V-cycle between two projections where coordinates are held: symmetric and positive on what is left.
+    void precondition(const vector& v, vector& out)
+    {
+        cycle_.apply(v, out);
+        this->terms().mask(out);
+    }
+
+    /// What precondition() applies, with its matrices, for measurements.
+    const multigrid<R>& preconditioner() const { return cycle_; }
+
+    /// Moves the vertices of the worst elements alone; whether there were any.
+    bool relax(point& x) { return relaxation_(x).vertices > 0; }
+
+    /// As problem::warm_up, and what is Newton's.
+    void warm_up(point& x)
+    {
+        base::warm_up(x);
+        relaxation_.warm_up(x);
+        auto v = this->space().make(), w = this->space().make();
+        linearize(x, true);
+        hessian_product(v, w);
+        precondition(v, w);
+        const vector* const all[5] = {&v, &v, &v, &v, &v};
+        double products[20];
+        for (std::size_t rows = 1; rows <= 4; ++rows) // of the tiles of all products of a block
+            this->space().multi_dot(std::span(all, rows), std::span(all), products);
+    }
+
+private:
+    template <class Kernel>
+    void element_hessians(const Kernel& kernel, const point& x)
+    {
+        this->launch_hessian(kernel, x, hessian_);
+        this->terms().add_hessian(hessian_, [](idx j, idx k) { return hessian_slots<D>::at(j, k, j, k); });
+    }
+
+    std::shared_ptr<const kernels> kernels_;
+    buffer<R> hessian_;
+    multigrid<R> cycle_;
+    block_assembly<R> assemble_;
+    vertex_relaxation<Element, P, R> relaxation_;
+    std::optional<block_matrix<R>> indefinite_;
+    bool exact_ = false;
+};
+
+} // namespace taut

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <taut/energy/eigenvalue_clamp.hpp>
+
+namespace taut
+{
+
+/// Newton's step -(|H| + damping m I)^-1 g in N unknowns, traced, with m the largest diagonal entry of |H|. |H| has the
+/// eigenvalues of H without their signs: the step descends where H is indefinite, too, and is short along strong
+/// negative curvature (Dauphin et al. 2014, "saddle-free Newton"). Not a number for H = 0.
+template <class R, int N>
+std::array<sym<R>, static_cast<std::size_t>(N)> newton_step(const symmetric_matrix<sym<R>, N>& H,
+                                                            const std::array<sym<R>, static_cast<std::size_t>(N)>& g,
+                                                            double damping)
+{
+    using real = sym<R>;
+
+    // The positive part less the negative one: |H| = 2 H+ - H.
+    auto L = eigenvalue_clamp<R, N>::apply(H);
+    real largest = 0.0;
+    for (int j = 0; j < N; ++j)
+        for (int i = 0; i <= j; ++i)
+        {
+            L(i, j) = real(2.0) * L(i, j) - H(i, j);
+            if (i == j) largest = max(largest, L(i, i));
+        }
+    for (int i = 0; i < N; ++i) L(i, i) = L(i, i) + real(damping) * largest;
+
+    // L D L' in place: pivots on the diagonal.
+    for (int j = 0; j < N; ++j)
+    {
+        for (int k = 0; k < j; ++k) L(j, j) = L(j, j) - L(j, k) * L(j, k) * L(k, k);
+        for (int i = j + 1; i < N; ++i)
+        {
+            for (int k = 0; k < j; ++k) L(i, j) = L(i, j) - L(i, k) * L(j, k) * L(k, k);
+            L(i, j) = L(i, j) / L(j, j);
+        }
+    }
+    const auto at = [](int i) { return static_cast<std::size_t>(i); };
+    std::array<real, static_cast<std::size_t>(N)> d;
+    for (int i = 0; i < N; ++i)
+    {
+        d[at(i)] = -g[at(i)];
+        for (int k = 0; k < i; ++k) d[at(i)] = d[at(i)] - L(i, k) * d[at(k)];
+    }
+    for (int i = 0; i < N; ++i) d[at(i)] = d[at(i)] / L(i, i);
+    for (int i = N - 2; i >= 0; --i)
+        for (int k = i + 1; k < N; ++k) d[at(i)] = d[at(i)] - L(k, i) * d[at(k)];
+    return d;
+}
+
+} // namespace taut

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <taut/compute/detail/kernels/block_sparse.hpp>
+#include <taut/compute/lane_form.hpp>
+#include <taut/compute/vector_space.hpp>
+#include <taut/sparse/block_pattern.hpp>
+
+namespace taut
+{
+
+namespace detail
+{
+
+/// A kernel of kernels/block_sparse.cl for D x D blocks of T.
+template <class T, class... Args>
+void load_block_kernel(typed_kernel<Args...>& kernel, queue& q, const char* name, int D, lane_form form)
+{
+    const bool wide = std::is_same_v<T, double>;
+    kernel = {q, kernels::block_sparse, name,
+              std::string("-DREAL=") + cl_name<T>() + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
+                  " -DD=" + std::to_string(D) + " -DC=" + std::to_string(form.slice) +
+                  " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
+                  " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f")};
+}
+
+} // namespace detail
+
+/// A square block-sparse matrix on a device, with D x D blocks of T, and the inverses of its diagonal blocks. Vectors
+/// have component c of row v at [c * stride() + v] and zeros as padding; make one with vector(). Values are 0 until
+/// they are assembled, refreshed or uploaded. Nothing waits but upload, download and construction.
+template <class T>
+class block_matrix
+{
+public:
+    block_matrix(taut::queue& q, block_pattern pattern, int D)
+        : block_matrix(q, std::move(pattern), D, lane_form::for_device(q.device()))
+    {
+    }
+    /// The pattern has form.slice rows a slice. Throws parameter_error.
+    block_matrix(taut::queue& q, block_pattern pattern, int D, lane_form form)
+        : shared_(std::make_shared<structure>(q, std::move(pattern), D, form)),
+          values_(q, shared_->places * blocks()),
+          inverse_(q, inverse_size())
+    {
+        values_.fill(0);
+        inverse_.fill(0);
+    }
+
+    /// Another matrix of this pattern; it shares the lists and has its own values, 0 so far. Its diagonal has no
+    /// inverses until invert_diagonal().
+    block_matrix like() const { return block_matrix(shared_); }
+
+    int block_size() const noexcept { return shared_->D; }
+    lane_form form() const noexcept { return shared_->form; }
+    std::size_t rows() const noexcept { return shared_->rows; }
+    std::size_t stride() const noexcept { return shared_->stride; }
+    taut::queue& queue() const noexcept { return shared_->queue; }
+
+    /// Waits to read it back after forget_pattern().
+    const block_pattern& pattern() const { return shared_->pattern(); }
+    /// Frees the host's copy of the pattern.
+    void forget_pattern() { shared_->host = {}; }
+
+    /// The zero vector of the space that the matrix acts on: D * stride() numbers.
+    device_vector<T> vector() const { return {shared_->queue, d() * stride()}; }
+
+    /// y = A x; x and y differ.
+    void multiply(const device_vector<T>& x, device_vector<T>& y) const
+    {
+        check(x, y);
+        shared_->product(items(), pitch(), offsets(), columns(), values_, x.data(), y.data());
+    }
+    /// r = b - A x; r may be b, not x.
+    void residual(const device_vector<T>& x, const device_vector<T>& b, device_vector<T>& r) const
+    {
+        check(x, b, r);
+        shared_->residual(items(), pitch(), offsets(), columns(), values_, x.data(), b.data(), r.data());
+    }
+    /// out = now x + past before + scale B^-1 (b - A x) with B the block diagonal; out may be before, not x.
+    void smooth(const device_vector<T>& b, const device_vector<T>& x, const device_vector<T>& before, double now,
+                double past, double scale, device_vector<T>& out) const
+    {
+        check(b, x, before, out);
+        shared_->smooth(items(), pitch(), offsets(), columns(), values_, inverse(), b.data(), x.data(), before.data(),
+                        T(now), T(past), T(scale), out.data());
+    }
+    /// out = scale B^-1 b
+    void jacobi(const device_vector<T>& b, double scale, device_vector<T>& out) const
+    {
+        check(b, out);
+        shared_->jacobi(items(), pitch(), inverse(), b.data(), T(scale), out.data());
+    }
+
+    /// Inverts the diagonal blocks; call it after the values have changed. Pivots are kept above a small multiple of
+    /// the trace, and a block without a positive trace gets inverse 0, so that fixed rows stay 0.
+    void invert_diagonal()
+    {
+        if (inverse_.empty())
+        {
+            inverse_ = buffer<T>(shared_->queue, inverse_size());
+            inverse_.fill(0);
+        }
+        shared_->invert(items(), pitch(), offsets(), values_, inverse_);
+    }
+
+    /// Values by place of the pattern, D * D numbers a block, by rows.
+    std::vector<T> download() const
+    {
+        const auto device = values_.download();
+        std::vector<T> host(device.size());
+        for (std::size_t at = 0; at < host.size(); ++at) host[at] = device[device_place(at)];
+        return host;
+    }
+    void upload(std::span<const T> host)
+    {
+        if (host.size() != values_.size())
+            throw parameter_error("block_matrix.upload", "D * D values a place are needed");
+        std::vector<T> device(host.size());
+        for (std::size_t at = 0; at < host.size(); ++at) device[device_place(at)] = host[at];
+        values_.upload(device);
+    }
+
+    buffer<T>& values() noexcept { return values_; }
+    const buffer<T>& values() const noexcept { return values_; }
+    /// Packed inverses of the diagonal blocks. Throws parameter_error before they exist.
+    const buffer<T>& inverse() const
+    {
+        if (inverse_.empty()) throw parameter_error("block_matrix", "call invert_diagonal() first");
+        return inverse_;
+    }
+    const buffer<idx>& offsets() const noexcept { return shared_->offsets; }
+    const buffer<idx>& columns() const noexcept { return shared_->columns; }
+
+    /// What one product must move: values, columns, the vector read once and the result written.
+    std::size_t product_bytes() const { return values_.bytes() + columns().bytes() + 2 * d() * stride() * sizeof(T); }
+    /// Bytes on the device: values, inverses, and the lists that like() shares.
+    std::size_t bytes() const { return values_.bytes() + inverse_.bytes() + offsets().bytes() + columns().bytes(); }
+
+private:
+    /// What matrices of one pattern share.
+    struct structure
+    {
+        structure(taut::queue& q, block_pattern pattern, int size, lane_form lanes)
+            : queue(q),
+              D(size),
+              form(lanes),
+              rows(pattern.rows()),
+              stride(padded(std::max<std::size_t>(pattern.rows(), 1), 256)),
+              places(pattern.columns.size()),
+              host(std::move(pattern))
+        {
+            if (D < 2 || D > 3) throw parameter_error("D", "must be 2 or 3");
+            if (host.slice != form.slice) throw parameter_error("pattern", "has other slices than the device wants");
+            if (places * static_cast<std::size_t>(D * D) > static_cast<std::size_t>(std::numeric_limits<idx>::max()))
+                throw size_error("block_matrix", "more than 2^31 values");
+            offsets = buffer<idx>(q, host.offsets);
+            columns = buffer<idx>(q, host.columns);
+            detail::load_block_kernel<T>(product, q, "product", D, form);
+            detail::load_block_kernel<T>(residual, q, "residual", D, form);
+            detail::load_block_kernel<T>(smooth, q, "smooth", D, form);
+            detail::load_block_kernel<T>(jacobi, q, "jacobi", D, form);
+            detail::load_block_kernel<T>(invert, q, "invert_blocks", D, form);
+        }
+
+        const block_pattern& pattern()
+        {
+            if (host.columns.size() != places) host = {form.slice, rows, offsets.download(), columns.download()};
+            return host;
+        }
+
+        taut::queue queue;
+        int D;
+        lane_form form;
+        std::size_t rows, stride, places;
+        block_pattern host;
+        buffer<idx> offsets, columns;
+        using in = const buffer<T>;
+        using list = const buffer<idx>;
+        typed_kernel<idx, list, list, in, in, buffer<T>> product;
+        typed_kernel<idx, list, list, in, in, in, buffer<T>> residual;
+        typed_kernel<idx, list, list, in, in, in, in, in, T, T, T, buffer<T>> smooth;
+        typed_kernel<idx, in, in, T, buffer<T>> jacobi;
+        typed_kernel<idx, list, in, buffer<T>> invert;
+    };
+
+    explicit block_matrix(std::shared_ptr<structure> shared)
+        : shared_(std::move(shared)), values_(shared_->queue, shared_->places * blocks())
+    {
+        values_.fill(0);
+    }
+
+    std::size_t d() const { return static_cast<std::size_t>(shared_->D); }
+    std::size_t blocks() const { return d() * d(); }
+    std::size_t inverse_size() const { return stride() * d() * (d() + 1) / 2; }
+    idx pitch() const { return static_cast<idx>(stride()); }
+    range items() const { return form().items(stride()); }
+
+    /// Where entry at % (D * D) of the block of place at / (D * D) is on the device.
+    std::size_t device_place(std::size_t at) const
+    {
+        const std::size_t C = static_cast<std::size_t>(form().slice), place = at / blocks(), lane = place % C;
+        return (place - lane) * blocks() + at % blocks() * C + lane;
+    }
+
+    template <class... Vectors>
+    void check(const Vectors&... v) const
+    {
+        if (((v.padded_size() < d() * stride()) || ...))
+            throw parameter_error("block_matrix", "vectors of " + std::to_string(d() * stride()) + " are needed");
+    }
+
+    std::shared_ptr<structure> shared_;
+    buffer<T> values_, inverse_;
+};
+
+} // namespace taut

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <taut/sparse/transfer_weights.hpp>
+
+namespace taut::detail
+{
+
+/// How a CPU deals the product P' A P to items: an item sums `size` coarse rows and visits the slices of fine rows that
+/// contribute. Nonzeros of a coarse row are told apart by the colours of their columns.
+struct product_groups
+{
+    static constexpr idx most_colours = 64, clash = 64;
+
+    /// coarse: the pattern of the product, t: the transpose of P.
+    product_groups(const transfer_weights& P, const transposed_weights& t, const block_pattern& coarse,
+                   std::size_t rows_a_group)
+        : size(rows_a_group)
+    {
+        colour(coarse);
+        code(P);
+        visit(P, t, static_cast<std::size_t>(coarse.slice));
+    }
+
+    std::size_t size;
+    idx count = 0;            ///< of colours
+    std::vector<idx> colours; ///< of coarse columns; those of a row differ, or it has the flag `clash` in its own
+    std::vector<idx> codes;   ///< colours of the columns of each fine row, a byte each; 0 for those without a weight
+    std::vector<idx> offsets, visits; ///< of each group the slices that it visits, and a bit a lane
+
+private:
+    /// Greedily, a colouring of the squared graph.
+    void colour(const block_pattern& p)
+    {
+        colours.assign(p.rows(), 0);
+        std::vector<std::uint64_t> used(p.rows(), 0); // colours seen from each row
+        const auto C = static_cast<std::size_t>(p.slice);
+        for (std::size_t J = 0; J < p.rows(); ++J)
+        {
+            const std::size_t first = p.place(J, 0), end = first + p.width(J) * C;
+            std::uint64_t taken = 0;
+            for (std::size_t at = first; at < end; at += C) taken |= used[static_cast<std::size_t>(p.columns[at])];
+            const idx free = std::countr_one(taken);
+            for (std::size_t at = first; at < end; at += C)
+            {
+                const auto I = static_cast<std::size_t>(p.columns[at]);
+                if (free == most_colours)
+                    colours[I] |= clash;
+                else
+                    used[I] |= std::uint64_t{1} << free;
+            }
+            if (free == most_colours) continue;
+            colours[J] |= free;
+            count = std::max(count, free + 1);
+        }
+    }
+
+    void code(const transfer_weights& P)
+    {
+        codes.assign(P.columns.size(), 0);
+        const auto some = [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t i = begin; i < end; ++i)
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (P.weight(i, k) != 0)
+                        codes[i] |= colours[static_cast<std::size_t>(P.columns[i][k])] % most_colours << 8 * k;
+        };
+        parallel_for(codes.size(), some);
+    }
+
+    void visit(const transfer_weights& P, const transposed_weights& t, std::size_t C)
+    {
+        const std::size_t groups = (P.coarse + size - 1) / size;
+        std::vector<std::vector<idx>> lists(groups);
+        const auto some = [&](std::size_t begin, std::size_t end)
+        {
+            std::vector<idx> lanes(P.columns.size() / C + 1, 0), slices;
+            for (std::size_t g = begin; g < end; ++g)
+            {
+                slices.clear();
+                for (std::size_t J = g * size; J < std::min(P.coarse, (g + 1) * size); ++J)
+                    for (const idx place : t[J])
+                    {
+                        const auto i = static_cast<std::size_t>(place / 3);
+                        if (lanes[i / C] == 0) slices.push_back(static_cast<idx>(i / C));
+                        lanes[i / C] |= idx{1} << i % C;
+                    }
+                std::sort(slices.begin(), slices.end());
+                for (const idx s : slices)
+                {
+                    lists[g].push_back(s);
+                    lists[g].push_back(std::exchange(lanes[static_cast<std::size_t>(s)], 0));
+                }
+            }
+        };
+        parallel_for(groups, some, 0, 16);
+        offsets.assign(1, 0);
+        for (const auto& list : lists)
+        {
+            visits.insert(visits.end(), list.begin(), list.end());
+            offsets.push_back(static_cast<idx>(visits.size()));
+        }
+    }
+};
+
+} // namespace taut::detail

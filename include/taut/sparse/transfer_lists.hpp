@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <taut/compute/lane_form.hpp>
+#include <taut/sparse/product_groups.hpp>
+
+namespace taut
+{
+
+/// An interpolation and its transpose as block_transfer has them on a device, made on the host; weights are T.
+template <class T>
+struct transfer_lists
+{
+    /// coarse: pattern_of_product(fine, P), and t is the transpose of P. Throws parameter_error.
+    transfer_lists(const block_pattern& fine, const transfer_weights& P, const transposed_weights& t,
+                   const block_pattern& coarse, lane_form form)
+        : fine_stride(fine.stride()), fine_rows(fine.rows()), coarse_rows(coarse.rows())
+    {
+        if (P.columns.size() != fine_rows || P.coarse != coarse_rows)
+            throw parameter_error("transfer_weights", "does not fit the matrices");
+        make_prolongation(P);
+        make_transpose(P, t, coarse);
+        if (form.lanes == 1) return;
+        // Large groups share more fine rows; small levels need some groups for all cores.
+        constexpr std::size_t few = 32;
+        const std::size_t size = std::clamp<std::size_t>(padded(coarse_rows / few, 16), 16, lane_form::product_rows);
+        groups.emplace(P, t, coarse, size);
+    }
+
+    std::size_t fine_stride, fine_rows, coarse_rows;
+    std::vector<idx> columns; ///< at [k * fine_stride + row], for places k < 3
+    std::vector<T> weights;   ///< alike
+    std::vector<idx> transpose_offsets;
+    std::vector<idx> transpose;                   ///< places in `weights`
+    std::optional<detail::product_groups> groups; ///< for the product on CPUs; elsewhere an item does a row
+
+private:
+    void make_prolongation(const transfer_weights& P)
+    {
+        const std::size_t stride = fine_stride;
+        columns.assign(3 * stride, 0);
+        weights.assign(3 * stride, T(0));
+        parallel_for(P.columns.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t i = begin; i < end; ++i)
+                         {
+                             // Places without a weight repeat a column that has one.
+                             std::size_t used = 0;
+                             while (used < 2 && P.weight(i, used) == 0) ++used;
+                             for (std::size_t k = 0; k < 3; ++k)
+                             {
+                                 const double w = P.weight(i, k);
+                                 columns[k * stride + i] = P.columns[i][w == 0 ? used : k];
+                                 weights[k * stride + i] = static_cast<T>(w);
+                             }
+                         }
+                     });
+    }
+
+    void make_transpose(const transfer_weights& P, const transposed_weights& t, const block_pattern& coarse)
+    {
+        const auto C = static_cast<std::size_t>(coarse.slice);
+        const auto stride = static_cast<idx>(fine_stride);
+        std::vector<detail::list_chunk> chunks(detail::chunk_count(P.coarse));
+        detail::for_each_chunk(P.coarse,
+                               [&](std::size_t chunk, std::size_t begin, std::size_t end)
+                               {
+                                   auto& [items, sizes] = chunks[chunk];
+                                   for (std::size_t first = begin; first < end; first += C)
+                                   {
+                                       const std::size_t last = std::min(first + C, end), base = items.size();
+                                       std::size_t width = 0;
+                                       for (std::size_t J = first; J < last; ++J) width = std::max(width, t[J].size());
+                                       items.resize(base + width * C, -1);
+                                       for (std::size_t J = first; J < last; ++J)
+                                           for (std::size_t n = 0; n < t[J].size(); ++n)
+                                               items[base + n * C + J % C] = t[J][n] % 3 * stride + t[J][n] / 3;
+                                       sizes.push_back(static_cast<idx>(width * C));
+                                   }
+                               });
+        transpose_offsets = detail::slice_offsets(chunks, coarse.stride() / C);
+        transpose = detail::joined(chunks);
+    }
+};
+
+} // namespace taut

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+namespace taut
+{
+
+/// Convex outline that the boundary is laid on.
+enum class boundary_shape
+{
+    circle,
+    square
+};
+
+/// How boundary vertices are spread: all gaps alike, as the boundary edges' lengths, or as the roots of the lengths.
+enum class boundary_spacing
+{
+    uniform,
+    chord,
+    centripetal
+};
+
+/// The fixed boundary of a barycentric map.
+struct boundary_params
+{
+    boundary_shape shape = boundary_shape::circle;
+    boundary_spacing spacing = boundary_spacing::chord;
+};
+
+/// Weights that make each free vertex a mean of its neighbours.
+///
+/// uniform:    1 for every edge (Tutte); symmetric, blind to the surface's shape
+/// mean_value: (tan(a/2) + tan(b/2)) / |vi - vj| with the two angles at vi beside the edge (Floater 2003); positive on
+///             every non-degenerate surface and reproduces a planar convex mesh exactly, but not symmetric
+enum class barycentric_weights
+{
+    uniform,
+    mean_value
+};
+
+/// How to lay a surface on a convex polygon.
+struct barycentric_params
+{
+    boundary_params boundary = {};
+    barycentric_weights weights = barycentric_weights::mean_value;
+
+    /// At most so many further solves with weights that even out stretch, 0 to 20. Each costs about as much as the map
+    /// itself; one to three commonly lower the distortion of a deep surface ten to a hundred times. It ends early when
+    /// a round gains less than 5 %, and the best map is kept.
+    int stretch_rounds = 0;
+
+    /// Asked before each further round: go on? Without it every round is made.
+    std::function<bool()> proceed = {};
+};
+
+} // namespace taut

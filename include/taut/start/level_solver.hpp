@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <taut/objective/mesh_levels.hpp>
+#include <taut/objective/newton_objective.hpp>
+#include <taut/solve/minimize.hpp>
+#include <taut/start/barycentric_map.hpp>
+
+namespace taut
+{
+
+/// Minimises an energy on one level of a hierarchy after another. The kernels are traced and compiled once; buffers and
+/// matrices live as long as the level that they serve is at work.
+template <class P, class R>
+class level_solver
+{
+public:
+    using kernels = newton_kernels<triangle, P, R>;
+    using plan = newton_plan<triangle, R>;
+
+    /// Refers to the levels.
+    level_solver(queue q, const mesh_levels& levels, const any_energy& energy, energy::weighting weights)
+        : queue_(q),
+          levels_(levels),
+          energy_(energy),
+          weights_(weights),
+          kernels_(std::make_shared<const kernels>(q, energy))
+    {
+    }
+
+    /// Launches every kernel once, on the coarsest level, so that what drivers compile at the first launch is compiled.
+    void warm_up()
+    {
+        const std::size_t coarsest = levels_.size() - 1;
+        const auto m = levels_.surface(coarsest);
+        plan host(levels_, coarsest, lane_form::for_device(queue_.device()));
+        level(*this, std::move(host), barycentric_map(m, facets(m), {}).uv).warm_up();
+    }
+
+    double energy_at_rest() const { return energy_(element<double, 2>{mat2(1.0), 1.0, 1.0}); }
+
+    /// One level at work.
+    class level
+    {
+    public:
+        /// host: that of the level. uv: the map to start from, coordinates of the level's vertices. constraints: in the
+        /// level's numbers.
+        level(level_solver& owner, plan host, const std::vector<vec2>& uv, const point_constraints<2>& constraints = {})
+            : problem_(owner.queue_, std::move(host), owner.energy_, owner.weights_, owner.kernels_, constraints),
+              x_(problem_.make_point())
+        {
+            problem_.upload(uv, x_);
+        }
+
+        std::vector<vec2> download() const { return problem_.download(x_); }
+
+        /// Spreads out what caps the first step: meant for maps that come from a coarser level.
+        void relax() { problem_.relax(x_); }
+
+        solve::report minimize(const solve::params& how, const solve::observer& ask = {})
+        {
+            return solve::minimize(problem_, x_, how, ask);
+        }
+
+        void warm_up() { problem_.warm_up(x_); }
+
+    private:
+        newton_problem<triangle, P, R> problem_;
+        typename newton_problem<triangle, P, R>::point x_;
+    };
+
+private:
+    queue queue_;
+    const mesh_levels& levels_;
+    any_energy energy_;
+    energy::weighting weights_;
+    std::shared_ptr<const kernels> kernels_;
+};
+
+} // namespace taut

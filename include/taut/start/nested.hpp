@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/measure/describe_defects.hpp>
+#include <taut/mesh/describe.hpp>
+#include <taut/objective/level_report.hpp>
+#include <taut/start/level_solver.hpp>
+#include <taut/start/robust.hpp>
+
+namespace taut
+{
+
+/// How the levels above the finest one are solved: roughly, since the next one changes everything a little. Before
+/// each one `start.proceed` is asked, too.
+struct coarse_to_fine_params
+{
+    std::size_t start_vertices = 1000; ///< the start map is made on the finest level with at most so many
+    robust_start_params start = {};
+    /// `base` is set to the energy at rest: surfaces that are nearly developable are worth the digits above it.
+    solve::stopping_params stopping = {
+        .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .decrease_count = 1, .max_iterations = 100};
+    /// Levels with at most so many vertices wait for this many small decreases in a row instead: iterations are cheap
+    /// there, and extreme shapes (long tubes) pause on their way.
+    std::size_t small_vertices = 4000;
+    int small_decrease_count = 3;
+
+    /// The level that the start map is made on.
+    std::size_t first_level(const mesh_levels& levels) const
+    {
+        std::size_t l = 0;
+        while (l + 1 < levels.size() && levels.vertices(l) > start_vertices) ++l;
+        return l;
+    }
+};
+
+/// Nested iteration: a start map on a coarse level, minimised, and then for each finer level its vertices reinserted
+/// without flips, the worst elements relaxed, and the map minimised again. It needs no map of the fine mesh to begin
+/// with and hands the fine level one that lacks detail only (the paper's coarse-to-fine scheme, its section 5).
+template <class P, class R>
+class coarse_to_fine
+{
+public:
+    /// Refers to the levels and the solver.
+    coarse_to_fine(const mesh_levels& levels, level_solver<P, R>& solver, coarse_to_fine_params params)
+        : levels_(levels), solver_(solver), params_(std::move(params))
+    {
+        params_.stopping.base = solver.energy_at_rest();
+    }
+
+    /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
+    /// reason() then says how.
+    /// plan: that of a level; asked for each level but the finest, coarse ones first.
+    std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer,
+                          const std::function<typename level_solver<P, R>::plan(std::size_t level)>& plan)
+    {
+        const std::size_t first = params_.first_level(levels_);
+        start_ = robust_start(levels_.surface(first), params_.start);
+        if (!start_.flips) return fail("the coarse start has " + describe_defects<triangle>(start_.flips));
+        auto uv = std::move(start_.uv);
+        const auto stopped = [this] { return params_.start.proceed && !params_.start.proceed(); };
+        if (params_.start.fixed_boundary) detail::scale_outline(levels_.hierarchy(), first, levels_.points(), uv);
+        for (std::size_t l = first; l > 0; --l)
+        {
+            if (stopped()) return fail("it was stopped");
+            uv = minimised(l, plan(l), uv, l < first, observer(l));
+            if (stopped()) return fail("it was stopped");
+            if (reports_.back().solve.stop == solve::stop::not_finite_start)
+                return fail("the energy is not finite on level " + std::to_string(l));
+            auto finer = detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv),
+                                           {.fixed = levels_.pinned() ? levels_.fixed(0) : std::span<const char>()});
+            if (!std::isfinite(finer.energy))
+                return fail("not all vertices could be reinserted on level " + std::to_string(l - 1));
+            uv = std::move(finer.uv);
+        }
+        return uv;
+    }
+
+    /// Of the start map; its uv are gone.
+    const start_map& start() const { return start_; }
+    const std::string& reason() const { return reason_; }
+    const std::vector<level_report>& reports() const { return reports_; }
+
+private:
+    std::vector<vec2> minimised(std::size_t l, typename level_solver<P, R>::plan host, const std::vector<vec2>& uv,
+                                bool relax, const solve::observer& ask)
+    {
+        typename level_solver<P, R>::level level(solver_, std::move(host), uv);
+        if (relax && params_.stopping.max_iterations > 0) level.relax();
+        auto stopping = params_.stopping;
+        if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;
+        auto r = level.minimize({.method = solve::method::newton, .stopping = stopping}, ask);
+        r.history.clear();
+        reports_.push_back({.level = l, .vertices = levels_.vertices(l), .solve = std::move(r)});
+        return level.download();
+    }
+
+    std::vector<vec2> fail(std::string why)
+    {
+        reason_ = std::move(why);
+        return {};
+    }
+
+    const mesh_levels& levels_;
+    level_solver<P, R>& solver_;
+    coarse_to_fine_params params_;
+    start_map start_;
+    std::string reason_;
+    std::vector<level_report> reports_;
+};
+
+} // namespace taut

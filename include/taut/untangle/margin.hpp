@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <taut/untangle/element_newton.hpp>
+#include <taut/untangle/state.hpp>
+
+namespace taut::detail
+{
+
+/// Moves the injective map of the state away from the edge of what is injective, so that an energy with a barrier can
+/// start from it: at most `steps` of Newton's method on |S|^2 / det S + det S + 1 / det S, which keep all determinants
+/// positive.
+inline void improve_margin(untangle_state<triangle>& state, int steps)
+{
+    const auto& problem = state.problem();
+    triangle_newton newton(state.cells(), problem.held);
+    newton.proceed = [&state] { return state.proceed(0); };
+    newton.shapes = rest_shapes(problem.rest, expected_measure(problem, state.best()));
+    auto x = state.best();
+    double value = newton.value(x);
+    for (int i = 0; i < steps && value < std::numeric_limits<double>::infinity(); ++i)
+    {
+        const double before = value;
+        value = newton.step(x, before);
+        if (!(value < before) || !state.replace(x) || !state.proceed() || value > 0.999 * before) break;
+    }
+}
+
+} // namespace taut::detail

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/start/harmonic.hpp>
+#include <taut/start/laid.hpp>
+#include <taut/untangle/element_newton.hpp>
+#include <taut/untangle/epsilon_schedule.hpp>
+#include <taut/untangle/shapes.hpp>
+#include <taut/untangle/stage.hpp>
+
+namespace taut
+{
+
+/// Where a stage starts.
+enum class untangle_start
+{
+    best,     ///< the better of the initial map and the best so far
+    harmonic, ///< each free coordinate the mean of its neighbours'
+    laid      ///< an injective map that ignores what is held, brought near to it; for few held vertices
+};
+
+/// Variants of the stage below.
+struct newton_stage_params
+{
+    std::string name;
+    untangle_start start = untangle_start::best;
+    untangle_shapes shapes = untangle_shapes::rest;
+    double area_weight = 1; ///< of det + 1 / det against the shape of a triangle; 0: shape alone
+};
+
+/// Newton's method on the regularised energy, one step for each value of epsilon.
+class newton_stage final : public untangle_stage<triangle>
+{
+public:
+    explicit newton_stage(newton_stage_params params) : params_(std::move(params)) {}
+
+    std::string_view name() const override { return params_.name; }
+
+    bool run(untangle_state<triangle>& state, int iterations) override
+    {
+        if (!newton_ && !start(state)) return false;
+        if (state.offer(x_).flipped == 0) return false;
+        for (int i = 0; i < iterations; ++i)
+        {
+            newton_->eps = schedule_->eps();
+            const double before = newton_->value(x_);
+            const double after = newton_->step(x_, before);
+            if (!std::isfinite(after)) return false;
+            if (state.offer(x_).flipped == 0 || !state.proceed()) return false;
+            standing_ = newton_->last_length() > 0 ? 0 : standing_ + 1;
+            if (standing_ > 50) return false;
+            schedule_->lower(before, after, newton_->last_length(), newton_->least_det(x_));
+        }
+        return true;
+    }
+
+private:
+    /// False if there is no such start.
+    bool start(untangle_state<triangle>& state)
+    {
+        const auto& problem = state.problem();
+        if (params_.start == untangle_start::best)
+            x_ = state.best();
+        else if (params_.start == untangle_start::harmonic)
+            x_ = detail::harmonic_start(problem, state.initial());
+        else if (auto laid = detail::laid_start(problem, state.initial(), state.draft()))
+            x_ = std::move(*laid);
+        else
+            return false;
+        for (std::size_t v = 0; v < x_.size(); ++v)
+            for (int k = 0; k < 2; ++k)
+                if (problem.holds(v, k)) x_[v][k] = state.initial()[v][k];
+        newton_ = std::make_unique<detail::triangle_newton>(state.cells(), problem.held);
+        newton_->area_weight = params_.area_weight;
+        newton_->proceed = [&state] { return state.proceed(0); };
+        const double measure = detail::expected_measure(problem, state.initial());
+        newton_->shapes = params_.shapes == untangle_shapes::rest ? detail::rest_shapes(problem.rest, measure)
+                                                                  : detail::regular_shapes(problem.rest, measure);
+        schedule_ = std::make_unique<detail::epsilon_schedule>(newton_->least_det(x_));
+        return true;
+    }
+
+    newton_stage_params params_;
+    std::unique_ptr<detail::triangle_newton> newton_;
+    std::unique_ptr<detail::epsilon_schedule> schedule_;
+    std::vector<vec2> x_;
+    int standing_ = 0; // steps in a row that could not be made
+};
+
+} // namespace taut

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/constrain/untangle_problem.hpp>
+#include <taut/core/stopwatch.hpp>
+#include <taut/exact/certify.hpp>
+#include <taut/untangle/params.hpp>
+
+namespace taut
+{
+
+/// What the stages of an untangling share: the problem, the best map so far, the clock and the observer.
+///
+/// Stages see positions in a unit of length in which the largest coordinate of the initial map is in [1, 2). It is a
+/// power of two, so changing units is exact.
+template <class Element>
+class untangle_state
+{
+public:
+    static constexpr int D = Element::dimension;
+    using map = std::vector<vec<D>>;
+
+    /// Both are referred to.
+    untangle_state(const untangle_problem<Element>& problem, const untangle_params& params)
+        : problem_(problem), params_(params), best_(problem.initial), flips_(certified(best_))
+    {
+        double largest = 0;
+        for (const auto& p : problem.initial)
+            for (int k = 0; k < D; ++k) largest = std::max(largest, std::abs(p[k]));
+        if (largest > 0) unit_ = std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
+        initial_ = scaled(problem.initial);
+        draft_ = scaled(problem.draft);
+    }
+
+    const untangle_problem<Element>& problem() const { return problem_; }
+    const auto& cells() const { return problem_.rest.cells(); }
+    const map& initial() const { return initial_; }     ///< in the unit of the stages
+    const map& draft() const { return draft_; }         ///< of the problem, in the unit of the stages; may be empty
+    map best() const { return scaled(best_); }          ///< in the unit of the stages
+    const map& best_map() const { return best_; }       ///< in the unit of the problem
+    const certificate& flips() const { return flips_; } ///< of best_map(), exact
+    bool injective() const { return static_cast<bool>(flips_); }
+    int iterations() const { return iterations_; }
+
+    /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its held coordinates are replaced
+    /// by those of the problem before they are counted. Returns what was counted.
+    certificate offer(std::span<const vec<D>> x) { return keep(restored(x, unit_)); }
+
+    /// The same with x in the unit of the problem.
+    certificate take(std::span<const vec<D>> x) { return keep(restored(x, 1)); }
+
+    /// Replaces an injective map by another one; false, and nothing happens, if x is not injective.
+    bool replace(std::span<const vec<D>> x)
+    {
+        map trial = restored(x, unit_);
+        certificate flips = certified(trial);
+        if (!flips) return false;
+        best_ = std::move(trial);
+        flips_ = std::move(flips);
+        return true;
+    }
+
+    /// To be called after each iteration: go on? False from the time limit or the observer's refusal on.
+    bool proceed(int iterations = 1)
+    {
+        iterations_ += iterations;
+        if (stopped()) return false;
+        solve::progress now;
+        now.iteration = iterations_;
+        now.value = static_cast<double>(flips_.defects());
+        now.seconds = seconds();
+        if (now.seconds > params_.time_limit.count())
+            timed_out_ = true;
+        else if (params_.observer && !params_.observer(now))
+            cancelled_ = true;
+        return !stopped();
+    }
+
+    bool timed_out() const { return timed_out_; }
+    bool cancelled() const { return cancelled_; }
+    bool stopped() const { return timed_out_ || cancelled_; }
+    double seconds() const { return clock_.total(); }
+    double seconds_left() const { return std::max(0.0, params_.time_limit.count() - seconds()); }
+
+private:
+    certificate keep(map trial)
+    {
+        certificate flips = certified(trial);
+        if (flips.defects() < flips_.defects())
+        {
+            best_ = std::move(trial);
+            flips_ = flips;
+        }
+        return flips;
+    }
+
+    map scaled(const map& x) const
+    {
+        map result = x;
+        for (auto& p : result) p *= unit_;
+        return result;
+    }
+
+    map restored(std::span<const vec<D>> x, double unit) const
+    {
+        map result = problem_.initial;
+        for (std::size_t v = 0; v < result.size(); ++v)
+            for (int k = 0; k < D; ++k)
+                if (!problem_.holds(v, k)) result[v][k] = x[v][k] / unit;
+        return result;
+    }
+
+    certificate certified(const map& x) const
+    {
+        return certify<D>(problem_.rest.cells(), std::span<const vec<D>>(x), {}, 0);
+    }
+
+    const untangle_problem<Element>& problem_;
+    const untangle_params& params_;
+    detail::stopwatch clock_;
+    double unit_ = 1;
+    map initial_, draft_, best_;
+    certificate flips_;
+    int iterations_ = 0;
+    bool timed_out_ = false, cancelled_ = false;
+};
+
+} // namespace taut

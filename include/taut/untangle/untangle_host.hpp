@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/measure/describe_defects.hpp>
+#include <taut/mesh/describe.hpp>
+#include <taut/untangle/margin.hpp>
+#include <taut/untangle/proofs/infeasible.hpp>
+#include <taut/untangle/result.hpp>
+#include <taut/untangle/stages.hpp>
+
+namespace taut
+{
+
+namespace detail
+{
+
+/// The determinant with its exact sign.
+inline double exact_determinant(const triangle::mapped_corners& x)
+{
+    return orient(x[0], x[1], x[2]).det;
+}
+inline double exact_determinant(const tetrahedron::mapped_corners& x)
+{
+    return orient(x[0], x[1], x[2], x[3]).det;
+}
+
+/// Smallest mapped / rest measure of an element over that of the whole.
+template <class Element>
+double least_relative_det(const untangle_problem<Element>& problem, const std::vector<vec<Element::dimension>>& x)
+{
+    double least = std::numeric_limits<double>::infinity(), mapped = 0;
+    const auto& m = problem.rest;
+    const auto shapes = rest_shapes(m, 1.0);
+    for (std::size_t c = 0; c < m.cells().size(); ++c)
+    {
+        typename Element::mapped_corners corner;
+        for (std::size_t k = 0; k < corner.size(); ++k) corner[k] = x[static_cast<std::size_t>(m.cells()[c][k])];
+        const double here = Element::measure_factor * exact_determinant(corner);
+        least = std::min(least, here / shapes[c].weight); // the weights sum to 1
+        mapped += std::abs(here);
+    }
+    return mapped > 0 ? least / mapped : 0.0;
+}
+
+/// Runs the stages in turn until the state is injective or none has anything left to try.
+template <class Element>
+void run_stages(untangle_state<Element>& state, untangle_stages<Element>& stages, const untangle_params& params,
+                untangle_result<Element>& result)
+{
+    std::vector<char> exhausted(stages.size(), 0);
+    int iterations = params.first_round;
+    for (int round = 0; round < params.rounds; ++round)
+    {
+        for (std::size_t s = 0; s < stages.size(); ++s)
+        {
+            if (exhausted[s]) continue;
+            untangle_stage_report did{std::string(stages[s]->name())};
+            const double begin = state.seconds();
+            const int before = state.iterations();
+            exhausted[s] = !stages[s]->run(state, iterations);
+            did.iterations = state.iterations() - before;
+            did.seconds = state.seconds() - begin;
+            did.inverted = state.flips().flipped;
+            did.branched = state.flips().branched;
+            result.stages.push_back(std::move(did));
+            if (state.injective()) result.stage = stages[s]->name();
+            if (state.injective() || state.stopped()) return;
+        }
+        iterations = std::min(iterations, std::numeric_limits<int>::max() / 2) * 2;
+    }
+}
+
+} // namespace detail
+
+/// Moves what is not held until every element is positive, with stages that take turns (untangle_params::stages), each
+/// from where it is best at beginning (untangle_stages.hpp). The outcome is injective only with a certificate in exact
+/// arithmetic, infeasible only with a proof; a map that was not found to be either comes with the reason and the
+/// inverted elements. Held coordinates are those of `problem.initial`, bit for bit, in all cases.
+/// Throws parameter_error for a problem or parameters that are not valid.
+template <class Element>
+untangle_result<Element> untangle(const untangle_problem<Element>& problem, untangle_stages<Element> stages,
+                                  const untangle_params& params = {})
+{
+    problem.validate();
+    params.validate();
+    stages = chosen(std::move(stages), params.stages);
+    untangle_state<Element> state(problem, params);
+    untangle_result<Element> result;
+    if (state.injective())
+        result.stage = "initial";
+    else if (infeasibility proof = find_infeasibility(problem))
+    {
+        result.outcome = untangle_outcome::infeasible;
+        result.reason = proof.reason();
+        result.ids = proof.proofs.front().ids;
+    }
+    else
+        detail::run_stages(state, stages, params, result);
+
+    if (state.injective())
+    {
+        result.outcome = untangle_outcome::injective;
+        if constexpr (Element::dimension == 2)
+            if (result.stage != "initial") detail::improve_margin(state, params.margin_steps);
+    }
+    result.map = state.best_map();
+    result.flips = certify<Element::dimension>(
+        problem.rest.cells(), std::span<const vec<Element::dimension>>(result.map), {}, problem.rest.cells().size());
+    if (result.outcome == untangle_outcome::gave_up)
+    {
+        result.ids = result.flips.flipped > 0 ? result.flips.ids : result.flips.branch_ids;
+        const std::string left = describe_defects<Element>(result.flips);
+        result.reason = state.cancelled()   ? "cancelled: " + left
+                        : state.timed_out() ? "time limit: " + left
+                                            : "no stage makes progress: " + left +
+                                                  "; a certificate that there is no solution was not found either";
+    }
+    result.least_relative_det = detail::least_relative_det(problem, result.map);
+    result.seconds = state.seconds();
+    return result;
+}
+
+/// The same with all stages that need no device.
+inline untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {})
+{
+    return untangle(problem, host_stages(problem.outline_pinned()), params);
+}
+inline untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem,
+                                             const untangle_params& params = {})
+{
+    return untangle(problem, solid_host_stages(), params);
+}
+
+} // namespace taut

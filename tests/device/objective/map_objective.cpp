@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include <support/meshes.hpp>
+#include <support/mips_power.hpp>
+#include <support/reference_problem.hpp>
+#include <support/size.hpp>
+
+#include <taut/energy/algebra.hpp>
+#include <taut/energy/isometric.hpp>
+#include <taut/objective/map_objective.hpp>
+#include <taut/solve/minimize.hpp>
+#include <taut/start/barycentric_map.hpp>
+
+namespace
+{
+
+using namespace taut;
+
+struct named_energy
+{
+    const char* name;
+    any_energy energy;
+};
+
+std::vector<named_energy> energies()
+{
+    using namespace taut::energy;
+    return {{"isometric", isometric{}},
+            {"shape", shape{}},
+            {"area", area{}},
+            {"a sum with a user's energy", 0.8 * isometric{} + 0.2 * test::mips_power{.p = 3}},
+            {"a product", shape{} * area{}}};
+}
+
+/// A curved surface, a start that is distorted but not folded, and everything around them.
+struct fixture
+{
+    mesh<triangle> surface = test::bumpy(test::sized(14, 3), 0.4, 5);
+    std::vector<vec2> start = barycentric_map(surface).uv;
+    std::shared_ptr<const layout<triangle>> local;
+    queue q;
+
+    explicit fixture(bool pin_some = false)
+    {
+        std::vector<bool> pinned;
+        if (pin_some)
+            for (taut::idx v = 0; v < surface.vertex_count(); ++v) pinned.push_back(v % 3 == 0);
+        local = std::make_shared<const layout<triangle>>(surface, pinned);
+    }
+};
+
+template <class P_, class R_>
+struct arithmetic
+{
+    using P = P_;
+    using R = R_;
+    /// Relative error that is allowed against double.
+    static constexpr double tolerance = std::is_same_v<R, double> ? 1e-11 : std::is_same_v<P, double> ? 2e-5 : 2e-4;
+};
+
+double largest(const std::vector<double>& v)
+{
+    double most = 0;
+    for (const double x : v) most = std::max(most, std::abs(x));
+    return most;
+}
+
+} // namespace
+
+TYPE_TO_STRING_AS("double", arithmetic<double, double>);
+TYPE_TO_STRING_AS("mixed", arithmetic<double, float>);
+TYPE_TO_STRING_AS("float", arithmetic<float, float>);
+
+TEST_CASE_TEMPLATE("problem: value and gradient on the device are those of the host", A, arithmetic<double, double>,
+                   arithmetic<double, float>, arithmetic<float, float>)
+{
+    for (const bool pin_some : {false, true})
+    {
+        fixture s(pin_some);
+        for (const auto& [name, energy] : energies())
+            for (const auto weights : {energy::weighting::uniform, energy::weighting::measure})
+            {
+                CAPTURE(name);
+                CAPTURE(pin_some);
+                problem<triangle, typename A::P, typename A::R> f(s.q, s.local, energy, weights);
+                const test::reference_problem<triangle> host(s.local, energy, weights);
+                auto x = f.make_point();
+                f.upload(s.start, x);
+                auto g = f.space().make();
+                const double value = f.value_gradient(x, g);
+
+                std::vector<double> expected(host.size());
+                const double host_value = host(s.local->to_local(s.start), expected);
+                CHECK(value == doctest::Approx(host_value).epsilon(A::tolerance));
+                CHECK(f.value(x) == value);
+                const auto gradient = g.download();
+                std::vector<double> error(expected.size());
+                for (std::size_t i = 0; i < error.size(); ++i) error[i] = double(gradient[i]) - expected[i];
+                CHECK(largest(error) <= A::tolerance * largest(expected));
+            }
+    }
+}
+
+TEST_CASE("problem: pinned vertices have no gradient, so they never move")
+{
+    fixture s(true);
+    problem<triangle, double, double> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
+    auto x = f.make_point();
+    f.upload(s.start, x);
+    solve::minimize(f, x, {.stopping = {.max_iterations = 5}});
+    const auto moved = f.download(x);
+    std::size_t still = 0;
+    for (std::size_t v = 0; v < moved.size(); ++v)
+        if (v % 3 == 0)
+            CHECK(moved[v] == s.start[v]);
+        else
+            still += moved[v] == s.start[v];
+    CHECK(still == 0);
+}
+
+TEST_CASE_TEMPLATE("problem: a batch of trial steps is the value at each step", A, arithmetic<double, double>,
+                   arithmetic<double, float>)
+{
+    fixture s;
+    problem<triangle, typename A::P, typename A::R> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
+    auto x = f.make_point(), moved = f.make_point();
+    f.upload(s.start, x);
+    auto g = f.space().make(), d = f.space().make();
+    f.value_gradient(x, g);
+    f.space().axpby(-1, g, 0, d);
+    const double most = f.max_step(x, d);
+    REQUIRE(std::isfinite(most));
+
+    // More steps than one launch takes, and some beyond the first flip.
+    const std::vector<double> a = {0, 0.1 * most, 0.3 * most, 0.5 * most, 0.9 * most, 1.01 * most, 2 * most};
+    std::vector<double> values(a.size());
+    f.values(x, d, a, values);
+    for (std::size_t k = 0; k < a.size(); ++k)
+    {
+        f.step(x, a[k], d, moved);
+        const double expected = f.value(moved);
+        if (a[k] < most)
+            CHECK(values[k] == doctest::Approx(expected).epsilon(10 * A::tolerance));
+        else
+            CHECK(std::isinf(values[k]));
+    }
+}
+
+TEST_CASE("problem: max_step is the first step that flips an element")
+{
+    fixture s;
+    problem<triangle, double, double> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    auto x = f.make_point(), moved = f.make_point();
+    f.upload(s.start, x);
+    for (int trial = 0; trial < 5; ++trial)
+    {
+        std::vector<double> direction(2 * s.local->vertex_stride, 0.0);
+        for (auto& v : direction) v = normal(random);
+        auto d = f.space().make();
+        d.upload(direction);
+        const double most = f.max_step(x, d);
+        for (const double a : {0.25, 0.5, 0.9999})
+        {
+            f.step(x, a * most, d, moved);
+            CHECK(std::isfinite(f.value(moved)));
+        }
+        f.step(x, 1.0001 * most, d, moved);
+        CHECK(std::isinf(f.value(moved)));
+    }
+    // A translation flips nothing however far.
+    auto shift = f.space().make();
+    shift.upload(std::vector<double>(2 * s.local->vertex_stride, 1.0));
+    CHECK(std::isinf(f.max_step(x, shift)));
+}
+
+TEST_CASE("problem: a folded map has an infinite value")
+{
+    fixture s;
+    problem<triangle, double, double> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
+    auto folded = s.start;
+    for (auto& p : folded) p.x = -p.x;
+    auto x = f.make_point();
+    f.upload(folded, x);
+    CHECK(std::isinf(f.value(x)));
+}
+
+TEST_CASE("problem: the device and the host model give the same iterates to rounding")
+{
+    fixture s;
+    const any_energy energy = energy::isometric{};
+    problem<triangle, double, double> f(s.q, s.local, energy, energy::weighting::measure);
+    const test::reference_problem<triangle> reference(s.local, energy, energy::weighting::measure);
+    auto host = solve::host_objective(reference.size(), reference);
+    for (const auto method : {solve::method::lbfgs, solve::method::conjugate_gradient})
+    {
+        // Neither the exact barrier nor batches on the device, as the host model has neither: the same algorithm.
+        struct plain
+        {
+            problem<triangle, double, double>& f;
+            using point = problem<triangle, double, double>::point;
+            using vector = problem<triangle, double, double>::vector;
+            const auto& space() const { return f.space(); }
+            point make_point() const { return f.make_point(); }
+            void copy(const point& a, point& b) const { f.copy(a, b); }
+            void step(const point& x, double a, const vector& d, point& out) const { f.step(x, a, d, out); }
+            double value(const point& x) { return f.value(x); }
+            double value_gradient(const point& x, vector& g) { return f.value_gradient(x, g); }
+        } device{f};
+        // Brent's method would find the same minimum along a line only to half the digits.
+        const solve::params params{.method = method,
+                                   .line_search = {.method = solve::line_search_method::strong_wolfe},
+                                   .stopping = {.max_iterations = 8}};
+        auto x = f.make_point();
+        f.upload(s.start, x);
+        const auto on_device = solve::minimize(device, x, params);
+        auto y = s.local->to_local(s.start);
+        const auto on_host = solve::minimize(host, y, params);
+
+        REQUIRE(on_device.history.size() == on_host.history.size());
+        for (std::size_t k = 0; k < on_host.history.size(); ++k)
+            CHECK(on_device.history[k].value == doctest::Approx(on_host.history[k].value).epsilon(1e-9));
+        const auto a = f.download(x), b = s.local->to_user(y);
+        double difference = 0;
+        for (std::size_t v = 0; v < a.size(); ++v) difference = std::max(difference, glm::length(a[v] - b[v]));
+        CHECK(difference < 1e-7);
+    }
+}
+
+TEST_CASE("problem: the gradient of a tetrahedron is recorded, and its host reference has the cube at rest as minimum")
+{
+    const auto rest = test::cube(2);
+    const auto local = std::make_shared<const layout<tetrahedron>>(rest);
+    queue q;
+    const any_energy energy = energy::isometric{};
+    const auto text = element_kernels<tetrahedron, double, double>::record_gradient(energy, kernel_form::guarded);
+    CHECK(text.source.find("corner_gradient") != std::string::npos);
+    const test::reference_problem<tetrahedron> host(local, energy, energy::weighting::measure);
+    std::vector<double> g(host.size());
+    CHECK(host(local->to_local(rest.points()), g) == doctest::Approx(2.0));
+    CHECK(largest(g) < 1e-12);
+}

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <support/meshes.hpp>
+#include <taut/sparse/block_assembly.hpp>
+#include <taut/sparse/block_transfer.hpp>
+
+#include "support/device.hpp"
+
+using namespace taut;
+using taut::test::random_values;
+
+namespace
+{
+
+constexpr lane_form forms[] = {{16, 16}, {32, 1}};
+
+/// A mesh whose pole meets many cells, so that rows differ much in length.
+mesh<triangle> test_mesh()
+{
+    auto m = test::flat_disk(test::sized(17, 6));
+    return m;
+}
+
+/// A plain host product of values by place of the pattern.
+template <class T>
+std::vector<double> host_product(const block_pattern& p, std::size_t D, std::size_t stride, const std::vector<T>& A,
+                                 const std::vector<T>& x)
+{
+    std::vector<double> y(D * stride, 0.0);
+    for (std::size_t r = 0; r < p.rows(); ++r)
+        for (std::size_t j = 0; j < p.length(r); ++j)
+            for (std::size_t a = 0; a < D; ++a)
+                for (std::size_t b = 0; b < D; ++b)
+                    y[a * stride + r] += double(A[p.place(r, j) * D * D + a * D + b]) *
+                                         double(x[b * stride + std::size_t(p.column(r, j))]);
+    return y;
+}
+
+/// Random values on the rows of a vector, zero padding.
+template <class T>
+device_vector<T> random_vector(const block_matrix<T>& A, unsigned seed, std::vector<T>& host)
+{
+    const auto values = random_values<T>(std::size_t(A.block_size()) * A.rows(), seed);
+    host.assign(std::size_t(A.block_size()) * A.stride(), T(0));
+    for (std::size_t c = 0, k = 0; c < std::size_t(A.block_size()); ++c)
+        for (std::size_t r = 0; r < A.rows(); ++r) host[c * A.stride() + r] = values[k++];
+    auto v = A.vector();
+    v.upload(host);
+    return v;
+}
+
+template <class T, class U>
+double difference(const std::vector<T>& a, const std::vector<U>& b)
+{
+    REQUIRE(a.size() == b.size());
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+        const double d = std::abs(double(a[i]) - double(b[i]));
+        most = d <= most ? most : d; // NaN wins
+    }
+    return most;
+}
+
+template <class T>
+constexpr double tolerance = std::is_same_v<T, double> ? 1e-12 : 2e-4;
+
+/// Random blocks of the nonzeros, and 0 where there is none.
+template <class T>
+std::vector<T> random_blocks(const block_pattern& p, std::size_t d, unsigned seed)
+{
+    auto values = random_values<T>(p.columns.size() * d * d, seed);
+    std::vector<char> used(p.columns.size(), 0);
+    for (std::size_t r = 0; r < p.rows(); ++r)
+        for (std::size_t j = 0; j < p.length(r); ++j) used[p.place(r, j)] = 1;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (!used[k / (d * d)]) values[k] = 0;
+    return values;
+}
+
+/// Interpolation from every third vertex, with rows of one, two and three weights.
+struct some_weights
+{
+    explicit some_weights(std::size_t rows)
+    {
+        coarse = (rows + 2) / 3;
+        for (std::size_t i = 0; i < rows; ++i)
+        {
+            const taut::idx a = taut::idx(i / 3), b = taut::idx((i / 3 + 1) % coarse),
+                            c = taut::idx((i / 3 + 5) % coarse);
+            columns.push_back({a, b, c});
+            weights.push_back(i % 3 == 0   ? std::array{1.0, 0.0, 0.0}
+                              : i % 3 == 1 ? std::array{0.25, 0.75, 0.0}
+                                           : std::array{0.5, 0.2, 0.3});
+        }
+    }
+    transfer_weights view(std::span<const char> fixed = {}) const { return {columns, weights, coarse, fixed, {}, {}}; }
+
+    std::size_t coarse;
+    std::vector<std::array<taut::idx, 3>> columns;
+    std::vector<std::array<double, 3>> weights;
+};
+
+} // namespace
+
+TEST_CASE_TEMPLATE("block sparse: products, residuals and smoothing steps are those of a host loop", T, float, double)
+{
+    queue q;
+    const auto m = test_mesh();
+    for (const lane_form form : forms)
+        for (const int D : {2, 3})
+        {
+            CAPTURE(D);
+            CAPTURE(form.lanes);
+            const auto d = std::size_t(D);
+            block_matrix<T> A(q, pattern_of_cells(m.cells(), m.points().size(), form.slice), D, form);
+            const auto p = A.pattern();
+            std::size_t nonzeros = 0;
+            for (std::size_t r = 0; r < p.rows(); ++r) nonzeros += p.length(r);
+            CHECK(nonzeros == std::size_t(m.points().size()) + 2 * (m.points().size() + m.cells().size() - 1));
+            auto values = random_blocks<T>(p, d, 5);
+            // Diagonal blocks: symmetric and positive, one of them of rank one, one zero.
+            for (std::size_t r = 0; r < p.rows(); ++r)
+                for (std::size_t a = 0; a < d; ++a)
+                    for (std::size_t b = 0; b < d; ++b)
+                        values[p.place(r, 0) * d * d + a * d + b] = T(r == 3   ? 0
+                                                                      : r == 2 ? 1
+                                                                      : a == b ? 3 + double(r % 3)
+                                                                               : 0.5);
+            A.upload(values);
+            CHECK(difference(A.download(), values) == 0);
+            A.forget_pattern();
+            CHECK(A.pattern().columns == p.columns);
+            std::vector<T> hx, hb, hz;
+            const auto x = random_vector(A, 1, hx), b = random_vector(A, 2, hb), z = random_vector(A, 3, hz);
+            auto y = A.vector();
+            A.multiply(x, y);
+            const auto Ax = host_product(p, d, A.stride(), values, hx);
+            CHECK(difference(y.download(), Ax) < 20 * tolerance<T>);
+            A.residual(x, b, y);
+            auto r = Ax;
+            for (std::size_t i = 0; i < r.size(); ++i) r[i] = double(hb[i]) - Ax[i];
+            CHECK(difference(y.download(), r) < 20 * tolerance<T>);
+
+            A.invert_diagonal();
+            A.jacobi(b, 1, y);
+            const auto solved = y.download();
+            for (const T v : solved) REQUIRE(std::isfinite(v));
+            for (std::size_t row = 4; row < p.rows(); ++row)
+                for (std::size_t a = 0; a < d; ++a)
+                {
+                    double back = 0;
+                    for (std::size_t c = 0; c < d; ++c)
+                        back +=
+                            double(values[p.place(row, 0) * d * d + a * d + c]) * double(solved[c * A.stride() + row]);
+                    REQUIRE(back == doctest::Approx(double(hb[a * A.stride() + row]))
+                                        .scale(1)
+                                        .epsilon(std::is_same_v<T, double> ? 1e-9 : 1e-4));
+                }
+            for (std::size_t c = 0; c < d; ++c) CHECK(solved[c * A.stride() + 3] == 0);
+
+            // smooth() against its parts.
+            auto rest = A.vector(), correction = A.vector(), out = A.vector();
+            A.residual(x, b, rest);
+            A.jacobi(rest, 0.7, correction);
+            out.data().copy_from(z.data());
+            A.smooth(b, x, out, 1.25, -0.25, 0.7, out);
+            auto expected = correction.download();
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                if (i % A.stride() != 2) expected[i] += T(1.25) * hx[i] - T(0.25) * hz[i];
+            auto got = out.download();
+            // Row 2 is singular: its inverse magnifies rounding.
+            for (std::size_t c = 0; c < d; ++c) got[c * A.stride() + 2] = expected[c * A.stride() + 2];
+            CHECK(difference(got, expected) < tolerance<T>);
+        }
+}
+
+TEST_CASE_TEMPLATE("block sparse: element blocks are summed into place, transposed below, fixed rows left out", T,
+                   float, double)
+{
+    queue q;
+    const auto m = test_mesh();
+    const std::size_t n = m.points().size(), cells = m.cells().size(), stride = padded(cells, 256);
+    std::vector<char> fixed(n, 0);
+    fixed[1] = fixed[n - 1] = 1;
+    for (const lane_form form : forms)
+        for (const int D : {2, 3})
+        {
+            const auto d = std::size_t(D);
+            block_matrix<T> A(q, pattern_of_cells(m.cells(), n, form.slice), D, form);
+            const auto host = random_values<T>((3 * d * (d + 1) / 2 + 3 * d * d) * stride, 9);
+            const buffer<T> blocks(q, host);
+            const block_assembly<T> assembly(A, {A.pattern(), D, m.cells(), stride, fixed});
+            assembly(blocks, A);
+            std::vector<double> expected(A.pattern().columns.size() * d * d, 0.0);
+            for (std::size_t cell = 0; cell < cells; ++cell)
+                for (std::size_t k = 0, slot = 0; k < 3; ++k)
+                    for (std::size_t l = k; l < 3; ++l)
+                        for (std::size_t a = 0; a < d; ++a)
+                            for (std::size_t b = k == l ? a : 0; b < d; ++b, ++slot)
+                            {
+                                const auto v = std::size_t(m.cells()[cell][k]), w = std::size_t(m.cells()[cell][l]);
+                                if (fixed[v] || fixed[w]) continue;
+                                const auto& p = A.pattern();
+                                const std::size_t vw = p.place(v, p.find(v, taut::idx(w))),
+                                                  wv = p.place(w, p.find(w, taut::idx(v)));
+                                const double value = double(host[slot * stride + cell]);
+                                expected[vw * d * d + a * d + b] += value;
+                                if (k != l || a != b) expected[wv * d * d + b * d + a] += value;
+                            }
+            CHECK(difference(A.download(), expected) < tolerance<T>);
+            CHECK_THROWS_AS(assembly(buffer<T>(q, 10), A), parameter_error);
+
+            // A second matrix shares the lists, not the values.
+            auto B = A.like();
+            CHECK(difference(B.download(), std::vector<T>(expected.size())) == 0);
+            assembly(blocks, B);
+            A.values().fill(0);
+            CHECK(difference(B.download(), expected) < tolerance<T>);
+            CHECK_THROWS_AS(B.inverse(), parameter_error);
+            B.invert_diagonal();
+            CHECK(B.inverse().size() == A.inverse().size());
+        }
+}
+
+TEST_CASE_TEMPLATE("block sparse: transfers and the coarse matrix are those of a host loop", T, float, double)
+{
+    queue q;
+    const auto m = test_mesh();
+    const std::size_t n = m.points().size();
+    const some_weights P(n);
+    std::vector<char> fixed(P.coarse, 0);
+    fixed[2] = 1;
+    for (const lane_form form : forms)
+        for (const int D : {2, 3})
+        {
+            const auto d = std::size_t(D);
+            const auto view = P.view(fixed);
+            block_matrix<T> A(q, pattern_of_cells(m.cells(), n, form.slice), D, form);
+            block_matrix<T> B(q, pattern_of_product(A.pattern(), view), D, form);
+            const auto values = random_blocks<T>(A.pattern(), d, 4);
+            A.upload(values);
+            const block_transfer<T> transfer(A, view, B);
+            transfer.refresh(A, B);
+            std::vector<double> expected(B.pattern().columns.size() * d * d, 0.0);
+            for (std::size_t i = 0; i < n; ++i)
+                for (std::size_t j = 0; j < A.pattern().length(i); ++j)
+                    for (std::size_t k = 0; k < 3; ++k)
+                        for (std::size_t l = 0; l < 3; ++l)
+                        {
+                            const auto c = std::size_t(A.pattern().column(i, j));
+                            const double w = view.weight(i, k) * view.weight(c, l);
+                            if (w == 0) continue;
+                            const auto I = std::size_t(P.columns[i][k]);
+                            const std::size_t at = B.pattern().find(I, P.columns[c][l]);
+                            REQUIRE(at < B.pattern().length(I));
+                            for (std::size_t e = 0; e < d * d; ++e)
+                                expected[B.pattern().place(I, at) * d * d + e] +=
+                                    w * double(values[A.pattern().place(i, j) * d * d + e]);
+                        }
+            CHECK(difference(B.download(), expected) < tolerance<T>);
+
+            // Restriction with its first smoothing step, then prolongation.
+            B.invert_diagonal();
+            std::vector<T> hr, hx, hc;
+            const auto r = random_vector(A, 1, hr), coarse = random_vector(B, 2, hc);
+            auto b = B.vector(), y = B.vector(), y2 = B.vector(), x = random_vector(A, 3, hx);
+            transfer.restrict_residual(r, B, 0.5, b, y);
+            std::vector<double> hb(d * B.stride(), 0.0), hp(hx.begin(), hx.end());
+            for (std::size_t i = 0; i < n; ++i)
+                for (std::size_t k = 0; k < 3; ++k)
+                    for (std::size_t c = 0; c < d; ++c)
+                    {
+                        const auto I = std::size_t(P.columns[i][k]);
+                        hb[c * B.stride() + I] += view.weight(i, k) * double(hr[c * A.stride() + i]);
+                        hp[c * A.stride() + i] += view.weight(i, k) * double(hc[c * B.stride() + I]);
+                    }
+            CHECK(difference(b.download(), hb) < tolerance<T>);
+            B.jacobi(b, 0.5, y2);
+            CHECK(difference(y.download(), y2.download()) == 0);
+            transfer.prolong(coarse, x);
+            CHECK(difference(x.download(), hp) < tolerance<T>);
+        }
+}
+
+TEST_CASE_TEMPLATE("block sparse: the product with the identity is the matrix, rows of many nonzeros included", T,
+                   float, double)
+{
+    // A fan about vertex 0, whose row is longer than there are colours for, and a strip apart from it.
+    constexpr taut::idx rim = 80, n = 300;
+    std::vector<std::array<taut::idx, 3>> cells;
+    for (taut::idx v = 1; v < rim; ++v) cells.push_back({0, v, v + 1});
+    for (taut::idx v = rim + 1; v + 2 < n; ++v) cells.push_back({v, v + 1, v + 2});
+    std::vector<std::array<taut::idx, 3>> columns;
+    for (taut::idx v = 0; v < n; ++v) columns.push_back({v, v, v});
+    const std::vector<std::array<double, 3>> weights(columns.size(), {1, 0, 0});
+    const transfer_weights identity{columns, weights, columns.size(), {}, {}, {}};
+    queue q;
+    for (const lane_form form : forms)
+        for (const int D : {2, 3})
+        {
+            block_matrix<T> A(q, pattern_of_cells(cells, columns.size(), form.slice), D, form);
+            block_matrix<T> B(q, pattern_of_product(A.pattern(), identity), D, form);
+            const auto values = random_blocks<T>(A.pattern(), std::size_t(D), 7);
+            A.upload(values);
+            block_transfer<T>(A, identity, B).refresh(A, B);
+            const auto product = B.download();
+            double most = 0;
+            const auto d = std::size_t(D * D);
+            for (std::size_t r = 0; r < columns.size(); ++r)
+                for (std::size_t j = 0; j < A.pattern().length(r); ++j)
+                {
+                    const std::size_t at = B.pattern().find(r, A.pattern().column(r, j));
+                    REQUIRE(at < B.pattern().length(r));
+                    for (std::size_t e = 0; e < d; ++e)
+                        most = std::max(most, std::abs(double(product[B.pattern().place(r, at) * d + e]) -
+                                                       double(values[A.pattern().place(r, j) * d + e])));
+                }
+            CHECK(most < tolerance<T>);
+        }
+}

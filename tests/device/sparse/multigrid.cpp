@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <support/dense_matrix.hpp>
+#include <support/meshes.hpp>
+#include <taut/hierarchy/hierarchy.hpp>
+#include <taut/sparse/block_assembly.hpp>
+#include <taut/sparse/multigrid.hpp>
+
+#include "support/device.hpp"
+
+using namespace taut;
+
+namespace
+{
+
+/// A multigrid of the energy of small displacements (sum of squared gradients plus squared divergence, D components
+/// over a planar triangulation), as element blocks. With pins, the boundary of the lower side is fixed.
+template <class T>
+multigrid<T> elastic(queue& q, const mesh<triangle>& m, int D, bool pinned, lane_form form)
+{
+    const std::size_t n = m.points().size(), d = std::size_t(D), cells = m.cells().size(), stride = padded(cells, 256);
+    std::vector<char> fixed(n, 0);
+    if (pinned)
+        for (std::size_t v = 0; v < n; ++v) fixed[v] = m.points()[v].y == 0;
+    const auto h = make_hierarchy(m, fixed);
+    std::vector<transfer_weights> transfers;
+    std::vector<std::vector<char>> flags(h.steps.size());
+    for (std::size_t l = 0; l < h.steps.size(); ++l)
+    {
+        const auto& P = h.steps[l].interpolation;
+        for (const taut::idx v : h.levels[l + 1].vertices) flags[l].push_back(fixed[std::size_t(v)]);
+        transfers.push_back({.columns = P.columns,
+                             .weights = P.weights,
+                             .coarse = h.levels[l + 1].vertices.size(),
+                             .fixed = flags[l],
+                             .offsets = P.transpose.offsets,
+                             .places = P.transpose.items});
+    }
+    std::vector<T> blocks((3 * d * (d + 1) / 2 + 3 * d * d) * stride, T(0));
+    for (std::size_t cell = 0; cell < cells; ++cell)
+    {
+        vec2 x[3], gradient[3];
+        for (std::size_t k = 0; k < 3; ++k) x[k] = vec2(m.points()[std::size_t(m.cells()[cell][k])]);
+        const double twice = (x[1].x - x[0].x) * (x[2].y - x[0].y) - (x[1].y - x[0].y) * (x[2].x - x[0].x);
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const vec2 e = x[(k + 2) % 3] - x[(k + 1) % 3];
+            gradient[k] = vec2(-e.y, e.x) / twice;
+        }
+        for (std::size_t k = 0, slot = 0; k < 3; ++k)
+            for (std::size_t l = k; l < 3; ++l)
+                for (std::size_t a = 0; a < d; ++a)
+                    for (std::size_t b = k == l ? a : 0; b < d; ++b, ++slot)
+                    {
+                        const double div = a < 2 && b < 2 ? gradient[k][int(a)] * gradient[l][int(b)] : 0;
+                        const double same = a == b ? glm::dot(gradient[k], gradient[l]) : 0;
+                        blocks[slot * stride + cell] = T(twice * (same + div));
+                    }
+    }
+    const auto around = incidence_of_cells(m.cells(), n);
+    multigrid_plan<T> plan(pattern_of_cells(m.cells(), around, form.slice), D, transfers, form);
+    const assembly_lists lists(plan.patterns.front(), D, m.cells(), around, stride, fixed);
+    multigrid<T> mg(q, std::move(plan));
+    const block_assembly<T> assembly(mg.matrix(), lists);
+    assembly(buffer<T>(q, blocks), mg.matrix());
+    q.finish();
+    mg.refresh();
+    return mg;
+}
+
+/// A matrix of the multigrid as a dense one, row r * D + c for component c of row r.
+template <class T>
+test::dense_matrix dense(const block_matrix<T>& A)
+{
+    const auto p = A.pattern();
+    const auto values = A.download();
+    const auto d = std::size_t(A.block_size());
+    test::dense_matrix result(d * A.rows());
+    for (std::size_t r = 0; r < A.rows(); ++r)
+        for (std::size_t j = 0; j < p.length(r); ++j)
+            for (std::size_t e = 0; e < d * d; ++e)
+                result(r * d + e / d, std::size_t(p.column(r, j)) * d + e % d) =
+                    static_cast<long double>(values[p.place(r, j) * d * d + e]);
+    return result;
+}
+
+/// A V-cycle of two levels as written in books.
+struct host_cycle
+{
+    test::dense_matrix A, inverse_diagonal, coarse_inverse;
+    const prolongation& P;
+    std::size_t d;
+    multigrid_params params;
+
+    using numbers = std::vector<double>;
+
+    /// a x + b y + c D^-1 (right - A x)
+    numbers step(double a, const numbers& x, double b, const numbers& y, double c, const numbers& right) const
+    {
+        auto r = A * x;
+        for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
+        auto out = inverse_diagonal * r;
+        for (std::size_t i = 0; i < r.size(); ++i) out[i] = a * x[i] + b * y[i] + c * out[i];
+        return out;
+    }
+
+    numbers operator()(const numbers& b) const
+    {
+        const double low = params.lambda_max / params.lambda_ratio, middle = (params.lambda_max + low) / 2,
+                     half = (params.lambda_max - low) / 2, sigma = middle / half, rho = 1 / (2 * sigma - 1 / sigma);
+        const double momentum = rho / sigma, second = 2 * rho / half;
+        const numbers zero(b.size(), 0.0);
+        auto y = step(1, zero, 0, zero, 1 / middle, b);
+        auto x = step(1 + momentum, y, 0, zero, second, b);
+        const auto Ax = A * x;
+        numbers coarse(coarse_inverse.size(), 0.0);
+        const auto each_weight = [&](auto&& body)
+        {
+            for (std::size_t i = 0; i < P.columns.size(); ++i)
+                for (std::size_t k = 0; k < 3; ++k)
+                    for (std::size_t c = 0; c < d; ++c)
+                        body(i * d + c, std::size_t(P.columns[i][k]) * d + c, P.weights[i][k]);
+        };
+        each_weight([&](std::size_t i, std::size_t J, double w) { coarse[J] += w * (b[i] - Ax[i]); });
+        coarse = coarse_inverse * coarse;
+        each_weight([&](std::size_t i, std::size_t J, double w) { x[i] += w * coarse[J]; });
+        y = step(1, x, 0, zero, 1 / middle, b);
+        return step(1 + momentum, y, -momentum, x, second, b);
+    }
+};
+
+/// A right side that the matrix reaches.
+template <class T>
+device_vector<T> image(const multigrid<T>& mg, unsigned seed)
+{
+    const auto& A = mg.matrix();
+    auto x = A.vector(), b = A.vector();
+    const auto values = test::random_values<T>(A.rows(), seed);
+    std::vector<T> host(std::size_t(A.block_size()) * A.stride(), T(0));
+    for (std::size_t c = 0; c < std::size_t(A.block_size()); ++c)
+        for (std::size_t r = 0; r < A.rows(); ++r) host[c * A.stride() + r] = values[(r * (c + 1)) % A.rows()];
+    x.upload(host);
+    A.multiply(x, b);
+    return b;
+}
+
+/// Iterations of preconditioned conjugate gradients until the residual has fallen by `tolerance`.
+template <class T>
+int solve(queue& q, multigrid<T>& mg, double tolerance)
+{
+    const auto& A = mg.matrix();
+    auto r = image(mg, 3), x = A.vector(), z = A.vector(), p = A.vector(), Ap = A.vector();
+    const device_vectors<T> space(q, x.size());
+    const double start = std::sqrt(space.dot(r, r));
+    mg.apply(r, z);
+    space.copy(z, p);
+    double rz = space.dot(r, z);
+    for (int k = 1; k <= 60; ++k)
+    {
+        A.multiply(p, Ap);
+        const double a = rz / space.dot(p, Ap);
+        space.axpby(a, p, 1, x);
+        space.axpby(-a, Ap, 1, r);
+        if (std::sqrt(space.dot(r, r)) <= tolerance * start) return k;
+        mg.apply(r, z);
+        const double next = space.dot(r, z);
+        REQUIRE(next > 0);
+        space.axpby(1, z, next / rz, p);
+        rz = next;
+    }
+    return 1000;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("multigrid: the cycle is symmetric and positive", T, float, double)
+{
+    queue q;
+    const auto m = test::grid(test::sized(40, 10), test::sized(30, 9));
+    struct shape
+    {
+        lane_form form;
+        bool pinned;
+        int D;
+    };
+    constexpr lane_form narrow{16, 16}, wide{32, 1};
+    // The first two have each value of each of the three.
+    std::vector<shape> shapes{{narrow, true, 2}, {wide, false, 3}, {narrow, false, 3}, {wide, true, 2},
+                              {narrow, true, 3}, {wide, true, 3},  {narrow, false, 2}, {wide, false, 2}};
+    shapes.resize(static_cast<std::size_t>(test::sized(8, 2)));
+    for (const auto& [form, pinned, D] : shapes)
+    {
+        CAPTURE(D);
+        CAPTURE(pinned);
+        auto mg = elastic<T>(q, m, D, pinned, form);
+        CHECK(mg.levels() >= 2);
+        CHECK(mg.solves_coarsest());
+        const auto u = image(mg, 1), v = image(mg, 2);
+        auto Mu = mg.matrix().vector(), Mv = mg.matrix().vector();
+        const auto before = q.counters();
+        mg.refresh();
+        CHECK(q.counters().waits == before.waits);
+        const auto refreshed = q.counters().launches;
+        mg.apply(u, Mu);
+        CHECK(q.counters().launches - refreshed == mg.launches());
+        CHECK(q.counters().waits == before.waits);
+        mg.apply(v, Mv);
+        const device_vectors<T> space(q, u.size());
+        const double uMv = space.dot(u, Mv), vMu = space.dot(v, Mu), uMu = space.dot(u, Mu), vMv = space.dot(v, Mv);
+        CHECK(uMu > 0);
+        CHECK(vMv > 0);
+        const double eps = std::is_same_v<T, double> ? 1e-9 : 2e-3;
+        CHECK(std::abs(uMv - vMu) <= eps * std::sqrt(uMu * vMv));
+        if (!pinned) continue;
+        const auto host = Mu.download();
+        for (std::size_t w = 0; w < m.points().size(); ++w)
+            if (m.points()[w].y == 0) REQUIRE(host[w] == 0);
+    }
+}
+
+TEST_CASE_TEMPLATE("multigrid: the cycle of two levels is that of a host, fused in the form for CPUs, single for GPUs",
+                   T, float, double)
+{
+    queue q;
+    const auto m = test::grid(test::sized(13, 9), 9);
+    for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
+        for (const int D : {2, 3})
+        {
+            CAPTURE(D);
+            CAPTURE(form.lanes);
+            const auto d = std::size_t(D);
+            auto mg = elastic<T>(q, m, D, false, form);
+            REQUIRE(mg.levels() == 2);
+            REQUIRE(mg.solves_coarsest());
+            CHECK(mg.launches() == (form.lanes > 1 ? 1 : 8));
+            const auto A = dense(mg.matrix());
+            test::dense_matrix diagonal(A.size());
+            for (std::size_t i = 0; i < A.size(); ++i)
+                for (std::size_t j = i / d * d; j < i / d * d + d; ++j) diagonal(i, j) = A(i, j);
+            const auto h = make_hierarchy(m);
+            const host_cycle cycle{A,
+                                   diagonal.inverse(),
+                                   test::shifted_inverse(dense(mg.matrix(1)), std::is_same_v<T, double> ? 1e-8 : 1e-4),
+                                   h.steps[0].interpolation,
+                                   d,
+                                   {}};
+
+            auto x = mg.matrix().vector();
+            const auto b = image(mg, 1);
+            mg.apply(b, x);
+            const auto right = b.download(), got = x.download();
+            const std::size_t stride = mg.matrix().stride();
+            std::vector<double> packed(A.size());
+            for (std::size_t i = 0; i < A.size(); ++i) packed[i] = double(right[i % d * stride + i / d]);
+            const auto expected = cycle(packed);
+            double worst = 0, size = 0;
+            for (std::size_t i = 0; i < A.size(); ++i)
+            {
+                worst = std::max(worst, std::abs(double(got[i % d * stride + i / d]) - expected[i]));
+                size = std::max(size, std::abs(expected[i]));
+            }
+            CHECK(worst < (std::is_same_v<T, double> ? 1e-7 : 1e-3) * size);
+        }
+}
+
+TEST_CASE("multigrid: conjugate gradients need as many cycles on fine meshes as on coarse ones")
+{
+    queue q;
+    const auto form = lane_form::for_device(q.device());
+    for (const bool pinned : {false, true})
+        for (const int D : {2, 3})
+            for (const int n : {test::sized(45, 10), test::sized(100, 14), test::sized(224, 18)})
+            {
+                auto mg = elastic<double>(q, test::grid(n, n), D, pinned, form);
+                const int its = solve(q, mg, 1e-8);
+                MESSAGE("n ", n, " D ", D, " pinned ", pinned, ": ", its, " iterations, ", mg.levels(), " levels");
+                CHECK(its <= 22);
+            }
+    auto mg = elastic<float>(q, test::grid(test::sized(100, 14), test::sized(100, 14)), 2, true, form);
+    CHECK(solve(q, mg, 1e-4) <= 14);
+}
