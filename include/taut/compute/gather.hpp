@@ -28,14 +28,14 @@ struct gather_layout
 /// Sums corner contributions into vertices (paper, Fig. 8): out[v] = sum over row v of contributions at (corner, cell).
 /// Deterministic, without atomics. The first slots of all vertices are kept in columns (ELLPACK), which vectorises; the
 /// few vertices of high valence have a second, short launch for the rest of their rows. Vertices without a row, up to
-/// vertex_stride, get zero. Contributions and the first sums are Term, what is stored of them is T.
-template <class Term, class T = Term>
+/// vertex_stride, get zero. Sums are formed in the type of the contributions.
 class gather
 {
 public:
     /// Row v of the incidence is k = offsets[v] .. offsets[v + 1] - 1, with cell cells[k] and corner corners[k].
+    /// term: the type of contributions. sum: the type of what is stored of their sums.
     gather(queue& q, std::span<const idx> offsets, std::span<const idx> cells, std::span<const idx> corners,
-           const gather_layout& layout)
+           const gather_layout& layout, scalar_type term, scalar_type sum)
         : components_(layout.components), vertices_(to_int(layout.vertex_stride)), cells_(to_int(layout.cell_stride))
     {
         const auto D = static_cast<std::size_t>(layout.components);
@@ -83,15 +83,15 @@ public:
         rest_offsets_ = buffer<idx>(q, rest_offsets);
         rest_ = buffer<idx>(q, rest);
 
-        const std::string term = cl_name<Term>();
-        const auto options = detail::vector_options<T>(q.device(), reduction_plan::for_device(q.device()));
+        const std::string type(spelling(term));
+        const auto options = detail::vector_options(sum, q.device(), reduction_plan::for_device(q.device()));
         gather_ = {q, detail::vector_program(),
-                   "gather_" + term + "_" + std::to_string(D) + 'x' + std::to_string(width_), options};
-        if (rest_rows_) gather_rest_ = {q, detail::vector_program(), "gather_rest_" + term, options};
+                   "gather_" + type + "_" + std::to_string(D) + 'x' + std::to_string(width_), options, sum};
+        if (rest_rows_) gather_rest_ = {q, detail::vector_program(), "gather_rest_" + type, options, sum};
     }
 
     /// Enqueues the sums: one launch, or two with vertices of high valence.
-    void operator()(const buffer<Term>& contributions, buffer<T>& out) const
+    void operator()(const real_buffer& contributions, real_buffer& out) const
     {
         if (contributions.size() < reach_ || out.size() < sums_)
             throw parameter_error("gather", "buffers of " + std::to_string(reach_) + " contributions and " +
@@ -167,9 +167,7 @@ private:
     std::size_t sums_ = 0;
     std::size_t width_ = 4;
     buffer<idx> columns_, which_, rest_offsets_, rest_;
-    using in = const buffer<idx>;
-    typed_kernel<idx, idx, in, const buffer<Term>, buffer<T>> gather_;
-    typed_kernel<idx, idx, idx, idx, in, in, in, const buffer<Term>, buffer<T>> gather_rest_;
+    kernel gather_, gather_rest_;
 };
 
 } // namespace taut

@@ -35,30 +35,50 @@ public:
     template <traceable T>
     sym<T> uniform(T value)
     {
-        bind(nullptr, detail::elements_of(value),
-             [value](const auto& state, cl_kernel k, const auto& name, cl_uint i)
-             { detail::set_argument(state, k, name, i, value); });
+        arguments_.emplace_back(value);
         return recording_.scalar<T>();
+    }
+
+    /// The same for a real number in the precision of the recording.
+    sym<double> uniform(scalar_type type, double value)
+    {
+        arguments_.push_back(detail::argument(value).as(spelling(type)));
+        return recording_.scalar<double>({}, type);
     }
 
     /// Behind buffer::read, write and read_write.
     template <traceable T>
     in_array<T> reads(const buffer<T>& b)
     {
-        bind(b);
+        arguments_.emplace_back(b);
         return recording_.in<T>();
+    }
+    in_array<double> reads(const real_buffer& b)
+    {
+        arguments_.emplace_back(b);
+        return recording_.in<double>({}, b.type());
     }
     template <traceable T>
     out_array<T> writes(buffer<T>& b)
     {
-        bind(b);
+        arguments_.emplace_back(b);
         return recording_.out<T>();
+    }
+    out_array<double> writes(real_buffer& b)
+    {
+        arguments_.emplace_back(b);
+        return recording_.out<double>({}, b.type());
     }
     template <traceable T>
     inout_array<T> updates(buffer<T>& b)
     {
-        bind(b);
+        arguments_.emplace_back(b);
         return recording_.inout<T>();
+    }
+    inout_array<double> updates(real_buffer& b)
+    {
+        arguments_.emplace_back(b);
+        return recording_.inout<double>({}, b.type());
     }
 
     /// Records f and enqueues it over the indices 0 .. r.global - 1: once in a group. f takes the index, a sym<idx>.
@@ -77,13 +97,13 @@ public:
         std::forward<F>(f)(recording_.global_id());
         const kernel_text text = recording_.finish(name, detail::form_for(state_->device));
         detail::require_fp64(*state_, text);
-        detail::require_distinct(*state_, text, memory_);
-        detail::require_range(*state_, text, r, elements_);
+        detail::require_distinct(*state_, text, arguments_);
+        detail::require_range(*state_, text, r, arguments_);
         const auto use = state_->enter();
         const auto& kernel = state_->cache.find(text.source, text.name, {});
         cl_uint i = 0;
-        for (const binding& b : bindings_) b(*state_, kernel.get(), name, i++);
-        detail::set_argument(*state_, kernel.get(), name, i, detail::count_of(*state_, name, r));
+        for (const auto& a : arguments_) a.set(*state_, kernel.get(), name, i++);
+        detail::argument(detail::count_of(*state_, name, r)).set(*state_, kernel.get(), name, i);
         done_ = state_->launch(kernel, name, detail::items_for(text.form, r));
     }
 
@@ -91,27 +111,9 @@ public:
     const event& done() const noexcept { return done_; }
 
 private:
-    using binding = std::function<void(const detail::queue_state&, cl_kernel, const std::string&, cl_uint)>;
-
-    void bind(cl_mem memory, std::size_t elements, binding b)
-    {
-        memory_.push_back(memory);
-        elements_.push_back(elements);
-        bindings_.push_back(std::move(b));
-    }
-    template <class T>
-    void bind(const buffer<T>& b)
-    {
-        bind(b.native(), b.size(),
-             [&b](const auto& state, cl_kernel k, const auto& name, cl_uint i)
-             { detail::set_argument(state, k, name, i, b); });
-    }
-
     std::shared_ptr<detail::queue_state> state_;
     recording recording_;
-    std::vector<cl_mem> memory_;
-    std::vector<std::size_t> elements_;
-    std::vector<binding> bindings_;
+    std::vector<detail::argument> arguments_;
     bool launched_ = false;
     event done_;
 };

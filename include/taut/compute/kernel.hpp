@@ -1,14 +1,138 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
-#include <taut/compute/buffer.hpp>
+#include <taut/compute/detail/argument.hpp>
+#include <taut/compute/detail/signature.hpp>
 
 namespace taut
 {
+
+/// An argument of a launch by the name that the kernel has for it.
+struct named_argument
+{
+    const char* name;
+    detail::argument value;
+};
+
+/// A kernel of OpenCL C source. A launch sets the arguments and enqueues it; nothing waits. Arguments are bound by
+/// name, in any order, or by position:
+///
+///     kernel scale(q, source, "scale");
+///     scale(n, {{"x", x}, {"factor", 2.0}});
+///     scale(n, x, 2.0f);
+///
+/// By name, types are checked, and a number of type double narrows to what the kernel takes.
+class kernel
+{
+public:
+    kernel() = default;
+
+    /// real: what the source's macro REAL stands for. Throws build_error, or device_error where the kernel takes double
+    /// and the device has none.
+    kernel(queue& q, const std::string& source, std::string name, const std::string& options = {},
+           scalar_type real = scalar_type::f32)
+        : kernel(q, source, name, options, detail::signature_of(source, name, real))
+    {
+    }
+
+    /// With the names and types of its arguments.
+    kernel(queue& q, const std::string& source, std::string name, const std::string& options,
+           std::vector<detail::parameter> signature)
+        : state_(q.state()), name_(std::move(name)), signature_(std::move(signature))
+    {
+        const auto use = state_->enter();
+        for (const auto& p : signature_)
+            if (p.type == "double") detail::require_fp64(*state_, scalar_type::f64, "kernel " + name_);
+        state_->ask_between_builds();
+        kernel_ = state_->cache.find(source, name_, options);
+    }
+
+    /// Throws parameter_error for an argument that is missing, unknown, or of another type.
+    event operator()(range r, std::initializer_list<named_argument> arguments) const
+    {
+        return launch(r, std::span(arguments.begin(), arguments.size()));
+    }
+    event launch(range r, std::span<const named_argument> arguments) const
+    {
+        const auto use = state_->enter();
+        if (arguments.size() != signature_.size())
+            refuse("it takes " + std::to_string(signature_.size()) + " arguments, not " +
+                   std::to_string(arguments.size()));
+        std::size_t guess = 0;
+        for (const named_argument& a : arguments)
+        {
+            guess = position(a.name, guess);
+            const auto& p = signature_[guess];
+            const auto value = a.value.as(p.type);
+            if (value.is_memory() != p.is_memory || value.type() != p.type)
+                refuse(p.name + " is " + describe(p.type, p.is_memory) + ", not " +
+                       describe(value.type(), value.is_memory()));
+            value.set(*state_, kernel_.get(), name_, static_cast<cl_uint>(guess++));
+        }
+        return state_->launch(kernel_, name_, r);
+    }
+
+    /// By position; OpenCL checks sizes only.
+    event operator()(range r, std::span<const detail::argument> arguments) const
+    {
+        const auto use = state_->enter();
+        cl_uint i = 0;
+        for (const auto& a : arguments) a.set(*state_, kernel_.get(), name_, i++);
+        return state_->launch(kernel_, name_, r);
+    }
+    template <class... Args>
+        requires(sizeof...(Args) > 0 && (std::is_constructible_v<detail::argument, const Args&> && ...))
+    event operator()(range r, const Args&... args) const
+    {
+        const detail::argument arguments[] = {args...};
+        return (*this)(r, std::span<const detail::argument>(arguments));
+    }
+
+    const std::string& name() const noexcept { return name_; }
+    explicit operator bool() const noexcept { return state_ != nullptr; }
+
+    /// Throws device_error if it takes another number of arguments.
+    void require_arguments(std::size_t n) const
+    {
+        const auto expected = kernel_.get_info<cl_uint>(CL_KERNEL_NUM_ARGS);
+        if (expected != n)
+            state_->fail("kernel " + name_,
+                         "it takes " + std::to_string(expected) + " arguments, not " + std::to_string(n));
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& why) const { throw parameter_error("kernel " + name_, why); }
+
+    static std::string describe(std::string_view type, bool is_memory)
+    {
+        return (is_memory ? "a buffer of " : "a number of type ") + std::string(type);
+    }
+
+    /// Of the parameter; guess: where it is if the arguments come in their order.
+    std::size_t position(const char* name, std::size_t guess) const
+    {
+        for (std::size_t k = 0; k < signature_.size(); ++k, ++guess)
+        {
+            if (guess >= signature_.size()) guess = 0;
+            if (signature_[guess].name == name) return guess;
+        }
+        refuse(std::string("it has no argument ") + name);
+    }
+
+    std::shared_ptr<detail::queue_state> state_;
+    boost::compute::kernel kernel_;
+    std::string name_;
+    std::vector<detail::parameter> signature_;
+};
 
 namespace detail
 {
@@ -19,7 +143,6 @@ struct argument_traits
     static_assert(device_scalar<T>, "typed_kernel: an argument is buffer<T>, const buffer<T> or a device scalar");
     using element = T;
     using passed = T; // by value
-    static constexpr bool is_buffer = false;
 };
 
 template <class T>
@@ -27,7 +150,6 @@ struct argument_traits<buffer<T>>
 {
     using element = T;
     using passed = buffer<T>&;
-    static constexpr bool is_buffer = true;
 };
 
 template <class T>
@@ -35,36 +157,12 @@ struct argument_traits<const buffer<T>>
 {
     using element = T;
     using passed = const buffer<T>&;
-    static constexpr bool is_buffer = true;
 };
-
-template <class T>
-void set_argument(const queue_state& state, cl_kernel kernel, const std::string& name, cl_uint i, const buffer<T>& b)
-{
-    if (b.state() && b.state()->context.get() != state.context.get())
-        state.fail("argument " + std::to_string(i) + " of " + name, "the buffer belongs to another queue's context");
-    const cl_mem memory = b.native();
-    const cl_int code = clSetKernelArg(kernel, i, sizeof memory, &memory);
-    if (code != CL_SUCCESS)
-        state.fail("argument " + std::to_string(i) + " of " + name, boost::compute::opencl_error::to_string(code),
-                   code);
-}
-
-template <device_scalar T>
-void set_argument(const queue_state& state, cl_kernel kernel, const std::string& name, cl_uint i, const T& value)
-{
-    const cl_int code = clSetKernelArg(kernel, i, sizeof value, &value);
-    if (code != CL_SUCCESS)
-        state.fail("argument " + std::to_string(i) + " of " + name,
-                   boost::compute::opencl_error::to_string(code) + " (the kernel expects another type than " +
-                       cl_name<T>() + ")",
-                   code);
-}
 
 } // namespace detail
 
 /// A kernel with the C++ types of its arguments, in the order of its OpenCL C signature: buffer<T> for __global T*,
-/// const buffer<T> for __global const T*, and scalars. Calling it sets the arguments and enqueues it; nothing waits.
+/// const buffer<T> for __global const T*, and scalars.
 ///
 ///     auto scale = q.kernel<buffer<float>, float>(source, "scale");
 ///     scale(n, x, 2.0f);
@@ -77,33 +175,22 @@ public:
     /// Throws build_error, or device_error if the kernel takes another number of arguments or double where the device
     /// has none.
     typed_kernel(queue& q, const std::string& source, std::string name, const std::string& options = {})
-        : state_(q.state()), name_(std::move(name))
     {
-        const auto use = state_->enter();
-        (detail::require_fp64<typename detail::argument_traits<Args>::element>(*state_, "kernel " + name_), ...);
-        state_->ask_between_builds();
-        kernel_ = state_->cache.find(source, name_, options);
-        const auto expected = kernel_.get_info<cl_uint>(CL_KERNEL_NUM_ARGS);
-        if (expected != sizeof...(Args))
-            state_->fail("kernel " + name_,
-                         "it takes " + std::to_string(expected) + " arguments, not " + std::to_string(sizeof...(Args)));
+        (detail::require_fp64<typename detail::argument_traits<Args>::element>(*q.state(), "kernel " + name), ...);
+        kernel_ = kernel(q, source, std::move(name), options, std::vector<detail::parameter>{});
+        kernel_.require_arguments(sizeof...(Args));
     }
 
     event operator()(range r, typename detail::argument_traits<Args>::passed... args) const
     {
-        const auto use = state_->enter();
-        cl_uint i = 0;
-        (detail::set_argument(*state_, kernel_.get(), name_, i++, args), ...);
-        return state_->launch(kernel_, name_, r);
+        return kernel_(r, args...);
     }
 
-    const std::string& name() const noexcept { return name_; }
-    explicit operator bool() const noexcept { return state_ != nullptr; }
+    const std::string& name() const noexcept { return kernel_.name(); }
+    explicit operator bool() const noexcept { return bool(kernel_); }
 
 private:
-    std::shared_ptr<detail::queue_state> state_;
-    boost::compute::kernel kernel_;
-    std::string name_;
+    kernel kernel_;
 };
 
 template <class... Args>

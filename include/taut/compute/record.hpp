@@ -76,48 +76,23 @@ struct tag_traits<uniform<T>>
     static auto declare(recording& r) { return r.scalar<T>(); }
 };
 
-/// The memory behind an argument; none for numbers.
-template <class T>
-cl_mem memory_of(const buffer<T>& b)
-{
-    return b.native();
-}
-template <device_scalar T>
-cl_mem memory_of(const T&)
-{
-    return nullptr;
-}
-
-/// The elements of an argument; any number of them for numbers.
-template <class T>
-std::size_t elements_of(const buffer<T>& b)
-{
-    return b.size();
-}
-template <device_scalar T>
-std::size_t elements_of(const T&)
-{
-    return std::numeric_limits<std::size_t>::max();
-}
-
-/// Refuses a range that runs beyond a buffer which the kernel reads or writes at the index itself. elements: by
-/// argument.
+/// Refuses a range that runs beyond a buffer which the kernel reads or writes at the index itself.
 inline void require_range(const queue_state& state, const kernel_text& text, const range& r,
-                          const std::vector<std::size_t>& elements)
+                          std::span<const argument> arguments)
 {
     for (const std::size_t i : text.by_index)
-        if (r.global > elements[i])
+        if (r.global > arguments[i].elements())
             state.fail("launching " + text.name, "argument " + std::to_string(i) + " is used at [i] for " +
                                                      std::to_string(r.global) + " indices, and the buffer has " +
-                                                     std::to_string(elements[i]) + " elements");
+                                                     std::to_string(arguments[i].elements()) + " elements");
 }
 
 /// Recorded kernels assume that what they write overlaps nothing else, so a buffer that is written is bound once.
-inline void require_distinct(const queue_state& state, const kernel_text& text, const std::vector<cl_mem>& memory)
+inline void require_distinct(const queue_state& state, const kernel_text& text, std::span<const argument> arguments)
 {
-    for (std::size_t i = 0; i < memory.size(); ++i)
-        for (std::size_t j = i + 1; j < memory.size(); ++j)
-            if (memory[i] && memory[i] == memory[j] &&
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+        for (std::size_t j = i + 1; j < arguments.size(); ++j)
+            if (arguments[i].memory() && arguments[i].memory() == arguments[j].memory() &&
                 (text.arguments[i].kind != argument_kind::in || text.arguments[j].kind != argument_kind::in))
                 state.fail("launching " + text.name,
                            "arguments " + std::to_string(i) + " and " + std::to_string(j) +
@@ -162,7 +137,7 @@ inline idx count_of(const queue_state& state, const std::string& name, const ran
 /// of them (PoCL reads OpenCL's header, some 50 ms, even where its cache holds the program).
 ///
 ///     const traced_program p(q, {record_value(..), record_gradient(..)});
-///     const traced_kernel<in<double>, out<double>> value(p, "value");
+///     const recorded_kernel value(p, "value");
 class traced_program
 {
 public:
@@ -191,54 +166,129 @@ private:
     std::string source_;
 };
 
-/// A kernel recorded from C++: built once, launched many times with other buffers. See trace().
-template <class... Tags>
-class traced_kernel
+/// A kernel recorded from C++: built once, launched many times with other buffers.
+class recorded_kernel
 {
 public:
-    traced_kernel() = default;
-    traced_kernel(queue& q, kernel_text text) : traced_kernel(q, text, text.source) {}
-    traced_kernel(const traced_program& p, const std::string& name) : traced_kernel(p.queue(), p.text(name), p.source())
+    recorded_kernel() = default;
+    recorded_kernel(queue& q, kernel_text text) : recorded_kernel(q, text, text.source) {}
+    recorded_kernel(const traced_program& p, const std::string& name)
+        : recorded_kernel(p.queue(), p.text(name), p.source())
     {
     }
 
     /// Runs over the indices 0 .. r.global - 1, for any number of them. The group size r.local counts on GPUs alone.
-    event operator()(range r,
-                     typename detail::argument_traits<typename detail::tag_traits<Tags>::typed>::passed... args) const
+    /// Arguments are bound by the names of the recording, or by position.
+    event operator()(range r, std::initializer_list<named_argument> arguments) const
     {
-        detail::require_distinct(*state_, text_, {detail::memory_of(args)...});
-        detail::require_range(*state_, text_, r, {detail::elements_of(args)...});
-        return kernel_(detail::items_for(text_.form, r), args..., detail::count_of(*state_, text_.name, r));
+        return (*this)(r, std::span(arguments.begin(), arguments.size()));
+    }
+    event operator()(range r, const std::vector<named_argument>& arguments) const
+    {
+        return (*this)(r, std::span(arguments));
+    }
+    event operator()(range r, std::span<const named_argument> arguments) const
+    {
+        std::vector<detail::argument> by_position(arguments.size() + 1, idx(0));
+        if (arguments.size() + 1 != text_.arguments.size())
+            refuse("it takes " + std::to_string(text_.arguments.size() - 1) + " arguments, not " +
+                   std::to_string(arguments.size()));
+        std::size_t at = 0;
+        for (const auto& a : arguments)
+        {
+            at = position(a.name, at);
+            by_position[at++] = a.value;
+        }
+        return launch(r, by_position);
+    }
+    template <class... Args>
+        requires(sizeof...(Args) > 0 && (std::is_constructible_v<detail::argument, const Args&> && ...))
+    event operator()(range r, const Args&... args) const
+    {
+        detail::argument arguments[] = {args..., idx(0)};
+        return launch(r, arguments);
     }
 
     /// The OpenCL C that was recorded, with its name and arguments.
     const kernel_text& text() const noexcept { return text_; }
 
 private:
-    traced_kernel(queue& q, kernel_text text, const std::string& source) : state_(q.state()), text_(std::move(text))
+    recorded_kernel(queue& q, kernel_text text, const std::string& source) : state_(q.state()), text_(std::move(text))
     {
         detail::require_fp64(*state_, text_);
-        require_signature();
-        kernel_ = {q, source, text_.name};
+        if (text_.form == kernel_form::item) state_->fail("kernel " + text_.name, "it was recorded without a count");
+        kernel_ = {q, source, text_.name, {}, std::vector<detail::parameter>{}};
     }
 
-    /// The tags must tell what the recording says, and the text must take a count.
-    void require_signature() const
+    /// arguments: all of them, and room for the count of indices.
+    event launch(range r, std::span<detail::argument> arguments) const
     {
-        constexpr std::size_t n = sizeof...(Tags);
-        constexpr std::array<argument_kind, n> kinds = {detail::tag_traits<Tags>::kind...};
-        constexpr std::array<scalar_type, n> types = {detail::tag_traits<Tags>::type...};
-        bool same = text_.form != kernel_form::item && text_.arguments.size() == n + 1;
-        for (std::size_t i = 0; same && i < n; ++i)
-            same = text_.arguments[i].kind == kinds[i] && text_.arguments[i].type == types[i];
-        if (!same)
-            state_->fail("kernel " + text_.name,
-                         "its recording has other arguments than the tags of traced_kernel, or no count");
+        for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
+        {
+            const auto& declared = text_.arguments[i];
+            arguments[i] = arguments[i].as(spelling(declared.type));
+            if (arguments[i].is_memory() != (declared.kind != argument_kind::scalar) ||
+                arguments[i].type() != spelling(declared.type))
+                refuse(declared.name + " is of another type: " + std::string(spelling(declared.type)));
+        }
+        arguments.back() = detail::count_of(*state_, text_.name, r);
+        detail::require_distinct(*state_, text_, arguments);
+        detail::require_range(*state_, text_, r, arguments);
+        return kernel_(detail::items_for(text_.form, r), std::span<const detail::argument>(arguments));
+    }
+
+    [[noreturn]] void refuse(const std::string& why) const { throw parameter_error("kernel " + text_.name, why); }
+
+    std::size_t position(const char* name, std::size_t guess) const
+    {
+        const std::size_t n = text_.arguments.size() - 1;
+        for (std::size_t k = 0; k < n; ++k, ++guess)
+        {
+            if (guess >= n) guess = 0;
+            if (text_.arguments[guess].name == name) return guess;
+        }
+        refuse(std::string("it has no argument ") + name);
     }
 
     std::shared_ptr<detail::queue_state> state_;
     kernel_text text_;
-    typed_kernel<typename detail::tag_traits<Tags>::typed..., idx> kernel_;
+    kernel kernel_;
+};
+
+/// The same with tags for its arguments. See trace().
+template <class... Tags>
+class traced_kernel
+{
+public:
+    traced_kernel() = default;
+    traced_kernel(queue& q, kernel_text text) : kernel_(q, checked(q, std::move(text))) {}
+
+    event operator()(range r,
+                     typename detail::argument_traits<typename detail::tag_traits<Tags>::typed>::passed... args) const
+    {
+        return kernel_(r, args...);
+    }
+
+    /// The OpenCL C that was recorded, with its name and arguments.
+    const kernel_text& text() const noexcept { return kernel_.text(); }
+
+private:
+    /// The tags must tell what the recording says, and the text must take a count.
+    static kernel_text checked(queue& q, kernel_text text)
+    {
+        constexpr std::size_t n = sizeof...(Tags);
+        constexpr std::array<argument_kind, n> kinds = {detail::tag_traits<Tags>::kind...};
+        constexpr std::array<scalar_type, n> types = {detail::tag_traits<Tags>::type...};
+        bool same = text.form != kernel_form::item && text.arguments.size() == n + 1;
+        for (std::size_t i = 0; same && i < n; ++i)
+            same = text.arguments[i].kind == kinds[i] && text.arguments[i].type == types[i];
+        if (!same)
+            q.state()->fail("kernel " + text.name,
+                            "its recording has other arguments than the tags of traced_kernel, or no count");
+        return text;
+    }
+
+    recorded_kernel kernel_;
 };
 
 /// Records f(i, arguments...) as an OpenCL kernel; i is the index, and each tag becomes a traced

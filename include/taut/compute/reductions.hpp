@@ -6,15 +6,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <taut/compute/detail/partials.hpp>
 #include <taut/compute/detail/vector_program.hpp>
+#include <taut/compute/kernel.hpp>
 
 namespace taut
 {
@@ -54,55 +55,45 @@ public:
     const reduction_plan& plan() const noexcept { return plan_; }
 
     /// The sum of each segment of x.
-    template <class T>
-    result sum(const buffer<T>& x, const segments& s)
+    result sum(const real_view& x, const segments& s)
     {
         check(x, s.count == 0 ? 0 : s.start + (s.count - 1) * s.stride + s.length, "sum");
         const auto blocks = plan_.cut(s.length);
         const std::size_t first = reserve(s.count * blocks.count);
-        launch<T>(slot::sums, 1, 1, plan_.local, s.count * blocks.count, as_uint(s.length), as_uint(blocks.length),
-                  as_uint(blocks.count), as_uint(first), partials_, x, std::uint64_t{s.start}, std::uint64_t{s.stride});
+        launch(x.real(), slot::sums, 1, 1, plan_.local, s.count * blocks.count,
+               {as_uint(s.length), as_uint(blocks.length), as_uint(blocks.count), as_uint(first), partials_.data(), x,
+                std::uint64_t{s.start}, std::uint64_t{s.stride}});
         return add(first, blocks.count, s.count, fold::sum);
     }
-    template <class T>
-    result sum(const buffer<T>& x)
-    {
-        return sum(x, segments{.length = x.size()});
-    }
+    result sum(const real_view& x) { return sum(x, segments{.length = x.size()}); }
 
     /// The smallest of n elements from start: +inf for none, NaN if any is NaN.
-    template <class T>
-    result minimum(const buffer<T>& x, std::size_t n, std::size_t start = 0)
+    result minimum(const real_view& x, std::size_t n, std::size_t start = 0)
     {
         check(x, start + n, "minimum");
         const auto blocks = plan_.cut(n);
         const std::size_t first = reserve(blocks.count);
-        launch<T>(slot::minima, 1, 1, plan_.local, blocks.count, as_uint(n), as_uint(blocks.length), as_uint(first),
-                  partials_, x, std::uint64_t{start});
+        launch(x.real(), slot::minima, 1, 1, plan_.local, blocks.count,
+               {as_uint(n), as_uint(blocks.length), as_uint(first), partials_.data(), x, std::uint64_t{start}});
         return add(first, blocks.count, 1, fold::minimum);
     }
 
     /// Enqueues out[0] = min(most, fraction * the minimum r): what a later launch can read without a wait. NaN stays
     /// NaN.
-    template <class T>
-    void limit(result r, double fraction, double most, buffer<T>& out)
+    void limit(result r, double fraction, double most, const real_view& out)
     {
         const job& j = jobs_[r.first];
-        const auto run = [&](auto number)
-        {
-            launch<T>(slot::limit, 1, 1, 1, 1, as_uint(j.first), as_uint(j.groups), partials_,
-                      decltype(number)(fraction), decltype(number)(most), out);
-        };
-        partials_.wide() ? run(double()) : run(float()); // NOLINT(bugprone-branch-clone): of different types
+        const auto number = [&](double x) { return detail::argument(x).as(spelling(partials_.data().type())); };
+        launch(out.real(), slot::limit, 1, 1, 1, 1,
+               {as_uint(j.first), as_uint(j.groups), partials_.data(), number(fraction), number(most), out});
     }
 
     /// Every left times every right vector over their first n elements: result i * right.size() + j. Tiles of up to
     /// four by four share their loads, one launch a tile.
-    template <class T>
-    result dots(std::span<const buffer<T>* const> left, std::span<const buffer<T>* const> right, std::size_t n)
+    result dots(std::span<const real_view> left, std::span<const real_view> right, std::size_t n)
     {
-        for (const auto* x : left) check(*x, n, "dot");
-        for (const auto* x : right) check(*x, n, "dot");
+        for (const auto& x : left) check(x, n, "dot");
+        for (const auto& x : right) check(x, n, "dot");
         begin_round();
         const result all = {jobs_.size(), left.size() * right.size()};
         const auto blocks = plan_.cut(n);
@@ -114,16 +105,14 @@ public:
             const std::size_t nl = std::min<std::size_t>(4, left.size() - l);
             for (std::size_t r = 0; r < right.size(); r += nr)
             {
-                const auto a = [&](std::size_t k) -> const buffer<T>&
-                { return *left[std::min(l + k, left.size() - 1)]; };
-                const auto b = [&](std::size_t k) -> const buffer<T>&
-                { return *right[std::min(r + k, right.size() - 1)]; };
+                const auto a = [&](std::size_t k) { return left[std::min(l + k, left.size() - 1)]; };
+                const auto b = [&](std::size_t k) { return right[std::min(r + k, right.size() - 1)]; };
                 const std::size_t first = reserve(nl * nr * blocks.count);
                 // As the kernel has it: half as many items for the large tiles.
                 const std::size_t local = nl * nr > 8 && plan_.local > 128 ? 128 : plan_.local;
-                launch<T>(slot::dots, nl, nr, local, blocks.count, as_uint(n), as_uint(blocks.length),
-                          as_uint(blocks.count), as_uint(first), partials_, a(0), a(1), a(2), a(3), b(0), b(1), b(2),
-                          b(3));
+                launch(a(0).real(), slot::dots, nl, nr, local, blocks.count,
+                       {as_uint(n), as_uint(blocks.length), as_uint(blocks.count), as_uint(first), partials_.data(),
+                        a(0), a(1), a(2), a(3), b(0), b(1), b(2), b(3)});
                 for (std::size_t i = 0; i < nl; ++i)
                     for (std::size_t j = 0; j < std::min(nr, right.size() - r); ++j)
                         jobs_[all.first + (l + i) * right.size() + r + j] = {first + (i * nr + j) * blocks.count,
@@ -133,11 +122,9 @@ public:
         return all;
     }
 
-    template <class T>
-    result dot(const buffer<T>& x, const buffer<T>& y, std::size_t n)
+    result dot(const real_view& x, const real_view& y, std::size_t n)
     {
-        const buffer<T>*const left = &x, *const right = &y;
-        return dots<T>(std::span(&left, 1), std::span(&right, 1), n);
+        return dots(std::span(&x, 1), std::span(&y, 1), n);
     }
 
     /// Waits once and folds all that was enqueued in this round.
@@ -194,26 +181,23 @@ private:
         return r;
     }
 
-    template <class T, class... Args>
-    void launch(slot what, std::size_t nl, std::size_t nr, std::size_t local, std::size_t groups, const Args&... args)
+    void launch(scalar_type real, slot what, std::size_t nl, std::size_t nr, std::size_t local, std::size_t groups,
+                std::initializer_list<detail::argument> arguments)
     {
         if (groups == 0) return;
         const bool tile = what == slot::dots;
         const std::size_t which = tile ? 2 * (nl - 1) + (nr == 4) : static_cast<std::size_t>(what);
-        const std::string name = tile                   ? "dots_" + std::to_string(nl) + 'x' + std::to_string(nr)
-                                 : what == slot::sums   ? "sums"
-                                 : what == slot::minima ? "minima"
-                                                        : "limit";
-        const auto use = queue_.state()->enter();
-        auto& kernel = kernels_[std::is_same_v<T, double>][which];
-        if (!kernel.get())
+        auto& known = kernels_[real == scalar_type::f64][which];
+        if (!known)
         {
-            kernel = queue_.state()->cache.find(detail::vector_program(), name,
-                                                detail::vector_options<T>(queue_.device(), plan_));
+            const std::string name = tile                   ? "dots_" + std::to_string(nl) + 'x' + std::to_string(nr)
+                                     : what == slot::sums   ? "sums"
+                                     : what == slot::minima ? "minima"
+                                                            : "limit";
+            known = kernel(queue_, detail::vector_program(), name, detail::vector_options(real, queue_.device(), plan_),
+                           real);
         }
-        cl_uint i = 0;
-        (detail::set_argument(*queue_.state(), kernel.get(), name, i++, args), ...);
-        queue_.state()->launch(kernel, name, {groups * local, local});
+        known({groups * local, local}, std::span(arguments.begin(), arguments.size()));
     }
 
     static double folded(const job& j, std::span<const double> part)
@@ -228,8 +212,7 @@ private:
         return least;
     }
 
-    template <class T>
-    void check(const buffer<T>& x, std::size_t end, const char* what) const
+    void check(const real_view& x, std::size_t end, const char* what) const
     {
         if (end > x.size())
             throw parameter_error(what,
@@ -248,7 +231,7 @@ private:
     bool fetched_ = false;
     std::vector<job> jobs_;
     std::vector<double> values_;
-    std::array<std::array<boost::compute::kernel, static_cast<std::size_t>(slot::end)>, 2> kernels_;
+    std::array<std::array<kernel, static_cast<std::size_t>(slot::end)>, 2> kernels_;
 };
 
 } // namespace taut

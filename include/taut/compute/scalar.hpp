@@ -7,6 +7,7 @@
 
 #include <taut/compute/detail/queue_state.hpp>
 #include <taut/core/types.hpp>
+#include <taut/symbolic/scalar_type.hpp>
 
 namespace taut
 {
@@ -35,12 +36,15 @@ namespace detail
 {
 
 /// Refuses double early on a device without it; the driver would only fail later and less clearly.
+inline void require_fp64(const queue_state& state, scalar_type type, const std::string& operation)
+{
+    if (type == scalar_type::f64 && !state.device.has_fp64())
+        state.fail(operation, "the device has no double precision (fp64); use float, or another device");
+}
 template <class T>
 void require_fp64(const queue_state& state, const std::string& operation)
 {
-    if constexpr (std::same_as<std::remove_const_t<T>, double>)
-        if (!state.device.has_fp64())
-            state.fail(operation, "the device has no double precision (fp64); use float, or another device");
+    if constexpr (std::same_as<std::remove_const_t<T>, double>) require_fp64(state, scalar_type::f64, operation);
 }
 
 } // namespace detail

@@ -14,79 +14,78 @@
 namespace taut
 {
 
-/// A vector of n numbers on a device, in a buffer padded with zeros to a multiple of 1024: kernels run over
-/// padded_size() items without a bounds test, and the padding adds nothing to sums.
-template <class T>
+/// A vector of n real numbers on a device, in float or double, in a buffer padded with zeros to a multiple of 1024:
+/// kernels run over padded_size() items without a bounds test, and the padding adds nothing to sums.
 class device_vector
 {
 public:
     device_vector() = default;
-    device_vector(queue& q, std::size_t n) : data_(q, padded(n)), size_(n) { data_.fill(0); }
-    device_vector(queue& q, std::span<const T> values) : device_vector(q, values.size()) { upload(values); }
+    device_vector(queue& q, scalar_type type, std::size_t n) : data_(q, type, padded(n)), size_(n) { data_.fill(0); }
+    device_vector(queue& q, scalar_type type, std::span<const double> values) : device_vector(q, type, values.size())
+    {
+        upload(values);
+    }
 
     std::size_t size() const noexcept { return size_; }
     std::size_t padded_size() const noexcept { return data_.size(); }
 
-    buffer<T>& data() noexcept { return data_; }
-    const buffer<T>& data() const noexcept { return data_; }
+    real_buffer& data() noexcept { return data_; }
+    const real_buffer& data() const noexcept { return data_; }
 
-    void upload(std::span<const T> values)
+    void upload(std::span<const double> values)
     {
         if (values.size() != size_)
             throw parameter_error("upload", "a vector of " + std::to_string(size_) + " is needed");
         data_.upload(values);
     }
-    std::vector<T> download() const
+    std::vector<double> download() const
     {
-        std::vector<T> values(size_);
+        std::vector<double> values(size_);
         data_.download(std::span(values));
         return values;
     }
 
 private:
-    buffer<T> data_;
+    real_buffer data_;
     std::size_t size_ = 0;
 };
 
-/// The space of n-vectors of T on a device: what the solvers need, on their own terms (see solve/vector_space.hpp). dot
-/// and multi_dot wait once for the host; everything else is only enqueued. Copies share one workspace and one queue.
-template <class T>
+/// The space of n-vectors of one type on a device: what the solvers need, on their own terms (see
+/// solve/vector_space.hpp). dot and multi_dot wait once for the host; everything else is only enqueued. Copies share
+/// one workspace and one queue.
 class device_vectors
 {
 public:
-    using scalar = T;
-    using vector = device_vector<T>;
+    using vector = device_vector;
 
-    device_vectors(const queue& q, std::size_t n) : device_vectors(q, n, reduction_plan::for_device(q.device())) {}
-    device_vectors(const queue& q, std::size_t n, reduction_plan plan)
-        : size_(n), padded_(padded(n)), shared_(std::make_shared<shared>(q, plan))
+    /// type: f32 or f64.
+    device_vectors(const queue& q, scalar_type type, std::size_t n)
+        : device_vectors(q, type, n, reduction_plan::for_device(q.device()))
+    {
+    }
+    device_vectors(const queue& q, scalar_type type, std::size_t n, reduction_plan plan)
+        : size_(n), padded_(padded(n)), shared_(std::make_shared<shared>(q, type, plan))
     {
     }
 
     std::size_t size() const noexcept { return size_; }
+    scalar_type type() const noexcept { return shared_->type; }
     taut::queue& queue() const noexcept { return shared_->queue; }
 
-    /// The zero vector; make_points in another precision, for positions.
-    vector make() const { return vector(shared_->queue, size_); }
-    template <class P>
-    device_vector<P> make_points() const
-    {
-        return device_vector<P>(shared_->queue, size_);
-    }
+    /// The zero vector.
+    vector make() const { return make_points(type()); }
+    /// The same in another precision, for positions.
+    vector make_points(scalar_type points) const { return vector(shared_->queue, points, size_); }
 
-    template <class P>
-    void copy(const device_vector<P>& source, device_vector<P>& target) const
-    {
-        target.data().copy_from(source.data());
-    }
+    void copy(const vector& source, vector& target) const { target.data().copy_from(source.data()); }
 
     /// y = a x + b y. y is not read for b = 0.
     void axpby(double a, const vector& x, double b, vector& y) const
     {
         if (b == 0)
-            shared_->scale(all(), T(a), x.data(), y.data());
+            shared_->get(shared_->scale, "scale")(all(), {{"a", a}, {"x", x.data()}, {"y", y.data()}});
         else
-            shared_->axpby(all(), T(a), x.data(), T(b), y.data());
+            shared_->get(shared_->axpby, "axpby")(all(), {{"a", a}, {"x", x.data()}, {"b", b}, {"y", y.data()}});
     }
 
     double dot(const vector& x, const vector& y) const
@@ -103,7 +102,7 @@ public:
     {
         if (left.empty() || right.empty()) return;
         auto& r = shared_->reductions;
-        const auto products = r.template dots<T>(buffers(left), buffers(right), padded_);
+        const auto products = r.dots(views(left), views(right), padded_);
         r.fetch();
         std::copy_n(r.values(products).begin(), products.count, out.begin());
     }
@@ -115,85 +114,71 @@ public:
         if (x.empty()) out.data().fill(0);
         while (done < x.size())
         {
-            const buffer<T>* v[8];
-            T c[8] = {};
+            std::vector<detail::argument> arguments{out.data()};
             std::size_t n = 0;
+            const auto add = [&](double coefficient, const detail::argument& v)
+            {
+                arguments.push_back(detail::argument(coefficient).as(spelling(type())));
+                arguments.push_back(v);
+                ++n;
+            };
             // From the second launch on, the sum so far takes part.
-            if (done > 0) v[n] = &out.data(), c[n++] = 1;
-            while (n < 8 && done < x.size()) v[n] = &x[done]->data(), c[n++] = T(a[done++]);
+            if (done > 0) add(1, out.data());
+            for (; n < 8 && done < x.size(); ++done) add(a[done], x[done]->data());
+            const std::size_t used = n;
             // A filler has coefficient 0 and repeats a vector that is in the sum, so that it cannot bring a new NaN.
-            for (std::size_t k = n; k < 8; ++k) v[k] = v[0];
-            shared_->combination(n)(all(), out.data(), c[0], *v[0], c[1], *v[1], c[2], *v[2], c[3], *v[3], c[4], *v[4],
-                                    c[5], *v[5], c[6], *v[6], c[7], *v[7]);
+            while (n < 8) add(0, detail::argument(arguments[2]));
+            shared_->combination(used)(all(), std::span<const detail::argument>(arguments));
         }
     }
 
-    /// out = x + a d for positions x in their own precision P, computed in P; out may be x.
-    template <class P>
-    void step(const device_vector<P>& x, double a, const vector& d, device_vector<P>& out) const
+    /// out = x + a d for positions x in their own precision, in which it is computed; out may be x.
+    void step(const vector& x, double a, const vector& d, vector& out) const
     {
-        auto& kernel = shared_->template step<P>();
-        if (!kernel) shared_->load(kernel, std::is_same_v<P, double> ? "step_along_double" : "step_along_float");
-        kernel(all(), x.data(), P(a), d.data(), out.data());
+        const bool wide = x.data().type() == scalar_type::f64;
+        auto& along = wide ? shared_->step_double : shared_->step_float;
+        shared_->get(along, wide ? "step_along_double" : "step_along_float")(
+            all(), {{"x", x.data()}, {"a", a}, {"d", d.data()}, {"out", out.data()}});
     }
 
 private:
     static constexpr std::size_t group = 256;
     range all() const { return {padded_, group}; }
 
-    static std::vector<const buffer<T>*> buffers(std::span<const vector* const> vectors)
+    static std::vector<real_view> views(std::span<const vector* const> vectors)
     {
-        std::vector<const buffer<T>*> b;
-        for (const vector* v : vectors) b.push_back(&v->data());
-        return b;
+        std::vector<real_view> v;
+        for (const vector* x : vectors) v.emplace_back(x->data());
+        return v;
     }
-
-    using in = const buffer<T>;
-    using combine_kernel = typed_kernel<buffer<T>, T, in, T, in, T, in, T, in, T, in, T, in, T, in, T, in>;
-    template <class P>
-    using step_kernel = typed_kernel<const buffer<P>, P, in, buffer<P>>;
 
     /// Workspace, shared by copies of the space; kernels are built when first used.
     struct shared
     {
-        shared(const taut::queue& q, reduction_plan plan) : queue(q), reductions(q, plan)
+        shared(const taut::queue& q, scalar_type real, reduction_plan plan) : queue(q), type(real), reductions(q, plan)
         {
-            load(scale, "scale");
-            load(axpby, "axpby");
         }
 
-        template <class Kernel>
-        void load(Kernel& kernel, const char* name)
+        const kernel& get(kernel& k, const char* name)
         {
-            kernel = {queue, detail::vector_program(), name,
-                      detail::vector_options<T>(queue.device(), reductions.plan())};
+            if (!k)
+                k = kernel(queue, detail::vector_program(), name,
+                           detail::vector_options(type, queue.device(), reductions.plan()), type);
+            return k;
         }
 
         /// The narrowest one for n vectors.
-        combine_kernel& combination(std::size_t n)
+        const kernel& combination(std::size_t n)
         {
             const std::size_t width = n <= 2 ? 0 : n <= 4 ? 1 : 2;
             static constexpr const char* names[] = {"combine_2", "combine_4", "combine_8"};
-            if (!combine[width]) load(combine[width], names[width]);
-            return combine[width];
-        }
-
-        template <class P>
-        step_kernel<P>& step()
-        {
-            if constexpr (std::is_same_v<P, double>)
-                return step_double;
-            else
-                return step_float;
+            return get(combine[width], names[width]);
         }
 
         taut::queue queue;
+        scalar_type type;
         taut::reductions reductions;
-        typed_kernel<T, in, buffer<T>> scale;
-        typed_kernel<T, in, T, buffer<T>> axpby;
-        combine_kernel combine[3];
-        step_kernel<float> step_float;
-        step_kernel<double> step_double;
+        kernel scale, axpby, combine[3], step_float, step_double;
     };
 
     std::size_t size_;

@@ -31,7 +31,8 @@ public:
     /// True if the energy is +infinity where det S <= 0.
     bool barrier() const { return model_->barrier(); }
 
-    /// The density at one element: a number for T = double, a node of the current tape for T = sym<float | double>.
+    /// The density at one element: a number for T = double, a node of the current tape for T = sym<double>, in
+    /// the precision of the recording.
     template <class T, int D>
     T operator()(const element<T, D>& e) const
     {
@@ -47,8 +48,6 @@ private:
         virtual double at(const element<double, 3>&) const = 0;
         virtual sym<double> at(const element<sym<double>, 2>&) const = 0;
         virtual sym<double> at(const element<sym<double>, 3>&) const = 0;
-        virtual sym<float> at(const element<sym<float>, 2>&) const = 0;
-        virtual sym<float> at(const element<sym<float>, 3>&) const = 0;
     };
 
     template <class E>
@@ -74,8 +73,6 @@ private:
         double at(const element<double, 3>& x) const override { return call(x); }
         sym<double> at(const element<sym<double>, 2>& x) const override { return call(x); }
         sym<double> at(const element<sym<double>, 3>& x) const override { return call(x); }
-        sym<float> at(const element<sym<float>, 2>& x) const override { return call(x); }
-        sym<float> at(const element<sym<float>, 3>& x) const override { return call(x); }
 
         E e;
     };

@@ -13,15 +13,16 @@ namespace taut
 /// runs in a kernel: a fixed number of sweeps of cyclic Jacobi rotations, unrolled, with selects and square roots only
 /// (Golub, Van Loan, Matrix Computations, section 8.5). Sweeps converge quadratically from the third or so on; for
 /// N = 4 the fifth leaves nothing in double, the fourth in float.
-template <class R, int N>
+template <class Real, int N>
 class eigenvalue_clamp
 {
 public:
-    using real = sym<R>;
-    static constexpr int sweeps = (std::numeric_limits<R>::digits > 24 ? 5 : 4) + (N > 4 ? 2 : 0);
+    using real = Real;
 
-    static symmetric_matrix<real, N> apply(const symmetric_matrix<real, N>& H)
+    /// type: of the numbers, f32 or f64.
+    static symmetric_matrix<real, N> apply(const symmetric_matrix<real, N>& H, scalar_type type)
     {
+        const int sweeps = (type == scalar_type::f64 ? 5 : 4) + (N > 4 ? 2 : 0);
         eigenvalue_clamp state(H);
         for (int sweep = 0; sweep < sweeps; ++sweep)
             for (int p = 0; p < N; ++p)

@@ -31,10 +31,10 @@ struct invariant_derivatives
 ///
 /// The invariants rather than singular values s1, s2: what comes from E(s1, s2) needs (E_1 - E_2)/(s1 - s2), which is
 /// 0/0 at every similarity, the very state that maps tend to.
-template <class R>
-std::optional<invariant_derivatives<sym<R>>> derivatives_by_invariants(sym<R> value, const glm::mat<2, 2, sym<R>>& S)
+inline std::optional<invariant_derivatives<sym<double>>> derivatives_by_invariants(sym<double> value,
+                                                                                   const glm::mat<2, 2, sym<double>>& S)
 {
-    const sym<R> I = norm2(S), d = glm::determinant(S);
+    const sym<double> I = norm2(S), d = glm::determinant(S);
     const std::array<node_id, 6> stops = {I.id(), d.id(), S[0][0].id(), S[0][1].id(), S[1][0].id(), S[1][1].id()};
     const auto partials = detail::reverse_sweep(tape::current(), value.id(), stops);
     for (std::size_t k = 2; k < stops.size(); ++k)
@@ -42,7 +42,7 @@ std::optional<invariant_derivatives<sym<R>>> derivatives_by_invariants(sym<R> va
 
     const auto first = differentiate(value, {I, d});
     const auto of_I = differentiate(first[0], {I, d});
-    return invariant_derivatives<sym<R>>{I, d, first[0], first[1], of_I[0], of_I[1], differentiate(first[1], d)};
+    return invariant_derivatives<sym<double>>{I, d, first[0], first[1], of_I[0], of_I[1], differentiate(first[1], d)};
 }
 
 /// True if the energy gets the closed form of plane_modes.hpp, found by recording it once.

@@ -24,11 +24,13 @@ namespace taut
 /// Nothing is divided by s1 - s2. The direction of q is lost to rounding as s1 - s2 goes to 0, where flip and the block
 /// agree on all directions of q, so that any direction does. The block stands in s1 and s2, not in p and q: on a sliver
 /// its small curvature is an entry of its own there and not a difference of large ones.
-template <class R>
+///
+/// Real is double or a traced scalar.
+template <class Real>
 class plane_modes
 {
 public:
-    using real = sym<R>;
+    using real = Real;
 
     plane_modes(const glm::mat<2, 2, real>& S, const invariant_derivatives<real>& psi, bool projected)
         : twist_(real(2.0) * psi.by_I + psi.by_d), flip_(real(2.0) * psi.by_I - psi.by_d)
@@ -78,8 +80,10 @@ private:
     /// A vector of the plane as length and direction; the direction of 0 is the first axis.
     struct unit
     {
-        unit(real a, real b) : length(sqrt(a * a + b * b))
+        unit(real a, real b)
         {
+            using std::sqrt;
+            length = sqrt(a * a + b * b);
             const auto some = length > real(0.0);
             const real scale = real(1.0) / select(some, length, real(1.0));
             x = select(some, a * scale, real(1.0));
@@ -90,6 +94,7 @@ private:
 
     void project()
     {
+        using std::abs, std::max, std::sqrt;
         const real zero = 0.0, half = 0.5;
         twist_ = max(twist_, zero);
         flip_ = max(flip_, zero);

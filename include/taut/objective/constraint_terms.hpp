@@ -13,6 +13,7 @@
 #include <taut/compute/vector_space.hpp>
 #include <taut/constrain/point_constraints.hpp>
 #include <taut/mesh/layout.hpp>
+#include <taut/objective/real_types.hpp>
 
 namespace taut
 {
@@ -20,7 +21,7 @@ namespace taut
 /// Point constraints of a mesh on a device, as an addition to what the kernels of elements give. A spring is counted
 /// with one of the elements at its vertex, so that sums, gathers and assemblies of elements carry it along. Coordinates
 /// that are held alone are a mask: the search directions of a solver are zero there.
-template <class Element, class P, class R>
+template <class Element>
 class constraint_terms
 {
 public:
@@ -28,8 +29,10 @@ public:
     static constexpr std::size_t corners = Element::corners;
 
     /// c: in the user's numbers and units.
-    constraint_terms(queue q, const layout<Element>& mesh_layout, const point_constraints<D>& c)
+    constraint_terms(queue q, const real_types& types, const layout<Element>& mesh_layout,
+                     const point_constraints<D>& c)
         : queue_(std::move(q)),
+          types_(types),
           cell_stride_(static_cast<idx>(mesh_layout.cell_stride)),
           vertex_stride_(static_cast<idx>(mesh_layout.vertex_stride))
     {
@@ -39,7 +42,7 @@ public:
     }
 
     /// To the energies of elements at x.
-    void add_energy(const device_vector<P>& x, buffer<R>& energies)
+    void add_energy(const device_vector& x, real_buffer& energies)
     {
         if (count_ == 0) return;
         queue_.submit(
@@ -55,7 +58,8 @@ public:
                                    for (idx j = 0; j < idx(corners); ++j)
                                        for (idx k = 0; k < D; ++k)
                                        {
-                                           const auto gap = cast<R>(p[l.place(i, j, k)] - l.at_target(i, j, k));
+                                           const auto gap =
+                                               cast(types_.vector, p[l.place(i, j, k)] - l.at_target(i, j, k));
                                            sum = sum + l.stiff(i, j) * gap * gap;
                                        }
                                    e[l.cell[i]] = sum;
@@ -65,8 +69,8 @@ public:
 
     /// To the energies of elements at x + unit[0] a d, `steps.size()` segments of cell_stride each.
     template <std::size_t N>
-    void add_energies(const device_vector<P>& x, const device_vector<R>& d, const buffer<R>& unit,
-                      const std::array<R, N>& steps, buffer<R>& energies)
+    void add_energies(const device_vector& x, const device_vector& d, const real_buffer& unit,
+                      const std::array<double, N>& steps, real_buffer& energies)
     {
         if (count_ == 0) return;
         queue_.submit(
@@ -76,8 +80,8 @@ public:
                 const auto p = x.data().read(h);
                 const auto along = d.data().read(h);
                 const auto u = unit.read(h);
-                std::array<sym<R>, N> a;
-                for (std::size_t n = 0; n < N; ++n) a[n] = h.uniform(steps[n]);
+                std::array<sym<double>, N> a;
+                for (std::size_t n = 0; n < N; ++n) a[n] = h.uniform(types_.vector, steps[n]);
                 const auto e = energies.read_write(h);
                 h.parallel_for("spring_along", count(),
                                [&](auto i)
@@ -90,8 +94,8 @@ public:
                                            for (idx k = 0; k < D; ++k)
                                            {
                                                const auto v = l.place(i, j, k);
-                                               const auto gap =
-                                                   cast<R>(p[v] - l.at_target(i, j, k)) + u[0] * a[n] * along[v];
+                                               const auto gap = cast(types_.vector, p[v] - l.at_target(i, j, k)) +
+                                                                u[0] * a[n] * along[v];
                                                sum = sum + l.stiff(i, j) * gap * gap;
                                            }
                                        e[at] = sum;
@@ -101,7 +105,7 @@ public:
     }
 
     /// To the gradients of corners.
-    void add_gradient(const device_vector<P>& x, buffer<P>& corner_gradients)
+    void add_gradient(const device_vector& x, real_buffer& corner_gradients)
     {
         if (count_ == 0) return;
         queue_.submit(
@@ -118,7 +122,7 @@ public:
                                        {
                                            const auto slot = l.cell[i] + (j * D + k) * l.cells;
                                            const auto gap = p[l.place(i, j, k)] - l.at_target(i, j, k);
-                                           g[slot] = g[slot] + P(2) * cast<P>(l.stiff(i, j)) * gap;
+                                           g[slot] = g[slot] + 2.0 * cast(types_.position, l.stiff(i, j)) * gap;
                                        }
                                });
             });
@@ -126,7 +130,7 @@ public:
 
     /// To the Hessians of elements, packed as hessian_slots say: slot(j, k) is that of coordinate k of corner j.
     template <class Slot>
-    void add_hessian(buffer<R>& hessian, const Slot& slot)
+    void add_hessian(real_buffer& hessian, const Slot& slot)
     {
         if (count_ == 0) return;
         queue_.submit(
@@ -141,14 +145,14 @@ public:
                                        for (idx k = 0; k < D; ++k)
                                        {
                                            const auto at = l.cell[i] + static_cast<idx>(slot(j, k)) * l.cells;
-                                           H[at] = H[at] + R(2) * l.stiff(i, j);
+                                           H[at] = H[at] + 2.0 * l.stiff(i, j);
                                        }
                                });
             });
     }
 
     /// v = 0 where a coordinate is held alone.
-    void mask(device_vector<R>& v)
+    void mask(device_vector& v)
     {
         if (mask_.empty()) return;
         queue_.submit(
@@ -165,8 +169,7 @@ private:
     struct list
     {
         in_array<idx> cell, vertex;
-        in_array<R> stiffness;
-        in_array<P> target;
+        in_array<double> stiffness, target;
         sym<idx> n, cells, vertices;
 
         list(const constraint_terms& c, handler& h)
@@ -189,11 +192,11 @@ private:
     void make_mask(const std::vector<std::uint8_t>& held)
     {
         const auto stride = static_cast<std::size_t>(vertex_stride_);
-        std::vector<R> free(D * stride, R(1));
+        std::vector<double> free(D * stride, 1);
         for (std::size_t v = 0; v < held.size(); ++v)
             for (std::size_t k = 0; k < D; ++k)
                 if ((held[v] >> k & 1u) != 0) free[k * stride + v] = 0;
-        mask_ = buffer<R>(queue_, free);
+        mask_ = real_buffer(queue_, types_.vector, free);
     }
 
     void make_springs(const layout<Element>& mesh_layout, const std::vector<spring<D>>& springs)
@@ -212,8 +215,7 @@ private:
         }
         count_ = by_cell.size();
         std::vector<idx> cell, vertex(corners * count_);
-        std::vector<R> stiffness(corners * count_, R(0));
-        std::vector<P> target(corners * D * count_, P(0));
+        std::vector<double> stiffness(corners * count_, 0), target(corners * D * count_, 0);
         for (const auto& [c, e] : by_cell)
         {
             const std::size_t i = cell.size();
@@ -222,23 +224,23 @@ private:
             {
                 vertex[i + j * count_] = mesh_layout.corners[j * mesh_layout.cell_stride + static_cast<std::size_t>(c)];
                 if (!e.at[j]) continue;
-                stiffness[i + j * count_] = static_cast<R>(e.at[j]->weight);
+                stiffness[i + j * count_] = e.at[j]->weight;
                 for (std::size_t k = 0; k < D; ++k)
-                    target[i + (j * D + k) * count_] = static_cast<P>(e.at[j]->target[static_cast<int>(k)]);
+                    target[i + (j * D + k) * count_] = e.at[j]->target[static_cast<int>(k)];
             }
         }
         cell_ = buffer<idx>(queue_, cell);
         vertex_ = buffer<idx>(queue_, vertex);
-        stiffness_ = buffer<R>(queue_, stiffness);
-        target_ = buffer<P>(queue_, target);
+        stiffness_ = real_buffer(queue_, types_.vector, stiffness);
+        target_ = real_buffer(queue_, types_.position, target);
     }
 
     queue queue_;
+    real_types types_;
     idx cell_stride_, vertex_stride_;
     std::size_t count_ = 0; ///< elements that carry springs
     buffer<idx> cell_, vertex_;
-    buffer<R> stiffness_, mask_;
-    buffer<P> target_;
+    real_buffer stiffness_, mask_, target_;
 };
 
 } // namespace taut

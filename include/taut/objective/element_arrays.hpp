@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include <taut/compute/buffer.hpp>
+#include <taut/compute/kernel.hpp>
 #include <taut/energy/element.hpp>
 #include <taut/mesh/layout.hpp>
 
@@ -13,25 +13,40 @@ namespace taut
 {
 
 /// What the kernels of elements read of a mesh besides positions, on a device; strides as in layout.hpp.
-template <class Element, class R>
+template <class Element>
 struct element_arrays
 {
     buffer<idx> corners;
-    buffer<R> inverse; ///< W^-1
-    buffer<R> measure; ///< 0 for padding
-    buffer<R> weight;  ///< w_c / sum of w_c over the cells
+    real_buffer inverse; ///< W^-1
+    real_buffer measure; ///< 0 for padding
+    real_buffer weight;  ///< w_c / sum of w_c over the cells
+    idx cell_stride, vertex_stride;
 
-    element_arrays(queue& q, const layout<Element>& mesh_layout, energy::weighting weights)
+    element_arrays(queue& q, scalar_type type, const layout<Element>& mesh_layout, energy::weighting weights)
         : corners(q, mesh_layout.corners),
-          inverse(q, to_real(mesh_layout.inverse)),
-          measure(q, to_real(mesh_layout.measure)),
-          weight(q, to_real(relative_weights(mesh_layout, weights)))
+          inverse(q, type, mesh_layout.inverse),
+          measure(q, type, mesh_layout.measure),
+          weight(q, type, relative_weights(mesh_layout, weights)),
+          cell_stride(static_cast<idx>(mesh_layout.cell_stride)),
+          vertex_stride(static_cast<idx>(mesh_layout.vertex_stride))
     {
     }
 
-private:
-    static std::vector<R> to_real(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+    /// The arguments of a kernel that takes element_inputs: these arrays, the map x and what else it takes.
+    std::vector<named_argument> with(const real_buffer& x, std::initializer_list<named_argument> more) const
+    {
+        std::vector<named_argument> all = {{"corners", corners},
+                                           {"inverse", inverse},
+                                           {"measure", measure},
+                                           {"weight", weight},
+                                           {"x", x},
+                                           {"cell_stride", cell_stride},
+                                           {"vertex_stride", vertex_stride}};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
 
+private:
     static std::vector<double> relative_weights(const layout<Element>& mesh_layout, energy::weighting weights)
     {
         std::vector<double> w = mesh_layout.measure;

@@ -45,18 +45,17 @@ struct hessian_slots
 ///
 /// In the plane an energy of |S|^2 and det S takes the closed form of plane_modes.hpp. Any other, and all in space, is
 /// differentiated twice on the tape, and projected by Jacobi rotations.
-template <class Element, class P, class R>
+template <class Element>
 struct element_hessian_kernels
 {
     static constexpr int D = Element::dimension;
     using slots = hessian_slots<D>;
 
-    /// corners, W^-1, measure, weight, x -> hessian, slots::count x cell_stride
-    using kernel = traced_kernel<in<idx>, in<R>, in<R>, in<R>, in<P>, out<R>, uniform<idx>, uniform<idx>>;
-    kernel projected, indefinite;
+    /// element_inputs -> "hessian", slots::count x cell_stride
+    recorded_kernel projected, indefinite;
 
-    element_hessian_kernels(const queue& q, const any_energy& energy)
-        : element_hessian_kernels(traced_program(q, record(energy, detail::form_for(q.device()))))
+    element_hessian_kernels(const queue& q, const any_energy& energy, const real_types& types)
+        : element_hessian_kernels(traced_program(q, record(energy, types, detail::form_for(q.device()))))
     {
     }
 
@@ -69,35 +68,31 @@ struct element_hessian_kernels
     }
 
     /// Both kernels as text, for a program that others share.
-    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        return {record(energy, definiteness::projected, form), record(energy, definiteness::indefinite, form)};
+        return {record(energy, definiteness::projected, types, form),
+                record(energy, definiteness::indefinite, types, form)};
     }
 
     /// One as text. In space, too; see the constructor for what a projected one costs there.
-    static kernel_text record(const any_energy& energy, definiteness sign, kernel_form form)
+    static kernel_text record(const any_energy& energy, definiteness sign, const real_types& types, kernel_form form)
     {
-        recording r;
-        const auto corners = r.in<idx>("corners");
-        const auto inverse = r.in<R>("inverse"), measure = r.in<R>("measure"), weight = r.in<R>("weight");
-        const auto x = r.in<P>("x");
-        auto hessian = r.out<R>("hessian");
-        const auto cell_stride = r.scalar<idx>("cell_stride"), vertex_stride = r.scalar<idx>("vertex_stride");
+        recording r(types.vector);
+        const element_inputs in(r, types);
+        auto hessian = r.out<double>("hessian", types.vector);
         const auto cell = r.global_id();
-
-        const typename traced::rest W(cell, inverse, cell_stride);
-        const auto S = W.shape_matrix(traced::edges(cell, corners, x, cell_stride, vertex_stride));
-        const auto H = corner_hessian(by_shape_matrix(energy, S, measure[cell], weight[cell], sign), W);
+        const traced e(in, cell, types.position, types.vector);
+        const auto H = corner_hessian(by_shape_matrix(energy, e, sign, types.vector), e);
         for (int k = 0; k <= D; ++k)
             for (int l = k; l <= D; ++l)
                 for (int i = 0; i < D; ++i)
                     for (int j = k == l ? i : 0; j < D; ++j)
-                        hessian[cell + slots::at(k, i, l, j) * cell_stride] = H(k * D + i, l * D + j);
+                        hessian[cell + slots::at(k, i, l, j) * in.cell_stride] = H(k * D + i, l * D + j);
         return r.finish(name_of(sign), form);
     }
 
 private:
-    using traced = traced_element<D, P, R>;
+    using traced = traced_element<D>;
     using real = typename traced::real;
     using matrix = typename traced::matrix;
     static constexpr int N = D * D;
@@ -108,13 +103,14 @@ private:
     }
 
     /// Second derivatives of weight * energy by the entries of S, by columns.
-    static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const matrix& S, real measure,
-                                                     real weight, definiteness sign)
+    static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const traced& e, definiteness sign,
+                                                     scalar_type type)
     {
-        const real value = energy(element<real, D>{S, glm::determinant(S), measure});
+        const matrix S = e.shape_matrix();
+        const real weight = e.weight(), value = energy(element<real, D>{S, glm::determinant(S), e.measure()});
         if constexpr (D == 2)
             if (const auto psi = derivatives_by_invariants(value, S))
-                return plane_modes<R>(S, *psi, sign == definiteness::projected).hessian(weight);
+                return plane_modes(S, *psi, sign == definiteness::projected).hessian(weight);
 
         std::vector<real> entries;
         for (int c = 0; c < D; ++c)
@@ -127,20 +123,19 @@ private:
             const auto row = differentiate(gradient[static_cast<std::size_t>(j)], upper);
             for (int i = 0; i <= j; ++i) H(i, j) = weight * row[static_cast<std::size_t>(i)];
         }
-        return sign == definiteness::projected ? eigenvalue_clamp<R, N>::apply(H) : H;
+        return sign == definiteness::projected ? eigenvalue_clamp<real, N>::apply(H, type) : H;
     }
 
     /// From the entries of S to the corners: S is linear in the edges A = S W, and an edge is a corner less corner 0,
     /// which so takes minus the sum of the others.
-    static symmetric_matrix<real, D*(D + 1)> corner_hessian(const symmetric_matrix<real, N>& H,
-                                                            const typename traced::rest& W)
+    static symmetric_matrix<real, D*(D + 1)> corner_hessian(const symmetric_matrix<real, N>& H, const traced& e)
     {
         symmetric_matrix<real, D*(D + 1)> result;
         // Rows of edges, columns of entries of S: the product from the left. Row k of W^-1 begins at column k.
         const auto half = [&](int k, int i, int entry)
         {
-            real sum = W(k, k) * H(k * D + i, entry);
-            for (int c = k + 1; c < D; ++c) sum = sum + W(k, c) * H(c * D + i, entry);
+            real sum = e.inverse(k, k) * H(k * D + i, entry);
+            for (int c = k + 1; c < D; ++c) sum = sum + e.inverse(k, c) * H(c * D + i, entry);
             return sum;
         };
         for (int k = 0; k < D; ++k)
@@ -148,8 +143,8 @@ private:
                 for (int l = k; l < D; ++l)
                     for (int j = k == l ? i : 0; j < D; ++j)
                     {
-                        real sum = half(k, i, l * D + j) * W(l, l);
-                        for (int c = l + 1; c < D; ++c) sum = sum + half(k, i, c * D + j) * W(l, c);
+                        real sum = half(k, i, l * D + j) * e.inverse(l, l);
+                        for (int c = l + 1; c < D; ++c) sum = sum + half(k, i, c * D + j) * e.inverse(l, c);
                         result((k + 1) * D + i, (l + 1) * D + j) = sum;
                     }
         for (int l = 1; l <= D; ++l)

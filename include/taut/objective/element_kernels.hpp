@@ -14,32 +14,30 @@ namespace taut
 {
 
 /// The kernels of one energy over one kind of element, one work-item an element, traced from the energy's C++ template.
-/// P is the type of positions and of the arithmetic, R that of directions, energies and what is constant in a mesh.
-/// Arrays are laid out as in layout.hpp; ranges are whole
-/// multiples of its step, so there are no bounds tests, and loads and stores have stride 1 but for the vertices, which
-/// is what lets a CPU device vectorise them.
-template <class Element, class P, class R>
+/// All of them take element_inputs. Arrays are laid out as in layout.hpp; ranges are whole multiples of its step, so
+/// there are no bounds tests, and loads and stores have stride 1 but for the vertices, which is what lets a CPU device
+/// vectorise them.
+template <class Element>
 struct element_kernels
 {
     static constexpr int D = Element::dimension;
     static constexpr int trials = 4; ///< step lengths that one launch of `along` tries
 
-    /// corners, W^-1, measure, weight, x -> weighted energy of each element
-    traced_kernel<in<idx>, in<R>, in<R>, in<R>, in<P>, out<R>, uniform<idx>, uniform<idx>> value;
+    /// -> "energy": weighted energy of each element
+    recorded_kernel value;
 
-    /// the same, and the gradient of each corner: entry ((corner * D) + k) * cell_stride + cell
-    traced_kernel<in<idx>, in<R>, in<R>, in<R>, in<P>, out<R>, out<P>, uniform<idx>, uniform<idx>> gradient;
+    /// -> "energy", and "corner_gradient": entry ((corner * D) + k) * cell_stride + cell
+    recorded_kernel gradient;
 
-    /// the same as value at x + unit[0] a d for `trials` step lengths a, one segment of cell_stride each
-    traced_kernel<in<idx>, in<R>, in<R>, in<R>, in<P>, in<R>, in<R>, out<R>, uniform<idx>, uniform<idx>, uniform<R>,
-                  uniform<R>, uniform<R>, uniform<R>>
-        along;
+    /// "d", "unit", "step0".."step3" -> "energy" as value has it, at x + unit[0] a d for `trials` step lengths a, one
+    /// segment of cell_stride each
+    recorded_kernel along;
 
-    /// corners, x, d -> the first a > 0 at which det(x + a d) of each element vanishes
-    traced_kernel<in<idx>, in<P>, in<R>, out<R>, uniform<idx>, uniform<idx>> first_flips;
+    /// "d" -> "first": the least a > 0 at which det(x + a d) of each element vanishes
+    recorded_kernel first_flips;
 
-    element_kernels(const queue& q, const any_energy& energy)
-        : element_kernels(traced_program(q, record(energy, detail::form_for(q.device()))))
+    element_kernels(const queue& q, const any_energy& energy, const real_types& types)
+        : element_kernels(traced_program(q, record(energy, types, detail::form_for(q.device()))))
     {
     }
 
@@ -53,109 +51,79 @@ struct element_kernels
     }
 
     /// The kernels as text: for a program that others share, for tests and for the curious.
-    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        return {record_value(energy, form), record_gradient(energy, form), record_along(energy, form),
-                record_first_flips(form)};
+        return {record_value(energy, types, form), record_gradient(energy, types, form),
+                record_along(energy, types, form), record_first_flips(types, form)};
     }
 
-    static kernel_text record_value(const any_energy& energy, kernel_form form)
+    static kernel_text record_value(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        recording r;
-        const inputs in(r);
-        auto energies = r.out<R>("energy");
-        const strides n(r);
-        const typename traced::rest W(in.cell, in.inverse, n.cell);
-        const auto S = W.shape_matrix(traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex));
-        energies[in.cell] =
-            cast<R>(traced::weighted(energy, S, cast<P>(in.measure[in.cell]), cast<P>(in.weight[in.cell])));
+        recording r(types.position);
+        const element_inputs in(r, types);
+        auto energies = r.out<double>("energy", types.vector);
+        const auto cell = r.global_id();
+        const traced e(in, cell, types.position, types.position);
+        energies[cell] = traced::weighted(energy, e.shape_matrix(), e.measure(), e.weight());
         return r.finish("element_value", form);
     }
 
-    static kernel_text record_gradient(const any_energy& energy, kernel_form form)
+    static kernel_text record_gradient(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        recording r;
-        const inputs in(r);
-        auto energies = r.out<R>("energy");
-        auto gradients = r.out<P>("corner_gradient");
-        const strides n(r);
-        const typename traced::rest W(in.cell, in.inverse, n.cell);
-        const auto S = W.shape_matrix(traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex));
-        const real measure = cast<P>(in.measure[in.cell]), weight = cast<P>(in.weight[in.cell]);
-        energies[in.cell] = cast<R>(traced::weighted(energy, S, measure, weight));
-        const auto g = traced::corner_gradients(energy, S, W, measure, weight);
+        recording r(types.position);
+        const element_inputs in(r, types);
+        auto energies = r.out<double>("energy", types.vector);
+        auto gradients = r.out<double>("corner_gradient", types.position);
+        const auto cell = r.global_id();
+        const traced e(in, cell, types.position, types.position);
+        const auto S = e.shape_matrix();
+        energies[cell] = traced::weighted(energy, S, e.measure(), e.weight());
+        const auto g = e.corner_gradients(energy, S);
         for (int k = 0; k <= D; ++k)
             for (int i = 0; i < D; ++i)
-                gradients[in.cell + (k * D + i) * n.cell] = g[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+                gradients[cell + (k * D + i) * in.cell_stride] =
+                    g[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
         return r.finish("element_gradient", form);
     }
 
-    static kernel_text record_along(const any_energy& energy, kernel_form form)
+    static kernel_text record_along(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        recording r;
-        const inputs in(r);
-        auto d = r.in<R>("d");
-        auto unit = r.in<R>("unit");
-        auto energies = r.out<R>("energy");
-        const strides n(r);
+        recording r(types.position);
+        const element_inputs in(r, types);
+        auto d = r.in<double>("d", types.vector);
+        auto unit = r.in<double>("unit", types.vector);
+        auto energies = r.out<double>("energy", types.vector);
+        const auto cell = r.global_id();
+        const traced e(in, cell, types.position, types.position);
         // S is linear in x: S(x + a d) = S(x) + a S(d), so the vertices are read once for all step lengths.
-        const typename traced::rest W(in.cell, in.inverse, n.cell);
-        const auto S = W.shape_matrix(traced::edges(in.cell, in.corners, in.x, n.cell, n.vertex));
-        const auto dS = W.shape_matrix(traced::edges(in.cell, in.corners, d, n.cell, n.vertex));
-        const real measure = cast<P>(in.measure[in.cell]), weight = cast<P>(in.weight[in.cell]);
+        const auto S = e.shape_matrix(), dS = e.shape_matrix(e.edges(d));
         for (int t = 0; t < trials; ++t)
         {
-            const real a = cast<P>(unit[sym<idx>(0)] * r.scalar<R>("step" + std::to_string(t)));
+            const auto step = r.scalar<double>("step" + std::to_string(t), types.vector);
+            const real a = cast(types.position, unit[sym<idx>(0)] * step);
             typename traced::matrix trial;
             for (int c = 0; c < D; ++c)
                 for (int k = 0; k < D; ++k) trial[c][k] = S[c][k] + a * dS[c][k];
-            energies[in.cell + t * n.cell] = cast<R>(traced::weighted(energy, trial, measure, weight));
+            energies[cell + t * in.cell_stride] = traced::weighted(energy, trial, e.measure(), e.weight());
         }
         return r.finish("element_along", form);
     }
 
-    static kernel_text record_first_flips(kernel_form form)
+    static kernel_text record_first_flips(const real_types& types, kernel_form form)
     {
-        recording r;
-        auto corners = r.in<idx>("corners");
-        auto x = r.in<P>("x");
-        auto d = r.in<R>("d");
-        auto first = r.out<R>("first");
-        const strides n(r);
+        recording r(types.position);
+        const element_inputs in(r, types);
+        auto d = r.in<double>("d", types.vector);
+        auto first = r.out<double>("first", types.vector);
         const auto cell = r.global_id();
-        first[cell] = cast<R>(first_flip(traced::edges(cell, corners, x, n.cell, n.vertex),
-                                         traced::edges(cell, corners, d, n.cell, n.vertex)));
+        const traced e(in, cell, types.position, types.position);
+        first[cell] = first_flip(e.edges(in.x), e.edges(d));
         return r.finish("element_first_flip", form);
     }
 
 private:
-    using traced = traced_element<D, P, P>;
+    using traced = traced_element<D>;
     using real = typename traced::real;
-
-    /// What every energy kernel reads, in the order of its signature.
-    struct inputs
-    {
-        explicit inputs(recording& r)
-            : corners(r.in<idx>("corners")),
-              inverse(r.in<R>("inverse")),
-              measure(r.in<R>("measure")),
-              weight(r.in<R>("weight")),
-              x(r.in<P>("x")),
-              cell(r.global_id())
-        {
-        }
-
-        in_array<idx> corners;
-        in_array<R> inverse, measure, weight;
-        in_array<P> x;
-        sym<idx> cell;
-    };
-
-    struct strides
-    {
-        explicit strides(recording& r) : cell(r.scalar<idx>("cell_stride")), vertex(r.scalar<idx>("vertex_stride")) {}
-        sym<idx> cell, vertex;
-    };
 };
 
 } // namespace taut

@@ -26,61 +26,61 @@ namespace taut
 ///
 ///     f(x) = sum over cells of w_c E(S_c(x)) / sum of w_c + sum over springs of k_v |x_v - t_v|^2
 ///
-/// with w_c = 1 or the rest measure. A point holds the coordinates of all vertices in layout order, D x vertex_stride,
-/// in P; vectors have the same shape in R and are zero on what is pinned or held, so that it never moves.
+/// with w_c = 1 or the rest measure. A point holds the coordinates of all vertices in layout order, D x vertex_stride;
+/// vectors have the same shape and are zero on what is pinned or held, so that it never moves.
 /// Kernels per evaluation: elements, gather (paper Fig. 8), one reduction; one host wait.
-template <class Element, class P, class R>
-class problem
+template <class Element>
+class map_objective
 {
 public:
     static constexpr int D = Element::dimension;
-    using space_type = device_vectors<R>;
-    using vector = typename space_type::vector;
-    using point = device_vector<P>;
+    using vector = device_vector;
+    using point = device_vector;
 
-    using kernels = element_kernels<Element, P, R>;
+    using kernels = element_kernels<Element>;
 
     /// constraints: besides the pins of the layout, in the user's numbers.
-    problem(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
-            energy::weighting weights, const point_constraints<D>& constraints = {})
-        : problem(q, std::move(mesh_layout), energy, weights, std::make_shared<const kernels>(q, energy), constraints)
+    map_objective(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
+                  energy::weighting weights, const real_types& types = {}, const point_constraints<D>& constraints = {})
+        : map_objective(q, std::move(mesh_layout), energy, weights, types,
+                        std::make_shared<const kernels>(q, energy, types), constraints)
     {
     }
 
-    /// With kernels of the same energy that another problem has traced already.
-    problem(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
-            energy::weighting weights, std::shared_ptr<const kernels> traced,
-            const point_constraints<D>& constraints = {})
+    /// With kernels of the same energy and types that another one has traced already.
+    map_objective(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
+                  energy::weighting weights, const real_types& types, std::shared_ptr<const kernels> traced,
+                  const point_constraints<D>& constraints = {})
         : queue_(std::move(q)),
           layout_(std::move(mesh_layout)),
-          space_(queue_, D * layout_->vertex_stride),
+          types_(types),
+          space_(queue_, types.vector, D * layout_->vertex_stride),
           reductions_(queue_),
           kernels_(std::move(traced)),
-          arrays_(std::make_shared<const element_arrays<Element, R>>(queue_, *layout_, weights)),
-          energies_(queue_, kernels::trials * layout_->cell_stride),
-          one_(queue_, std::vector<R>(1, R(1))),
-          limit_(queue_, std::vector<R>(1, R(1))),
-          corner_gradients_(queue_, (D + 1) * D * layout_->cell_stride),
+          arrays_(std::make_shared<const element_arrays<Element>>(queue_, types.vector, *layout_, weights)),
+          energies_(queue_, types.vector, kernels::trials * layout_->cell_stride),
+          one_(queue_, types.vector, std::array{1.0}),
+          limit_(queue_, types.vector, std::array{1.0}),
+          corner_gradients_(queue_, types.position, (D + 1) * D * layout_->cell_stride),
           gather_(make_gather()),
-          terms_(queue_, *layout_, constraints),
+          terms_(queue_, types, *layout_, constraints),
           gradient_scale_(characteristic_gradient(*layout_, energy, weights))
     {
     }
 
-    const space_type& space() const { return space_; }
+    const device_vectors& space() const { return space_; }
     const taut::layout<Element>& layout() const { return *layout_; }
-    point make_point() const { return space_.template make_points<P>(); }
+    point make_point() const { return space_.make_points(types_.position); }
     void copy(const point& x, point& y) const { space_.copy(x, y); }
     void step(const point& x, double a, const vector& d, point& out) const { space_.step(x, a, d, out); }
 
     /// Coordinates in the user's order and units, to the device and back.
-    void upload(const std::vector<vec<D>>& x, point& p) const { p.upload(to<P>(layout_->to_local(x))); }
-    std::vector<vec<D>> download(const point& p) const { return layout_->to_user(to<double>(p.download())); }
+    void upload(const std::vector<vec<D>>& x, point& p) const { p.upload(layout_->to_local(x)); }
+    std::vector<vec<D>> download(const point& p) const { return layout_->to_user(p.download()); }
 
     double value(const point& x)
     {
-        kernels_->value(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
-                        energies_, cell_stride(), vertex_stride());
+        kernels_->value(cells(), arrays_->with(x.data(), {{"energy", energies_}}));
         terms_.add_energy(x, energies_);
         return summed();
     }
@@ -105,8 +105,8 @@ public:
     /// g = the gradient; nothing waits.
     void gradient(const point& x, vector& g)
     {
-        kernels_->gradient(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
-                           energies_, corner_gradients_, cell_stride(), vertex_stride());
+        kernels_->gradient(cells(),
+                           arrays_->with(x.data(), {{"energy", energies_}, {"corner_gradient", corner_gradients_}}));
         terms_.add_energy(x, energies_);
         terms_.add_gradient(x, corner_gradients_);
         gather_(corner_gradients_, g.data());
@@ -134,11 +134,11 @@ public:
     {
         constexpr std::size_t most = 16;
         const double least = max_step(x, d);
-        std::vector<R> flips(static_cast<std::size_t>(layout_->cell_count));
+        std::vector<double> flips(static_cast<std::size_t>(layout_->cell_count));
         energies_.download(std::span(flips));
         std::vector<int> found;
         for (std::size_t c = 0; c < flips.size() && found.size() < most; ++c)
-            if (static_cast<double>(flips[c]) <= 2 * least) found.push_back(layout_->order.cells.new_to_old[c]);
+            if (flips[c] <= 2 * least) found.push_back(layout_->order.cells.new_to_old[c]);
         return found;
     }
 
@@ -193,34 +193,24 @@ public:
     std::uint64_t waits() const { return queue_.counters().waits; }
 
     /// Relative rounding error of a value: sums are in double, and the errors of many elements average out.
-    double rounding() const { return std::is_same_v<R, double> ? 1e-14 : 1e-8; }
+    double rounding() const { return types_.vector == scalar_type::f64 ? 1e-14 : 1e-8; }
 
 protected:
     range cells() const { return {layout_->cell_stride, taut::layout<Element>::step}; }
-    idx cell_stride() const { return static_cast<idx>(layout_->cell_stride); }
-    idx vertex_stride() const { return static_cast<idx>(layout_->vertex_stride); }
 
-    const std::shared_ptr<const element_arrays<Element, R>>& arrays() const { return arrays_; }
+    const std::shared_ptr<const element_arrays<Element>>& arrays() const { return arrays_; }
 
-    constraint_terms<Element, P, R>& terms() { return terms_; }
+    constraint_terms<Element>& terms() { return terms_; }
 
     /// Launches a kernel of element_hessian_kernels.
-    template <class Kernel>
-    void launch_hessian(const Kernel& kernel, const point& x, buffer<R>& hessian)
+    void launch_hessian(const recorded_kernel& kernel, const point& x, real_buffer& hessian)
     {
-        kernel(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(), hessian,
-               cell_stride(), vertex_stride());
+        kernel(cells(), arrays_->with(x.data(), {{"hessian", hessian}}));
     }
 
 private:
-    template <class To, class From>
-    static std::vector<To> to(const std::vector<From>& values)
-    {
-        return {values.begin(), values.end()};
-    }
-
     /// Rows of free vertices only: the others get zero.
-    gather<P, R> make_gather()
+    gather make_gather()
     {
         const auto& corners = layout_->vertex_corners;
         const auto rows = static_cast<std::size_t>(layout_->free_count);
@@ -235,22 +225,26 @@ private:
                              corner[k] = corners.items[k] % Element::corners;
                          }
                      });
-        return gather<P, R>(
-            queue_, std::span(corners.offsets).first(rows + 1), cell, corner,
-            {.components = D, .cell_stride = layout_->cell_stride, .vertex_stride = layout_->vertex_stride});
+        return gather(queue_, std::span(corners.offsets).first(rows + 1), cell, corner,
+                      {.components = D, .cell_stride = layout_->cell_stride, .vertex_stride = layout_->vertex_stride},
+                      types_.position, types_.vector);
     }
 
     using sums = std::vector<reductions::result>;
 
-    sums enqueue_values(const point& x, const vector& d, const buffer<R>& unit, std::span<const double> a)
+    sums enqueue_values(const point& x, const vector& d, const real_buffer& unit, std::span<const double> a)
     {
         sums results;
         for (std::size_t first = 0; first < a.size(); first += kernels::trials)
         {
-            const auto step = [&](std::size_t k) { return static_cast<R>(a[std::min(first + k, a.size() - 1)]); };
-            kernels_->along(cells(), arrays_->corners, arrays_->inverse, arrays_->measure, arrays_->weight, x.data(),
-                            d.data(), unit, energies_, cell_stride(), vertex_stride(), step(0), step(1), step(2),
-                            step(3));
+            const auto step = [&](std::size_t k) { return a[std::min(first + k, a.size() - 1)]; };
+            kernels_->along(cells(), arrays_->with(x.data(), {{"d", d.data()},
+                                                              {"unit", unit},
+                                                              {"energy", energies_},
+                                                              {"step0", step(0)},
+                                                              {"step1", step(1)},
+                                                              {"step2", step(2)},
+                                                              {"step3", step(3)}}));
             terms_.add_energies(x, d, unit, std::array{step(0), step(1), step(2), step(3)}, energies_);
             // Commands run in order: the next launch overwrites the energies after they are summed.
             results.push_back(
@@ -290,7 +284,7 @@ private:
 
     reductions::result enqueue_max_step(const point& x, const vector& d)
     {
-        kernels_->first_flips(cells(), arrays_->corners, x.data(), d.data(), energies_, cell_stride(), vertex_stride());
+        kernels_->first_flips(cells(), arrays_->with(x.data(), {{"d", d.data()}, {"first", energies_}}));
         return reductions_.minimum(energies_, static_cast<std::size_t>(layout_->cell_count));
     }
 
@@ -308,15 +302,16 @@ private:
 
     queue queue_;
     std::shared_ptr<const taut::layout<Element>> layout_;
-    space_type space_;
+    real_types types_;
+    device_vectors space_;
     reductions reductions_;
     std::shared_ptr<const kernels> kernels_;
-    std::shared_ptr<const element_arrays<Element, R>> arrays_;
-    buffer<R> energies_;
-    buffer<R> one_, limit_; ///< units of step lengths
-    buffer<P> corner_gradients_;
-    gather<P, R> gather_;
-    constraint_terms<Element, P, R> terms_;
+    std::shared_ptr<const element_arrays<Element>> arrays_;
+    real_buffer energies_;
+    real_buffer one_, limit_; ///< units of step lengths
+    real_buffer corner_gradients_;
+    gather gather_;
+    constraint_terms<Element> terms_;
     double gradient_scale_;
 };
 

@@ -20,57 +20,62 @@ namespace taut
 
 /// The kernels of one energy for Newton's method, traced once, built as one program and shared by all levels of a
 /// hierarchy.
-template <class Element, class P, class R>
+template <class Element>
 struct newton_kernels
 {
-    element_kernels<Element, P, R> first;
-    element_hessian_kernels<Element, P, R> second;
-    relaxation_kernels<Element, P, R> relaxation;
+    element_kernels<Element> first;
+    element_hessian_kernels<Element> second;
+    relaxation_kernels<Element> relaxation;
 
-    newton_kernels(const queue& q, const any_energy& energy)
-        : newton_kernels(traced_program(q, record(energy, detail::form_for(q.device()))), energy)
+    real_types types;
+
+    newton_kernels(const queue& q, const any_energy& energy, const real_types& of)
+        : newton_kernels(traced_program(q, record(energy, of, detail::form_for(q.device()))), energy, of)
     {
     }
 
 private:
-    newton_kernels(const traced_program& p, const any_energy& energy) : first(p), second(p), relaxation(p, energy) {}
-
-    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    newton_kernels(const traced_program& p, const any_energy& energy, const real_types& of)
+        : first(p), second(p), relaxation(p, energy), types(of)
     {
-        auto all = decltype(first)::record(energy, form);
-        for (auto& text : decltype(second)::record(energy, form)) all.push_back(std::move(text));
-        for (auto& text : decltype(relaxation)::record(energy, form)) all.push_back(std::move(text));
+    }
+
+    static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
+    {
+        auto all = decltype(first)::record(energy, types, form);
+        for (auto& text : decltype(second)::record(energy, types, form)) all.push_back(std::move(text));
+        for (auto& text : decltype(relaxation)::record(energy, types, form)) all.push_back(std::move(text));
         return all;
     }
 };
 
-/// A problem that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into block-sparse
-/// matrices on the device, and a multigrid V-cycle over the hierarchy of the mesh is the preconditioner. The positive
-/// semi-definite stand-in has the element Hessians projected.
-template <class Element, class P, class R>
-class newton_problem : public problem<Element, P, R>
+/// A map_objective that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into
+/// block-sparse matrices on the device, and a multigrid V-cycle over the hierarchy of the mesh is the preconditioner.
+/// The positive semi-definite stand-in has the element Hessians projected.
+template <class Element>
+class newton_objective : public map_objective<Element>
 {
-    using base = problem<Element, P, R>;
+    using base = map_objective<Element>;
 
 public:
     static constexpr int D = Element::dimension;
     using typename base::point;
     using typename base::vector;
-    using kernels = newton_kernels<Element, P, R>;
+    using kernels = newton_kernels<Element>;
 
-    using plan = newton_plan<Element, R>;
+    using plan = newton_plan<Element>;
 
     /// host: made with the lane_form of the queue's device. constraints: besides the pins of the layout.
-    newton_problem(queue q, plan host, const any_energy& energy, energy::weighting weights,
-                   std::shared_ptr<const kernels> traced, const point_constraints<D>& constraints = {})
-        : base(q, host.layout, energy, weights,
-               std::shared_ptr<const element_kernels<Element, P, R>>(traced, &traced->first), constraints),
+    newton_objective(queue q, plan host, const any_energy& energy, energy::weighting weights,
+                     std::shared_ptr<const kernels> traced, const point_constraints<D>& constraints = {})
+        : base(q, host.layout, energy, weights, traced->types,
+               std::shared_ptr<const element_kernels<Element>>(traced, &traced->first), constraints),
           kernels_(std::move(traced)),
-          hessian_(q, hessian_slots<D>::count * host.layout->cell_stride),
-          cycle_(q, std::move(host.cycle)),
+          hessian_(q, kernels_->types.vector, hessian_slots<D>::count * host.layout->cell_stride),
+          cycle_(q, kernels_->types.vector, std::move(host.cycle)),
           assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))), // freed once they are on the device
           relaxation_(q, host.layout,
-                      std::shared_ptr<const relaxation_kernels<Element, P, R>>(kernels_, &kernels_->relaxation),
+                      std::shared_ptr<const relaxation_kernels<Element>>(kernels_, &kernels_->relaxation),
                       this->arrays(), constraints.touched(static_cast<std::size_t>(host.layout->vertex_count)))
     {
     }
@@ -99,12 +104,12 @@ public:
     }
 
     /// What precondition() applies, with its matrices, for measurements.
-    const multigrid<R>& preconditioner() const { return cycle_; }
+    const multigrid& preconditioner() const { return cycle_; }
 
     /// Moves the vertices of the worst elements alone; whether there were any.
     bool relax(point& x) { return relaxation_(x).vertices > 0; }
 
-    /// As problem::warm_up, and what is Newton's.
+    /// As map_objective::warm_up, and what is Newton's.
     void warm_up(point& x)
     {
         base::warm_up(x);
@@ -120,19 +125,18 @@ public:
     }
 
 private:
-    template <class Kernel>
-    void element_hessians(const Kernel& kernel, const point& x)
+    void element_hessians(const recorded_kernel& kernel, const point& x)
     {
         this->launch_hessian(kernel, x, hessian_);
         this->terms().add_hessian(hessian_, [](idx j, idx k) { return hessian_slots<D>::at(j, k, j, k); });
     }
 
     std::shared_ptr<const kernels> kernels_;
-    buffer<R> hessian_;
-    multigrid<R> cycle_;
-    block_assembly<R> assemble_;
-    vertex_relaxation<Element, P, R> relaxation_;
-    std::optional<block_matrix<R>> indefinite_;
+    real_buffer hessian_;
+    multigrid cycle_;
+    block_assembly assemble_;
+    vertex_relaxation<Element> relaxation_;
+    std::optional<block_matrix> indefinite_;
     bool exact_ = false;
 };
 

@@ -15,9 +15,9 @@
 namespace taut
 {
 
-/// All of a newton_problem that can be made on the host, most of its set-up: no queue is needed, so another thread can
-/// make it while the device is at work.
-template <class Element, class R>
+/// All of a newton_objective that can be made on the host, most of its set-up: no queue is needed, so another thread
+/// can make it while the device is at work.
+template <class Element>
 struct newton_plan
 {
     using layout_type = taut::layout<Element>;
@@ -41,7 +41,7 @@ struct newton_plan
     }
 
     std::shared_ptr<const layout_type> layout;
-    multigrid_plan<R> cycle;
+    multigrid_plan cycle;
     assembly_lists assembly;
 
 private:

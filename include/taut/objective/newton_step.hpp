@@ -12,15 +12,16 @@ namespace taut
 /// Newton's step -(|H| + damping m I)^-1 g in N unknowns, traced, with m the largest diagonal entry of |H|. |H| has the
 /// eigenvalues of H without their signs: the step descends where H is indefinite, too, and is short along strong
 /// negative curvature (Dauphin et al. 2014, "saddle-free Newton"). Not a number for H = 0.
-template <class R, int N>
-std::array<sym<R>, static_cast<std::size_t>(N)> newton_step(const symmetric_matrix<sym<R>, N>& H,
-                                                            const std::array<sym<R>, static_cast<std::size_t>(N)>& g,
-                                                            double damping)
+/// type: of the numbers, f32 or f64.
+template <int N>
+std::array<sym<double>, static_cast<std::size_t>(N)>
+newton_step(const symmetric_matrix<sym<double>, N>& H, const std::array<sym<double>, static_cast<std::size_t>(N)>& g,
+            double damping, scalar_type type)
 {
-    using real = sym<R>;
+    using real = sym<double>;
 
     // The positive part less the negative one: |H| = 2 H+ - H.
-    auto L = eigenvalue_clamp<R, N>::apply(H);
+    auto L = eigenvalue_clamp<real, N>::apply(H, type);
     real largest = 0.0;
     for (int j = 0; j < N; ++j)
         for (int i = 0; i <= j; ++i)

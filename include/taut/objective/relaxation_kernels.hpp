@@ -20,7 +20,7 @@ namespace taut
 ///
 /// Elements of a star are work-items of their own, and the sums over a star are another launch: loops over loads only,
 /// beside element formulas that vectorise.
-template <class Element, class P, class R>
+template <class Element>
 struct relaxation_kernels
 {
     static constexpr int D = Element::dimension;
@@ -38,31 +38,28 @@ struct relaxation_kernels
     /// Numbers a row: Newton's step, and the value of the star.
     static constexpr int step_count = D + 1;
 
-    /// corners, W^-1, measure, x, cell_stride, vertex_stride -> minus the density of each cell: the worst is the
-    /// minimum
-    traced_kernel<in<idx>, in<R>, in<R>, in<P>, out<R>, uniform<idx>, uniform<idx>> densities;
+    /// element_inputs -> "minus_density" of each cell: the worst is the minimum
+    recorded_kernel densities;
 
-    /// Where a launch finds its part: first entry and row, stride of the lists, stride of everything else.
-    template <class... Tags>
-    using star_kernel = traced_kernel<in<idx>, Tags..., uniform<idx>, uniform<idx>, uniform<idx>, uniform<idx>>;
+    // The others take "lists", and where a launch finds its part in them (colour_part).
 
-    /// lists, x, corners, W^-1, measure, weight, strides of cells and vertices -> terms; one work-item an entry
-    star_kernel<in<P>, in<idx>, in<R>, in<R>, in<R>, uniform<idx>, uniform<idx>, out<R>> terms;
+    /// element_inputs -> "terms"; one work-item an entry
+    recorded_kernel terms;
 
-    /// lists, terms -> steps; one work-item a row
-    star_kernel<in<R>, out<R>> steps;
+    /// "terms" -> "steps"; one work-item a row
+    recorded_kernel steps;
 
-    /// lists, x, corners, W^-1, measure, weight, strides, steps -> value at each step length; one work-item an entry
-    star_kernel<in<P>, in<idx>, in<R>, in<R>, in<R>, uniform<idx>, uniform<idx>, in<R>, out<R>> tries;
+    /// element_inputs, "steps" -> "values" at each step length; one work-item an entry
+    recorded_kernel tries;
 
-    /// lists, steps, values at the step lengths, x, vertex stride: a row's vertex goes to its best trial, if that is
-    /// better than to stay; one work-item a row
-    star_kernel<in<R>, in<R>, inout<P>, uniform<idx>> moves;
+    /// "steps", "values", "x", "vertex_stride": a row's vertex goes to its best trial, if that is better than to stay;
+    /// one work-item a row
+    recorded_kernel moves;
 
     double rest; ///< density of the identity
 
-    relaxation_kernels(const queue& q, const any_energy& energy)
-        : relaxation_kernels(traced_program(q, record(energy, detail::form_for(q.device()))), energy)
+    relaxation_kernels(const queue& q, const any_energy& energy, const real_types& types)
+        : relaxation_kernels(traced_program(q, record(energy, types, detail::form_for(q.device()))), energy)
     {
     }
 
@@ -78,38 +75,35 @@ struct relaxation_kernels
     }
 
     /// The kernels as text, for a program that others share.
-    static std::vector<kernel_text> record(const any_energy& energy, kernel_form form)
+    static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        return {record_densities(energy, form), record_terms(energy, form), record_steps(form),
-                record_tries(energy, form), record_moves(form)};
+        return {record_densities(energy, types, form), record_terms(energy, types, form), record_steps(types, form),
+                record_tries(energy, types, form), record_moves(types, form)};
     }
 
-    static kernel_text record_densities(const any_energy& energy, kernel_form form)
+    static kernel_text record_densities(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        recording r;
-        const auto corners = r.in<idx>("corners");
-        const auto inverse = r.in<R>("inverse"), measure = r.in<R>("measure");
-        const auto x = r.in<P>("x");
-        auto density = r.out<R>("minus_density");
-        const auto cell_stride = r.scalar<idx>("cell_stride"), vertex_stride = r.scalar<idx>("vertex_stride");
+        recording r(types.vector);
+        const element_inputs in(r, types);
+        auto density = r.out<double>("minus_density", types.vector);
         const auto cell = r.global_id();
-        const typename traced::rest W(cell, inverse, cell_stride);
-        const auto S = W.shape_matrix(traced::edges(cell, corners, x, cell_stride, vertex_stride));
-        density[cell] = -traced::weighted(energy, S, measure[cell], real(1.0));
+        const traced e(in, cell, types.position, types.vector);
+        density[cell] = -traced::weighted(energy, e.shape_matrix(), e.measure(), 1.0);
         return r.finish("relaxation_densities", form);
     }
 
-    static kernel_text record_terms(const any_energy& energy, kernel_form form)
+    static kernel_text record_terms(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        recording r;
-        const entry_inputs in(r);
-        auto terms = r.out<R>("terms");
+        recording r(types.vector);
+        const element_inputs in(r, types);
+        auto terms = r.out<double>("terms", types.vector);
         const colour_part part(r);
-        const star_corner at(r.global_id(), in, part);
+        const star_corner at(r.global_id(), in, part, types);
 
-        const auto S = at.W.shape_matrix(at.edges(in, [&](int i) { return in.x[at.vertex + i * in.vertex_stride]; }));
-        const real weight = in.weight[at.cell];
-        const real value = weight * energy(element<real, D>{S, glm::determinant(S), in.measure[at.cell]});
+        const auto S =
+            at.cell.shape_matrix(at.edges(in, [&](int i) { return in.x[at.vertex + i * in.vertex_stride]; }));
+        const real weight = at.cell.weight(), measure = at.cell.measure();
+        const real value = weight * energy(element<real, D>{S, glm::determinant(S), measure});
 
         // A move of the vertex by t changes S by t q', where q is the gradient of its basis function.
         std::vector<real> entries;
@@ -125,7 +119,7 @@ struct relaxation_kernels
         const auto gradient = differentiate(value, entries);
         int slot = 0;
         const auto put = [&](real term) { terms[at.entry + slot++ * part.stride] = term; };
-        put(traced::weighted(energy, S, in.measure[at.cell], weight));
+        put(traced::weighted(energy, S, measure, weight));
         std::vector<real> g;
         for (int i = 0; i < D; ++i) put(g.emplace_back(along(gradient, i)));
         for (int j = 0; j < D; ++j)
@@ -136,153 +130,135 @@ struct relaxation_kernels
         return r.finish("relaxation_terms", form);
     }
 
-    static kernel_text record_steps(kernel_form form)
+    static kernel_text record_steps(const real_types& types, kernel_form form)
     {
-        recording r;
-        const auto lists = r.in<idx>("lists");
-        const auto terms = r.in<R>("terms");
-        auto steps = r.out<R>("steps");
+        recording r(types.vector);
+        const auto terms = r.in<double>("terms", types.vector);
+        auto steps = r.out<double>("steps", types.vector);
         const colour_part part(r);
         const auto row = r.global_id();
 
         int slot = 0;
-        const auto sum = [&] { return part.sum_of_row(lists, row, terms, slot++); };
+        const auto sum = [&] { return part.sum_of_row(row, terms, slot++); };
         steps[row + D * part.stride] = sum();
         std::array<real, static_cast<std::size_t>(D)> g;
         for (auto& entry : g) entry = sum();
         symmetric_matrix<real, D> H;
         for (int j = 0; j < D; ++j)
             for (int i = 0; i <= j; ++i) H(i, j) = sum();
-        const auto d = newton_step<R, D>(H, g, damping);
+        const auto d = newton_step<D>(H, g, damping, types.vector);
         for (int i = 0; i < D; ++i) steps[row + i * part.stride] = d[static_cast<std::size_t>(i)];
         return r.finish("relaxation_steps", form);
     }
 
-    static kernel_text record_tries(const any_energy& energy, kernel_form form)
+    static kernel_text record_tries(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        recording r;
-        const entry_inputs in(r);
-        const auto steps = r.in<R>("steps");
-        auto values = r.out<R>("values");
+        recording r(types.vector);
+        const element_inputs in(r, types);
+        const auto steps = r.in<double>("steps", types.vector);
+        auto values = r.out<double>("values", types.vector);
         const colour_part part(r);
-        const star_corner at(r.global_id(), in, part);
-        const real measure = in.measure[at.cell], weight = in.weight[at.cell];
+        const star_corner at(r.global_id(), in, part, types);
         for (int t = 0; t < trials; ++t)
         {
             const auto moved = [&](int i) {
                 return moved_coordinate(in.x[at.vertex + i * in.vertex_stride], length(t),
-                                        steps[at.row + i * part.stride]);
+                                        steps[at.row + i * part.stride], types);
             };
-            const auto S = at.W.shape_matrix(at.edges(in, moved));
-            values[at.entry + t * part.stride] = traced::weighted(energy, S, measure, weight);
+            const auto S = at.cell.shape_matrix(at.edges(in, moved));
+            values[at.entry + t * part.stride] = traced::weighted(energy, S, at.cell.measure(), at.cell.weight());
         }
         return r.finish("relaxation_tries", form);
     }
 
-    static kernel_text record_moves(kernel_form form)
+    static kernel_text record_moves(const real_types& types, kernel_form form)
     {
-        recording r;
-        const auto lists = r.in<idx>("lists");
-        const auto steps = r.in<R>("steps"), values = r.in<R>("values");
-        auto x = r.inout<P>("x");
+        recording r(types.vector);
+        const auto steps = r.in<double>("steps", types.vector), values = r.in<double>("values", types.vector);
+        auto x = r.inout<double>("x", types.position);
         const auto vertex_stride = r.scalar<idx>("vertex_stride");
         const colour_part part(r);
         const auto row = r.global_id();
 
         // Less by more than rounding; NaN and infinity are never less.
+        const double epsilon = types.vector == scalar_type::f64 ? std::numeric_limits<double>::epsilon()
+                                                                : std::numeric_limits<float>::epsilon();
         const real stay = steps[row + D * part.stride];
-        real best = stay - real(16.0 * std::numeric_limits<R>::epsilon()) * abs(stay), a = 0.0;
+        real best = stay - 16.0 * epsilon * abs(stay), a = 0.0;
         for (int t = 0; t < trials; ++t)
         {
-            const real value = part.sum_of_row(lists, row, values, t);
-            a = select(value < best, real(length(t)), a);
+            const real value = part.sum_of_row(row, values, t);
+            a = select(value < best, length(t), a);
             best = select(value < best, value, best);
         }
-        const auto vertex = lists[row + part.first_row];
+        const auto vertex = part.lists[row + part.first_row];
         for (int i = 0; i < D; ++i)
         {
             const auto coordinate = x[vertex + i * vertex_stride];
-            const sym<P> from = coordinate;
-            coordinate = select(a > real(0.0), moved_coordinate(from, a, steps[row + i * part.stride]), from);
+            const real from = coordinate;
+            coordinate = select(a > 0.0, moved_coordinate(from, a, steps[row + i * part.stride], types), from);
         }
         return r.finish("relaxation_moves", form);
     }
 
 private:
-    using traced = traced_element<D, P, R>;
+    using traced = traced_element<D>;
     using real = typename traced::real;
 
-    static real length(int t) { return real(step_lengths[static_cast<std::size_t>(t)]); }
+    static real length(int t) { return step_lengths[static_cast<std::size_t>(t)]; }
 
     /// One spelling for the trial and for the move: what was measured is what is taken.
-    static sym<P> moved_coordinate(sym<P> from, real a, real step) { return from + cast<P>(a * step); }
+    static real moved_coordinate(real from, real a, real step, const real_types& types)
+    {
+        return from + cast(types.position, a * step);
+    }
 
     /// The part of the lists that a launch has. Entries and rows count from its beginning.
     struct colour_part
     {
         explicit colour_part(recording& r)
-            : first_entry(r.scalar<idx>("first_entry")),
+            : lists(r.in<idx>("lists")),
+              first_entry(r.scalar<idx>("first_entry")),
               first_row(r.scalar<idx>("first_row")),
               list_stride(r.scalar<idx>("list_stride")),
               stride(r.scalar<idx>("stride"))
         {
         }
 
-        real sum_of_row(const in_array<idx>& lists, sym<idx> row, const in_array<R>& numbers, int slot) const
+        real sum_of_row(sym<idx> row, const in_array<double>& numbers, int slot) const
         {
             const auto offset = row + first_row + list_stride;
             const auto base = slot * stride - first_entry;
             return sum_over(lists[offset], lists[offset + 1], [&](sym<idx> entry) { return numbers[entry + base]; });
         }
 
-        sym<idx> first_entry, first_row, list_stride, stride;
-    };
-
-    /// What the kernels of entries read, in the order of their signature.
-    struct entry_inputs
-    {
-        explicit entry_inputs(recording& r)
-            : lists(r.in<idx>("lists")),
-              x(r.in<P>("x")),
-              corners(r.in<idx>("corners")),
-              inverse(r.in<R>("inverse")),
-              measure(r.in<R>("measure")),
-              weight(r.in<R>("weight")),
-              cell_stride(r.scalar<idx>("cell_stride")),
-              vertex_stride(r.scalar<idx>("vertex_stride"))
-        {
-        }
-
         in_array<idx> lists;
-        in_array<P> x;
-        in_array<idx> corners;
-        in_array<R> inverse, measure, weight;
-        sym<idx> cell_stride, vertex_stride;
+        sym<idx> first_entry, first_row, list_stride, stride;
     };
 
     /// An element at the vertex of a row. Which corner the vertex is, only the device knows.
     struct star_corner
     {
-        sym<idx> entry, row, cell, vertex;
+        sym<idx> entry, row, number, vertex;
         std::array<sym<idx>, static_cast<std::size_t>(D) + 1> corners;
-        typename traced::rest W;
+        traced cell;
         std::array<real, static_cast<std::size_t>(D)> q; ///< gradient of the vertex' basis function
 
-        star_corner(sym<idx> entry_of_part, const entry_inputs& in, const colour_part& part)
+        star_corner(sym<idx> entry_of_part, const element_inputs& in, const colour_part& part, const real_types& types)
             : entry(entry_of_part),
-              row(in.lists[entry + part.first_entry + 3 * part.list_stride] - part.first_row),
-              cell(in.lists[entry + part.first_entry + 2 * part.list_stride]),
-              vertex(in.lists[row + part.first_row]),
-              W(cell, in.inverse, in.cell_stride)
+              row(part.lists[entry + part.first_entry + 3 * part.list_stride] - part.first_row),
+              number(part.lists[entry + part.first_entry + 2 * part.list_stride]),
+              vertex(part.lists[row + part.first_row]),
+              cell(in, number, types.position, types.vector)
         {
-            for (int k = 0; k <= D; ++k) corners[static_cast<std::size_t>(k)] = in.corners[cell + k * in.cell_stride];
+            for (int k = 0; k <= D; ++k) corners[static_cast<std::size_t>(k)] = in.corners[number + k * in.cell_stride];
             // Rows of W^-1 belong to corners 1..D; corner 0 has minus their sum.
             std::array<real, static_cast<std::size_t>(D)> sign;
             for (int k = 0; k < D; ++k) sign[static_cast<std::size_t>(k)] = here(k + 1) - here(0);
             for (int c = 0; c < D; ++c)
             {
-                real sum = sign[0] * W(0, c);
-                for (int k = 1; k <= c; ++k) sum = sum + sign[static_cast<std::size_t>(k)] * W(k, c);
+                real sum = sign[0] * cell.inverse(0, c);
+                for (int k = 1; k <= c; ++k) sum = sum + sign[static_cast<std::size_t>(k)] * cell.inverse(k, c);
                 q[static_cast<std::size_t>(c)] = sum;
             }
         }
@@ -293,11 +269,11 @@ private:
 
         /// Edges as in traced_element, with coordinate i of the vertex at place(i).
         template <class Place>
-        glm::mat<D, D, sym<P>> edges(const entry_inputs& in, const Place& place) const
+        typename traced::matrix edges(const element_inputs& in, const Place& place) const
         {
             const auto coordinate = [&](int k, int i)
             { return select(is_here(k), place(i), in.x[corners[static_cast<std::size_t>(k)] + i * in.vertex_stride]); };
-            glm::mat<D, D, sym<P>> A;
+            typename traced::matrix A;
             for (int k = 0; k < D; ++k)
                 for (int i = 0; i < D; ++i) A[k][i] = coordinate(k + 1, i) - coordinate(0, i);
             return A;

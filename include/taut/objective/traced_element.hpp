@@ -7,69 +7,90 @@
 #include <vector>
 
 #include <taut/energy/any_energy.hpp>
-#include <taut/symbolic/array.hpp>
+#include <taut/objective/real_types.hpp>
 #include <taut/symbolic/differentiate.hpp>
+#include <taut/symbolic/recording.hpp>
 
 namespace taut
 {
 
-/// One element while a kernel is being traced: what its work-item loads and how S comes from it. P is the type of
-/// positions, R that of the formula. S is formed in P and only then cast to R: in a thin element it is a small
-/// difference of long edges, and its rounding would be the noise of the gradient (docs/numerics.md).
-template <int D, class P, class R>
-struct traced_element
+/// What every kernel of elements reads of a mesh and a map, by the names under which it is bound
+/// (element_arrays::with).
+struct element_inputs
 {
-    using real = sym<R>;
+    element_inputs(recording& r, const real_types& types)
+        : corners(r.in<idx>("corners")),
+          inverse(r.in<double>("inverse", types.vector)),
+          measure(r.in<double>("measure", types.vector)),
+          weight(r.in<double>("weight", types.vector)),
+          x(r.in<double>("x", types.position)),
+          cell_stride(r.scalar<idx>("cell_stride")),
+          vertex_stride(r.scalar<idx>("vertex_stride"))
+    {
+    }
+
+    in_array<idx> corners;
+    in_array<double> inverse, measure, weight, x;
+    sym<idx> cell_stride, vertex_stride;
+};
+
+/// One element while a kernel is being traced: what its work-item loads and how S comes from it. S is formed in the
+/// type of positions and only then cast to that of the formula: in a thin element it is a small difference of long
+/// edges, and its rounding would be the noise of the gradient (docs/numerics.md).
+template <int D>
+class traced_element
+{
+public:
+    using real = sym<double>;
     using matrix = glm::mat<D, D, real>;
 
-    /// Edges from corner 0 to corners 1..D, as columns, of an array of coordinates, formed in P.
-    template <class Corners, class T>
-    static glm::mat<D, D, sym<P>> edges(sym<idx> cell, const Corners& corners, const in_array<T>& x,
-                                        sym<idx> cell_stride, sym<idx> vertex_stride)
+    /// formula: the type of S and of what is computed from it.
+    traced_element(const element_inputs& in, sym<idx> cell, scalar_type position, scalar_type formula)
+        : in_(in), cell_(cell), position_(position), formula_(formula)
     {
-        const sym<idx> first = corners[cell];
-        glm::mat<D, D, sym<P>> A;
+        for (std::size_t k = 0; k < inverse_.size(); ++k)
+            inverse_[k] = cast(formula, in.inverse[cell + static_cast<int>(k) * in.cell_stride]);
+    }
+
+    real measure() const { return cast(formula_, in_.measure[cell_]); }
+    real weight() const { return cast(formula_, in_.weight[cell_]); }
+
+    /// Edges from corner 0 to corners 1..D, as columns, of an array of coordinates, in the type of positions.
+    matrix edges(const in_array<double>& x) const
+    {
+        const sym<idx> first = in_.corners[cell_];
+        matrix A;
         for (int k = 0; k < D; ++k)
         {
-            const sym<idx> vertex = corners[cell + (k + 1) * cell_stride];
+            const sym<idx> vertex = in_.corners[cell_ + (k + 1) * in_.cell_stride];
             for (int r = 0; r < D; ++r)
-                A[k][r] = cast<P>(x[vertex + r * vertex_stride]) - cast<P>(x[first + r * vertex_stride]);
+                A[k][r] = cast(position_, x[vertex + r * in_.vertex_stride]) -
+                          cast(position_, x[first + r * in_.vertex_stride]);
         }
         return A;
     }
 
-    /// W^-1 of the cell, as its upper triangle: entry(row, column) for row <= column.
-    struct rest
+    /// Entry (row, column) of W^-1 for row <= column; the others are 0.
+    const real& inverse(int row, int column) const
     {
-        std::array<real, D*(D + 1) / 2> entries;
+        return inverse_[static_cast<std::size_t>(column * (column + 1) / 2 + row)];
+    }
 
-        template <class Inverse>
-        rest(sym<idx> cell, const Inverse& inverse, sym<idx> cell_stride)
-        {
-            for (std::size_t k = 0; k < entries.size(); ++k)
-                entries[k] = cast<R>(inverse[cell + static_cast<int>(k) * cell_stride]);
-        }
-
-        const real& operator()(int row, int column) const
-        {
-            return entries[static_cast<std::size_t>(column * (column + 1) / 2 + row)];
-        }
-
-        /// S = A W^-1 (eq. 3) in the type of A, without the products by the zeros of W^-1.
-        template <class T>
-        matrix shape_matrix(const glm::mat<D, D, sym<T>>& A) const
-        {
-            matrix S;
-            for (int c = 0; c < D; ++c)
-                for (int r = 0; r < D; ++r)
-                {
-                    sym<T> sum = A[0][r] * cast<T>((*this)(0, c));
-                    for (int k = 1; k <= c; ++k) sum = sum + A[k][r] * cast<T>((*this)(k, c));
-                    S[c][r] = cast<R>(sum);
-                }
-            return S;
-        }
-    };
+    /// S = A W^-1 (eq. 3) in the type of A, without the products by the zeros of W^-1.
+    matrix shape_matrix(const matrix& A) const
+    {
+        matrix S;
+        for (int c = 0; c < D; ++c)
+            for (int r = 0; r < D; ++r)
+            {
+                real sum = A[0][r] * cast(position_, inverse(0, c));
+                for (int k = 1; k <= c; ++k) sum = sum + A[k][r] * cast(position_, inverse(k, c));
+                S[c][r] = cast(formula_, sum);
+            }
+        return S;
+    }
+    /// Of the map itself.
+    matrix shape_matrix() const { return shape_matrix(edges(in_.x)); }
 
     /// weight * energy(S); +infinity where a barrier energy is outside its domain.
     static real weighted(const any_energy& energy, const matrix& S, real measure, real weight)
@@ -77,15 +98,14 @@ struct traced_element
         const real det = glm::determinant(S);
         const real value = weight * energy(element<real, D>{S, det, measure});
         if (!energy.barrier()) return value;
-        return select(det > real(0.0), value, real(std::numeric_limits<double>::infinity()));
+        return select(det > 0.0, value, std::numeric_limits<double>::infinity());
     }
 
     /// Gradient of weight * energy at S = A W^-1 with respect to the corners, corner 0 first; D entries a corner. An
     /// energy of S does not change under translation, so corner 0 takes minus the sum of the others.
-    static std::array<std::array<real, D>, D + 1> corner_gradients(const any_energy& energy, const matrix& S,
-                                                                   const rest& W, real measure, real weight)
+    std::array<std::array<real, D>, D + 1> corner_gradients(const any_energy& energy, const matrix& S) const
     {
-        const real value = weight * energy(element<real, D>{S, glm::determinant(S), measure});
+        const real value = weight() * energy(element<real, D>{S, glm::determinant(S), measure()});
         std::vector<real> entries;
         for (int c = 0; c < D; ++c)
             for (int r = 0; r < D; ++r) entries.push_back(S[c][r]);
@@ -98,8 +118,8 @@ struct traced_element
             for (std::size_t k = 0; k < D; ++k)
             {
                 // Edge k takes part in columns k and on of S.
-                real sum = by_entry[k * D + r] * W(int(k), int(k));
-                for (std::size_t c = k + 1; c < D; ++c) sum = sum + by_entry[c * D + r] * W(int(k), int(c));
+                real sum = by_entry[k * D + r] * inverse(int(k), int(k));
+                for (std::size_t c = k + 1; c < D; ++c) sum = sum + by_entry[c * D + r] * inverse(int(k), int(c));
                 g[k + 1][r] = sum;
                 all = k == 0 ? sum : all + sum;
             }
@@ -107,6 +127,12 @@ struct traced_element
         }
         return g;
     }
+
+private:
+    element_inputs in_;
+    sym<idx> cell_;
+    scalar_type position_, formula_;
+    std::array<real, D*(D + 1) / 2> inverse_;
 };
 
 } // namespace taut

@@ -43,23 +43,23 @@ struct relaxation_result
 /// bit for bit. The same input gives the same output.
 ///
 /// Costs an evaluation of the energy and one wait; and, if something is bad, four short launches a colour and sweep.
-/// Device memory: R a cell; while elements are bad, 4 indices an entry (an element at a moving vertex) and 11 R (14 R
-/// in space) an entry of the widest colour.
-template <class Element, class P, class R>
+/// Device memory: a number a cell; while elements are bad, 4 indices an entry (an element at a moving vertex) and 11
+/// numbers (14 in space) an entry of the widest colour.
+template <class Element>
 class vertex_relaxation
 {
 public:
     static constexpr int D = Element::dimension;
-    using kernels = relaxation_kernels<Element, P, R>;
-    using arrays = element_arrays<Element, R>;
+    using kernels = relaxation_kernels<Element>;
+    using arrays = element_arrays<Element>;
     using params = relaxation_params;
     using result = relaxation_result;
 
     /// With kernels and arrays of its own.
     vertex_relaxation(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
-                      energy::weighting weights)
-        : vertex_relaxation(q, mesh_layout, std::make_shared<const kernels>(q, energy),
-                            std::make_shared<const arrays>(q, *mesh_layout, weights))
+                      energy::weighting weights, const real_types& types = {})
+        : vertex_relaxation(q, mesh_layout, std::make_shared<const kernels>(q, energy, types),
+                            std::make_shared<const arrays>(q, types.vector, *mesh_layout, weights))
     {
     }
 
@@ -74,19 +74,18 @@ public:
           arrays_(std::move(shared_arrays)),
           scheduler_(*layout_, still),
           reductions_(queue_),
-          densities_(queue_, layout_->cell_stride)
+          densities_(queue_, type(), layout_->cell_stride)
     {
     }
 
     /// Relaxes x, coordinates as in layout.hpp. A map on which the energy is not finite stays as it is.
-    result operator()(device_vector<P>& x, const params& how = {})
+    result operator()(device_vector& x, const params& how = {})
     {
-        kernels_->densities({layout_->cell_stride, step}, arrays_->corners, arrays_->inverse, arrays_->measure,
-                            x.data(), densities_, cell_stride(), vertex_stride());
+        kernels_->densities({layout_->cell_stride, step}, arrays_->with(x.data(), {{"minus_density", densities_}}));
         const auto least = reductions_.minimum(densities_, cell_count());
         const auto mean = reductions_.dot(densities_, arrays_->weight, cell_count());
-        host_.resize(cell_count());
-        densities_.begin_download(std::span(host_));
+        host_ = host_reals(type(), cell_count());
+        densities_.begin_download(host_);
         try
         {
             reductions_.fetch();
@@ -111,14 +110,14 @@ public:
     }
 
     /// Launches every kernel once, so that what the driver compiles at the first launch is compiled. x stays as it is.
-    void warm_up(device_vector<P>& x)
+    void warm_up(device_vector& x)
     {
         params none;
         none.sweeps = 0;
         (*this)(x, none);
         if (layout_->free_count == 0) return;
         // A colour of no rows launches nothing, so a vertex has to move; it moves on a copy.
-        device_vector<P> copy(queue_, x.size());
+        device_vector copy(queue_, x.data().type(), x.size());
         copy.data().copy_from(x.data());
         const idx cell[] = {layout_->vertex_corners.items.front() / idx(Element::corners)};
         run(scheduler_(*layout_, cell), 1, copy);
@@ -128,45 +127,59 @@ public:
 private:
     static constexpr std::size_t step = taut::layout<Element>::step;
 
+    scalar_type type() const { return arrays_->weight.type(); }
     std::size_t cell_count() const { return static_cast<std::size_t>(layout_->cell_count); }
-    idx cell_stride() const { return static_cast<idx>(layout_->cell_stride); }
-    idx vertex_stride() const { return static_cast<idx>(layout_->vertex_stride); }
 
     /// The cells with a larger density.
     std::vector<idx> above(double limit) const
     {
         std::vector<idx> cells;
         for (std::size_t c = 0; c < host_.size(); ++c)
-            if (static_cast<double>(-host_[c]) > limit) cells.push_back(static_cast<idx>(c));
+            if (-host_[c] > limit) cells.push_back(static_cast<idx>(c));
         return cells;
     }
 
-    void run(const relaxation_schedule& s, int sweeps, device_vector<P>& x)
+    void run(const relaxation_schedule& s, int sweeps, device_vector& x)
     {
         const auto wide = static_cast<std::size_t>(s.widest);
         require(steps_, kernels::step_count * wide);
         require(numbers_, std::max(kernels::term_count, kernels::trials) * wide);
         const buffer<idx> lists(queue_, s.lists);
-        const auto& a = *arrays_;
         for (int sweep = 0; sweep < sweeps; ++sweep)
             for (const auto& c : s.colours)
             {
                 const auto rows = static_cast<std::size_t>(c.rows), entries = static_cast<std::size_t>(c.entries);
-                kernels_->terms(entries, lists, x.data(), a.corners, a.inverse, a.measure, a.weight, cell_stride(),
-                                vertex_stride(), numbers_, c.first_entry, c.first_row, s.stride, s.widest);
-                kernels_->steps(rows, lists, numbers_, steps_, c.first_entry, c.first_row, s.stride, s.widest);
-                kernels_->tries(entries, lists, x.data(), a.corners, a.inverse, a.measure, a.weight, cell_stride(),
-                                vertex_stride(), steps_, numbers_, c.first_entry, c.first_row, s.stride, s.widest);
-                kernels_->moves(rows, lists, steps_, numbers_, x.data(), vertex_stride(), c.first_entry, c.first_row,
-                                s.stride, s.widest);
+                const auto part = [&](std::initializer_list<named_argument> more)
+                {
+                    std::vector<named_argument> all = more;
+                    all.insert(all.end(), {{"lists", lists},
+                                           {"first_entry", c.first_entry},
+                                           {"first_row", c.first_row},
+                                           {"list_stride", s.stride},
+                                           {"stride", s.widest}});
+                    return all;
+                };
+                const auto of_elements = [&](std::initializer_list<named_argument> more)
+                {
+                    auto all = part(more);
+                    const auto inputs = arrays_->with(x.data(), {});
+                    all.insert(all.end(), inputs.begin(), inputs.end());
+                    return all;
+                };
+                kernels_->terms(entries, of_elements({{"terms", numbers_}}));
+                kernels_->steps(rows, part({{"terms", numbers_}, {"steps", steps_}}));
+                kernels_->tries(entries, of_elements({{"steps", steps_}, {"values", numbers_}}));
+                kernels_->moves(rows, part({{"steps", steps_},
+                                            {"values", numbers_},
+                                            {"x", x.data()},
+                                            {"vertex_stride", arrays_->vertex_stride}}));
             }
     }
 
     /// Room for n numbers, and for half as many more if it has to grow.
-    template <class T>
-    void require(buffer<T>& b, std::size_t n)
+    void require(real_buffer& b, std::size_t n)
     {
-        if (b.size() < n) b = buffer<T>(queue_, n + n / 2);
+        if (b.size() < n) b = real_buffer(queue_, type(), n + n / 2);
     }
 
     queue queue_;
@@ -175,9 +188,9 @@ private:
     std::shared_ptr<const arrays> arrays_;
     relaxation_scheduler<Element> scheduler_;
     reductions reductions_;
-    buffer<R> densities_;
-    buffer<R> steps_, numbers_; ///< of one colour; the terms, and then the trial values
-    std::vector<R> host_;       ///< a copy of the densities
+    real_buffer densities_;
+    real_buffer steps_, numbers_; ///< of one colour; the terms, and then the trial values
+    host_reals host_;             ///< a copy of the densities
 };
 
 } // namespace taut

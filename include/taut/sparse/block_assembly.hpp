@@ -11,12 +11,11 @@ namespace taut
 {
 
 /// Sums element blocks (assembly_lists.hpp) into a block matrix. Deterministic, without atomics; one launch.
-template <class T>
 class block_assembly
 {
 public:
     /// For A and all matrices like it; the lists are of its pattern and may go afterwards. Throws parameter_error.
-    block_assembly(const block_matrix<T>& A, const assembly_lists& lists)
+    block_assembly(const block_matrix& A, const assembly_lists& lists)
         : queue_(A.queue()),
           items_(A.form().items(A.stride())),
           values_(A.values().size()),
@@ -29,18 +28,24 @@ public:
     {
         if (lists.places != A.columns().size())
             throw parameter_error("assembly_lists", "are of another pattern than the matrix");
-        detail::load_block_kernel<T>(assemble_, queue_, "assemble", A.block_size(), A.form());
+        assemble_ = detail::block_kernel(queue_, "assemble", A.type(), A.block_size(), A.form());
     }
 
     /// Enqueues the sums into the values of A. Its diagonal is not inverted.
-    void operator()(const buffer<T>& blocks, block_matrix<T>& A) const
+    void operator()(const real_buffer& blocks, block_matrix& A) const
     {
         if (blocks.size() < reach_ || A.values().size() != values_)
             throw parameter_error("block_assembly", "blocks of " + std::to_string(reach_) +
                                                         " numbers and a matrix of the same pattern are needed");
         if (slots_.empty() && diagonal_slots_.empty()) return A.values().fill(0);
-        assemble_(items_, cells_, A.offsets(), diagonal_offsets_, diagonal_slots_, slot_offsets_, slots_, blocks,
-                  A.values());
+        assemble_(items_, {{"cells", cells_},
+                           {"offsets", A.offsets()},
+                           {"diagonal_offsets", diagonal_offsets_},
+                           {"diagonal_slots", diagonal_slots_},
+                           {"slot_offsets", slot_offsets_},
+                           {"slots", slots_},
+                           {"blocks", blocks},
+                           {"A", A.values()}});
     }
 
     /// Bytes of the lists.
@@ -55,8 +60,7 @@ private:
     std::size_t values_, reach_ = 0;
     idx cells_;
     buffer<idx> diagonal_offsets_, diagonal_slots_, slot_offsets_, slots_;
-    using list = const buffer<idx>;
-    typed_kernel<idx, list, list, list, list, list, const buffer<T>, buffer<T>> assemble_;
+    kernel assemble_;
 };
 
 } // namespace taut

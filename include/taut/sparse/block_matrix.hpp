@@ -21,36 +21,35 @@ namespace taut
 namespace detail
 {
 
-/// A kernel of kernels/block_sparse.cl for D x D blocks of T.
-template <class T, class... Args>
-void load_block_kernel(typed_kernel<Args...>& kernel, queue& q, const char* name, int D, lane_form form)
+/// A kernel of kernels/block_sparse.cl for D x D blocks.
+inline kernel block_kernel(queue& q, const char* name, scalar_type real, int D, lane_form form)
 {
-    const bool wide = std::is_same_v<T, double>;
-    kernel = {q, kernels::block_sparse, name,
-              std::string("-DREAL=") + cl_name<T>() + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
-                  " -DD=" + std::to_string(D) + " -DC=" + std::to_string(form.slice) +
-                  " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
-                  " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f")};
+    const bool wide = real == scalar_type::f64;
+    return {q, kernels::block_sparse, name,
+            "-DREAL=" + std::string(spelling(real)) + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
+                " -DD=" + std::to_string(D) + " -DC=" + std::to_string(form.slice) +
+                " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
+                " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f"),
+            real};
 }
 
 } // namespace detail
 
-/// A square block-sparse matrix on a device, with D x D blocks of T, and the inverses of its diagonal blocks. Vectors
-/// have component c of row v at [c * stride() + v] and zeros as padding; make one with vector(). Values are 0 until
-/// they are assembled, refreshed or uploaded. Nothing waits but upload, download and construction.
-template <class T>
+/// A square block-sparse matrix on a device, with D x D blocks of float or double, and the inverses of its diagonal
+/// blocks. Vectors have component c of row v at [c * stride() + v] and zeros as padding; make one with vector(). Values
+/// are 0 until they are assembled, refreshed or uploaded. Nothing waits but upload, download and construction.
 class block_matrix
 {
 public:
-    block_matrix(taut::queue& q, block_pattern pattern, int D)
-        : block_matrix(q, std::move(pattern), D, lane_form::for_device(q.device()))
+    block_matrix(taut::queue& q, scalar_type type, block_pattern pattern, int D)
+        : block_matrix(q, type, std::move(pattern), D, lane_form::for_device(q.device()))
     {
     }
     /// The pattern has form.slice rows a slice. Throws parameter_error.
-    block_matrix(taut::queue& q, block_pattern pattern, int D, lane_form form)
-        : shared_(std::make_shared<structure>(q, std::move(pattern), D, form)),
-          values_(q, shared_->places * blocks()),
-          inverse_(q, inverse_size())
+    block_matrix(taut::queue& q, scalar_type type, block_pattern pattern, int D, lane_form form)
+        : shared_(std::make_shared<structure>(q, type, std::move(pattern), D, form)),
+          values_(q, type, shared_->places * blocks()),
+          inverse_(q, type, inverse_size())
     {
         values_.fill(0);
         inverse_.fill(0);
@@ -60,6 +59,7 @@ public:
     /// inverses until invert_diagonal().
     block_matrix like() const { return block_matrix(shared_); }
 
+    scalar_type type() const noexcept { return shared_->type; }
     int block_size() const noexcept { return shared_->D; }
     lane_form form() const noexcept { return shared_->form; }
     std::size_t rows() const noexcept { return shared_->rows; }
@@ -72,33 +72,56 @@ public:
     void forget_pattern() { shared_->host = {}; }
 
     /// The zero vector of the space that the matrix acts on: D * stride() numbers.
-    device_vector<T> vector() const { return {shared_->queue, d() * stride()}; }
+    device_vector vector() const { return {shared_->queue, type(), d() * stride()}; }
 
     /// y = A x; x and y differ.
-    void multiply(const device_vector<T>& x, device_vector<T>& y) const
+    void multiply(const device_vector& x, device_vector& y) const
     {
         check(x, y);
-        shared_->product(items(), pitch(), offsets(), columns(), values_, x.data(), y.data());
+        shared_->product(items(), {{"stride", pitch()},
+                                   {"offsets", offsets()},
+                                   {"columns", columns()},
+                                   {"A", values_},
+                                   {"x", x.data()},
+                                   {"y", y.data()}});
     }
     /// r = b - A x; r may be b, not x.
-    void residual(const device_vector<T>& x, const device_vector<T>& b, device_vector<T>& r) const
+    void residual(const device_vector& x, const device_vector& b, device_vector& r) const
     {
         check(x, b, r);
-        shared_->residual(items(), pitch(), offsets(), columns(), values_, x.data(), b.data(), r.data());
+        shared_->residual(items(), {{"stride", pitch()},
+                                    {"offsets", offsets()},
+                                    {"columns", columns()},
+                                    {"A", values_},
+                                    {"x", x.data()},
+                                    {"b", b.data()},
+                                    {"r", r.data()}});
     }
     /// out = now x + past before + scale B^-1 (b - A x) with B the block diagonal; out may be before, not x.
-    void smooth(const device_vector<T>& b, const device_vector<T>& x, const device_vector<T>& before, double now,
-                double past, double scale, device_vector<T>& out) const
+    void smooth(const device_vector& b, const device_vector& x, const device_vector& before, double now, double past,
+                double scale, device_vector& out) const
     {
         check(b, x, before, out);
-        shared_->smooth(items(), pitch(), offsets(), columns(), values_, inverse(), b.data(), x.data(), before.data(),
-                        T(now), T(past), T(scale), out.data());
+        shared_->smooth(items(), {{"stride", pitch()},
+                                  {"offsets", offsets()},
+                                  {"columns", columns()},
+                                  {"A", values_},
+                                  {"inverse", inverse()},
+                                  {"b", b.data()},
+                                  {"x", x.data()},
+                                  {"before", before.data()},
+                                  {"now", now},
+                                  {"past", past},
+                                  {"scale", scale},
+                                  {"out", out.data()}});
     }
     /// out = scale B^-1 b
-    void jacobi(const device_vector<T>& b, double scale, device_vector<T>& out) const
+    void jacobi(const device_vector& b, double scale, device_vector& out) const
     {
         check(b, out);
-        shared_->jacobi(items(), pitch(), inverse(), b.data(), T(scale), out.data());
+        shared_->jacobi(
+            items(),
+            {{"stride", pitch()}, {"inverse", inverse()}, {"b", b.data()}, {"scale", scale}, {"out", out.data()}});
     }
 
     /// Inverts the diagonal blocks; call it after the values have changed. Pivots are kept above a small multiple of
@@ -107,33 +130,33 @@ public:
     {
         if (inverse_.empty())
         {
-            inverse_ = buffer<T>(shared_->queue, inverse_size());
+            inverse_ = real_buffer(shared_->queue, type(), inverse_size());
             inverse_.fill(0);
         }
-        shared_->invert(items(), pitch(), offsets(), values_, inverse_);
+        shared_->invert(items(), {{"stride", pitch()}, {"offsets", offsets()}, {"A", values_}, {"inverse", inverse_}});
     }
 
     /// Values by place of the pattern, D * D numbers a block, by rows.
-    std::vector<T> download() const
+    std::vector<double> download() const
     {
         const auto device = values_.download();
-        std::vector<T> host(device.size());
+        std::vector<double> host(device.size());
         for (std::size_t at = 0; at < host.size(); ++at) host[at] = device[device_place(at)];
         return host;
     }
-    void upload(std::span<const T> host)
+    void upload(std::span<const double> host)
     {
         if (host.size() != values_.size())
             throw parameter_error("block_matrix.upload", "D * D values a place are needed");
-        std::vector<T> device(host.size());
+        std::vector<double> device(host.size());
         for (std::size_t at = 0; at < host.size(); ++at) device[device_place(at)] = host[at];
         values_.upload(device);
     }
 
-    buffer<T>& values() noexcept { return values_; }
-    const buffer<T>& values() const noexcept { return values_; }
+    real_buffer& values() noexcept { return values_; }
+    const real_buffer& values() const noexcept { return values_; }
     /// Packed inverses of the diagonal blocks. Throws parameter_error before they exist.
-    const buffer<T>& inverse() const
+    const real_buffer& inverse() const
     {
         if (inverse_.empty()) throw parameter_error("block_matrix", "call invert_diagonal() first");
         return inverse_;
@@ -142,7 +165,10 @@ public:
     const buffer<idx>& columns() const noexcept { return shared_->columns; }
 
     /// What one product must move: values, columns, the vector read once and the result written.
-    std::size_t product_bytes() const { return values_.bytes() + columns().bytes() + 2 * d() * stride() * sizeof(T); }
+    std::size_t product_bytes() const
+    {
+        return values_.bytes() + columns().bytes() + 2 * d() * stride() * size_of(type());
+    }
     /// Bytes on the device: values, inverses, and the lists that like() shares.
     std::size_t bytes() const { return values_.bytes() + inverse_.bytes() + offsets().bytes() + columns().bytes(); }
 
@@ -150,8 +176,9 @@ private:
     /// What matrices of one pattern share.
     struct structure
     {
-        structure(taut::queue& q, block_pattern pattern, int size, lane_form lanes)
+        structure(taut::queue& q, scalar_type real, block_pattern pattern, int size, lane_form lanes)
             : queue(q),
+              type(real),
               D(size),
               form(lanes),
               rows(pattern.rows()),
@@ -165,11 +192,11 @@ private:
                 throw size_error("block_matrix", "more than 2^31 values");
             offsets = buffer<idx>(q, host.offsets);
             columns = buffer<idx>(q, host.columns);
-            detail::load_block_kernel<T>(product, q, "product", D, form);
-            detail::load_block_kernel<T>(residual, q, "residual", D, form);
-            detail::load_block_kernel<T>(smooth, q, "smooth", D, form);
-            detail::load_block_kernel<T>(jacobi, q, "jacobi", D, form);
-            detail::load_block_kernel<T>(invert, q, "invert_blocks", D, form);
+            product = detail::block_kernel(q, "product", type, D, form);
+            residual = detail::block_kernel(q, "residual", type, D, form);
+            smooth = detail::block_kernel(q, "smooth", type, D, form);
+            jacobi = detail::block_kernel(q, "jacobi", type, D, form);
+            invert = detail::block_kernel(q, "invert_blocks", type, D, form);
         }
 
         const block_pattern& pattern()
@@ -179,22 +206,17 @@ private:
         }
 
         taut::queue queue;
+        scalar_type type;
         int D;
         lane_form form;
         std::size_t rows, stride, places;
         block_pattern host;
         buffer<idx> offsets, columns;
-        using in = const buffer<T>;
-        using list = const buffer<idx>;
-        typed_kernel<idx, list, list, in, in, buffer<T>> product;
-        typed_kernel<idx, list, list, in, in, in, buffer<T>> residual;
-        typed_kernel<idx, list, list, in, in, in, in, in, T, T, T, buffer<T>> smooth;
-        typed_kernel<idx, in, in, T, buffer<T>> jacobi;
-        typed_kernel<idx, list, in, buffer<T>> invert;
+        kernel product, residual, smooth, jacobi, invert;
     };
 
     explicit block_matrix(std::shared_ptr<structure> shared)
-        : shared_(std::move(shared)), values_(shared_->queue, shared_->places * blocks())
+        : shared_(std::move(shared)), values_(shared_->queue, type(), shared_->places * blocks())
     {
         values_.fill(0);
     }
@@ -220,7 +242,7 @@ private:
     }
 
     std::shared_ptr<structure> shared_;
-    buffer<T> values_, inverse_;
+    real_buffer values_, inverse_;
 };
 
 } // namespace taut

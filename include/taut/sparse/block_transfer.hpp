@@ -11,19 +11,18 @@ namespace taut
 {
 
 /// Between a fine and a coarse block matrix: interpolation P, restriction P' and the values of P' A P, each one launch.
-/// Weights are T. P is stored by rows, and of its transpose where the weights are; the product P' A P needs no list of
+/// P is stored by rows, and of its transpose where the weights are; the product P' A P needs no list of
 /// its own.
-template <class T>
 class block_transfer
 {
 public:
-    block_transfer(const block_matrix<T>& fine, const transfer_weights& P, const block_matrix<T>& coarse)
-        : block_transfer(
-              fine, transfer_lists<T>(fine.pattern(), P, transposed_weights(P), coarse.pattern(), fine.form()), coarse)
+    block_transfer(const block_matrix& fine, const transfer_weights& P, const block_matrix& coarse)
+        : block_transfer(fine, transfer_lists(fine.pattern(), P, transposed_weights(P), coarse.pattern(), fine.form()),
+                         coarse)
     {
     }
     /// The lists are of the patterns of both matrices, and may go afterwards. Throws parameter_error.
-    block_transfer(const block_matrix<T>& fine, const transfer_lists<T>& lists, const block_matrix<T>& coarse)
+    block_transfer(const block_matrix& fine, const transfer_lists& lists, const block_matrix& coarse)
         : queue_(fine.queue()),
           form_(fine.form()),
           fine_stride_(static_cast<idx>(fine.stride())),
@@ -31,41 +30,68 @@ public:
           columns_(queue_, lists.columns),
           transpose_offsets_(queue_, lists.transpose_offsets),
           transpose_(queue_, lists.transpose),
-          weights_(queue_, lists.weights)
+          weights_(queue_, fine.type(), lists.weights)
     {
         if (lists.fine_rows != fine.rows() || lists.coarse_rows != coarse.rows())
             throw parameter_error("transfer_lists", "do not fit the matrices");
         upload(lists.groups, coarse);
         const int D = fine.block_size();
-        detail::load_block_kernel<T>(prolong_, queue_, "prolong", D, form_);
-        detail::load_block_kernel<T>(restrict_, queue_, "restrict_residual", D, form_);
-        detail::load_block_kernel<T>(galerkin_, queue_, "galerkin", D, form_);
+        prolong_ = detail::block_kernel(queue_, "prolong", fine.type(), D, form_);
+        restrict_ = detail::block_kernel(queue_, "restrict_residual", fine.type(), D, form_);
+        galerkin_ = detail::block_kernel(queue_, "galerkin", fine.type(), D, form_);
     }
 
     /// x += P coarse
-    void prolong(const device_vector<T>& coarse, device_vector<T>& x) const
+    void prolong(const device_vector& coarse, device_vector& x) const
     {
-        prolong_(form_.items(static_cast<std::size_t>(fine_stride_)), fine_stride_, stride_, columns_, weights_,
-                 coarse.data(), x.data());
+        prolong_(form_.items(static_cast<std::size_t>(fine_stride_)), {{"stride", fine_stride_},
+                                                                       {"coarse_stride", stride_},
+                                                                       {"columns", columns_},
+                                                                       {"weights", weights_},
+                                                                       {"coarse", coarse.data()},
+                                                                       {"x", x.data()}});
     }
     /// b = P' r and x = scale B^-1 b, with B the block diagonal of the coarse matrix
-    void restrict_residual(const device_vector<T>& r, const block_matrix<T>& coarse, double scale, device_vector<T>& b,
-                           device_vector<T>& x) const
+    void restrict_residual(const device_vector& r, const block_matrix& coarse, double scale, device_vector& b,
+                           device_vector& x) const
     {
-        restrict_(form_.items(static_cast<std::size_t>(stride_)), fine_stride_, stride_, transpose_offsets_, transpose_,
-                  weights_, r.data(), coarse.inverse(), T(scale), b.data(), x.data());
+        restrict_(form_.items(static_cast<std::size_t>(stride_)), {{"fine_stride", fine_stride_},
+                                                                   {"stride", stride_},
+                                                                   {"offsets", transpose_offsets_},
+                                                                   {"transpose", transpose_},
+                                                                   {"weights", weights_},
+                                                                   {"r", r.data()},
+                                                                   {"inverse", coarse.inverse()},
+                                                                   {"scale", scale},
+                                                                   {"b", b.data()},
+                                                                   {"x", x.data()}});
     }
     /// coarse = P' fine P. The diagonal is not inverted.
-    void refresh(const block_matrix<T>& fine, block_matrix<T>& coarse) const
+    void refresh(const block_matrix& fine, block_matrix& coarse) const
     {
-        galerkin_(product_items_, static_cast<idx>(coarse.rows()), fine_stride_, group_size_, colour_count_,
-                  transpose_offsets_, transpose_, columns_, weights_, codes_, colours_, visit_offsets_, visits_,
-                  fine.offsets(), fine.columns(), fine.values(), coarse.offsets(), coarse.columns(), coarse.values());
+        galerkin_(product_items_, {{"rows", static_cast<idx>(coarse.rows())},
+                                   {"fine_stride", fine_stride_},
+                                   {"size", group_size_},
+                                   {"count", colour_count_},
+                                   {"transpose_offsets", transpose_offsets_},
+                                   {"transpose", transpose_},
+                                   {"prolongation", columns_},
+                                   {"weights", weights_},
+                                   {"codes", codes_},
+                                   {"colours", colours_},
+                                   {"visit_offsets", visit_offsets_},
+                                   {"visits", visits_},
+                                   {"fine_offsets", fine.offsets()},
+                                   {"fine_columns", fine.columns()},
+                                   {"fine", fine.values()},
+                                   {"offsets", coarse.offsets()},
+                                   {"columns", coarse.columns()},
+                                   {"coarse", coarse.values()}});
     }
 
     /// Columns and weights of P at [k * stride + row], for places k < 3.
     const buffer<idx>& columns() const noexcept { return columns_; }
-    const buffer<T>& weights() const noexcept { return weights_; }
+    const real_buffer& weights() const noexcept { return weights_; }
 
     /// Bytes of the lists.
     std::size_t bytes() const
@@ -75,7 +101,7 @@ public:
     }
 
 private:
-    void upload(const std::optional<detail::product_groups>& groups, const block_matrix<T>& coarse)
+    void upload(const std::optional<detail::product_groups>& groups, const block_matrix& coarse)
     {
         if (!groups)
         {
@@ -97,14 +123,8 @@ private:
     idx fine_stride_, stride_, group_size_ = 1, colour_count_ = 0;
     range product_items_{0};
     buffer<idx> columns_, transpose_offsets_, transpose_, codes_, colours_, visit_offsets_, visits_;
-    buffer<T> weights_;
-    using in = const buffer<T>;
-    using list = const buffer<idx>;
-    typed_kernel<idx, idx, list, in, in, buffer<T>> prolong_;
-    typed_kernel<idx, idx, list, list, in, in, in, T, buffer<T>, buffer<T>> restrict_;
-    typed_kernel<idx, idx, idx, idx, list, list, list, in, list, list, list, list, list, list, in, list, list,
-                 buffer<T>>
-        galerkin_;
+    real_buffer weights_;
+    kernel prolong_, restrict_, galerkin_;
 };
 
 } // namespace taut

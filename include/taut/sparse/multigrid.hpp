@@ -15,16 +15,15 @@ namespace taut
 /// A symmetric geometric multigrid V-cycle as a preconditioner of a symmetric positive semi-definite block matrix: two
 /// steps of Chebyshev iteration on block-Jacobi before and after each coarse correction, Galerkin matrices, a dense
 /// inverse on the coarsest level. Assemble into matrix(), refresh(), then apply() at will; both only enqueue.
-template <class T>
 class multigrid
 {
 public:
-    /// Throws parameter_error.
-    multigrid(queue& q, multigrid_plan<T> plan)
+    /// type: of matrices and vectors. Throws parameter_error.
+    multigrid(queue& q, scalar_type type, multigrid_plan plan)
     {
         for (std::size_t l = 0; l < plan.patterns.size(); ++l)
         {
-            levels_.emplace_back(block_matrix<T>(q, std::move(plan.patterns[l]), plan.D, plan.form));
+            levels_.emplace_back(block_matrix(q, type, std::move(plan.patterns[l]), plan.D, plan.form));
             auto& A = levels_[l].A;
             if (l > 0)
             {
@@ -38,11 +37,11 @@ public:
         const auto& last = levels_.back().A;
         const auto& params = plan.params;
         if (plan.active.size() * static_cast<std::size_t>(plan.D) <= params.dense_limit)
-            coarsest_ = detail::dense_inverse<T>(last, plan.active);
+            coarsest_ = detail::dense_inverse(last, plan.active);
         constexpr std::size_t few = 2048; // rows; a product takes one core as long as a launch takes
         fused_ = last.form().lanes > 1 && levels() > 1 && solves_coarsest() && levels_[levels() - 2].A.rows() <= few;
         if (fused_)
-            detail::load_block_kernel<T>(small_cycle_, last.queue(), "small_cycle", last.block_size(), last.form());
+            small_cycle_ = detail::block_kernel(last.queue(), "small_cycle", type, last.block_size(), last.form());
         // Chebyshev iteration on [lambda_max / ratio, lambda_max] (Saad, Iterative Methods, algorithm 12.1).
         const double low = params.lambda_max / params.lambda_ratio, middle = (params.lambda_max + low) / 2,
                      half = (params.lambda_max - low) / 2, sigma = middle / half;
@@ -52,8 +51,8 @@ public:
         second_ = 2 * rho / half;
     }
 
-    block_matrix<T>& matrix() noexcept { return levels_.front().A; }
-    const block_matrix<T>& matrix(std::size_t l = 0) const { return levels_[l].A; }
+    block_matrix& matrix() noexcept { return levels_.front().A; }
+    const block_matrix& matrix(std::size_t l = 0) const { return levels_[l].A; }
     std::size_t levels() const noexcept { return levels_.size(); }
     bool solves_coarsest() const noexcept { return !coarsest_.empty(); }
     /// Launches of one apply().
@@ -76,7 +75,7 @@ public:
     }
 
     /// x = M b, M symmetric and positive definite where the matrix sees anything; b and x differ.
-    void apply(const device_vector<T>& b, device_vector<T>& x)
+    void apply(const device_vector& b, device_vector& x)
     {
         // The smoother's first step on the finest level; restriction makes it on the others.
         if (!is_small(0) && !is_solved(0)) levels_[0].A.jacobi(b, first_, levels_[0].y);
@@ -95,17 +94,17 @@ public:
 private:
     struct level
     {
-        explicit level(block_matrix<T> matrix) : A(std::move(matrix)), y(A.vector()) {}
-        block_matrix<T> A;
-        device_vector<T> b, x; ///< right side and solution of coarse levels
-        device_vector<T> y;    ///< the smoother's other iterate; between smoothings the residual
+        explicit level(block_matrix matrix) : A(std::move(matrix)), y(A.vector()) {}
+        block_matrix A;
+        device_vector b, x; ///< right side and solution of coarse levels
+        device_vector y;    ///< the smoother's other iterate; between smoothings the residual
     };
 
     bool is_solved(std::size_t l) const { return l + 1 == levels() && solves_coarsest(); }
     bool is_small(std::size_t l) const { return fused_ && l + 2 == levels(); }
 
     /// On entry y holds the smoother's first step from zero.
-    void cycle(std::size_t l, const device_vector<T>& b, device_vector<T>& x)
+    void cycle(std::size_t l, const device_vector& b, device_vector& x)
     {
         level& here = levels_[l];
         if (is_solved(l)) return coarsest_.apply(b, x);
@@ -123,27 +122,40 @@ private:
         here.A.smooth(b, here.y, x, 1 + momentum_, -momentum_, second_, x);
     }
 
-    void cycle_small(const device_vector<T>& b, device_vector<T>& x)
+    void cycle_small(const device_vector& b, device_vector& x)
     {
         level &here = levels_[levels() - 2], &coarse = levels_.back();
         const auto& P = transfers_.back();
         const auto number = [](std::size_t n) { return static_cast<idx>(n); };
-        small_cycle_({1, 1}, number(here.A.rows()), number(here.A.stride()), number(coarse.A.stride()),
-                     coarsest_.size(), coarsest_.pitch(), T(first_), T(momentum_), T(second_), here.A.offsets(),
-                     here.A.columns(), here.A.values(), here.A.inverse(), P.columns(), P.weights(), coarsest_.at(),
-                     coarsest_.inverse(), b.data(), coarse.b.data(), coarse.x.data(), here.y.data(), x.data());
+        small_cycle_({1, 1}, {{"rows", number(here.A.rows())},
+                              {"stride", number(here.A.stride())},
+                              {"coarse_stride", number(coarse.A.stride())},
+                              {"size", coarsest_.size()},
+                              {"pitch", coarsest_.pitch()},
+                              {"first", first_},
+                              {"momentum", momentum_},
+                              {"second", second_},
+                              {"offsets", here.A.offsets()},
+                              {"columns", here.A.columns()},
+                              {"A", here.A.values()},
+                              {"inverse", here.A.inverse()},
+                              {"prolongation", P.columns()},
+                              {"weights", P.weights()},
+                              {"at", coarsest_.at()},
+                              {"dense_inverse", coarsest_.inverse()},
+                              {"b", b.data()},
+                              {"coarse_b", coarse.b.data()},
+                              {"coarse_x", coarse.x.data()},
+                              {"y", here.y.data()},
+                              {"x", x.data()}});
     }
 
     std::vector<level> levels_;
-    std::vector<block_transfer<T>> transfers_;
-    detail::dense_inverse<T> coarsest_;
+    std::vector<block_transfer> transfers_;
+    detail::dense_inverse coarsest_;
     double first_, momentum_, second_;
     bool fused_ = false;
-    using in = const buffer<T>;
-    using list = const buffer<idx>;
-    typed_kernel<idx, idx, idx, idx, idx, T, T, T, list, list, in, in, list, in, list, in, in, buffer<T>, buffer<T>,
-                 buffer<T>, buffer<T>>
-        small_cycle_;
+    kernel small_cycle_;
 };
 
 } // namespace taut

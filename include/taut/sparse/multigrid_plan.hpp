@@ -29,7 +29,6 @@ struct multigrid_params
 };
 
 /// All of a multigrid that can be made on the host, from the pattern of its finest matrix and the interpolations.
-template <class T>
 struct multigrid_plan
 {
     /// transfer_weights[l]: from level l + 1 to level l, as far as levels are needed; none leaves the smoother and, if
@@ -56,9 +55,9 @@ struct multigrid_plan
     int D;
     lane_form form;
     multigrid_params params;
-    std::vector<block_pattern> patterns;      ///< of the matrices, finest first
-    std::vector<transfer_lists<T>> transfers; ///< [l]: between levels l and l + 1
-    std::vector<idx> active;                  ///< rows of the coarsest level that are not fixed
+    std::vector<block_pattern> patterns;   ///< of the matrices, finest first
+    std::vector<transfer_lists> transfers; ///< [l]: between levels l and l + 1
+    std::vector<idx> active;               ///< rows of the coarsest level that are not fixed
 };
 
 } // namespace taut

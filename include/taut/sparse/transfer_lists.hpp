@@ -12,8 +12,7 @@
 namespace taut
 {
 
-/// An interpolation and its transpose as block_transfer has them on a device, made on the host; weights are T.
-template <class T>
+/// An interpolation and its transpose as block_transfer has them on a device, made on the host.
 struct transfer_lists
 {
     /// coarse: pattern_of_product(fine, P), and t is the transpose of P. Throws parameter_error.
@@ -33,8 +32,8 @@ struct transfer_lists
     }
 
     std::size_t fine_stride, fine_rows, coarse_rows;
-    std::vector<idx> columns; ///< at [k * fine_stride + row], for places k < 3
-    std::vector<T> weights;   ///< alike
+    std::vector<idx> columns;    ///< at [k * fine_stride + row], for places k < 3
+    std::vector<double> weights; ///< alike
     std::vector<idx> transpose_offsets;
     std::vector<idx> transpose;                   ///< places in `weights`
     std::optional<detail::product_groups> groups; ///< for the product on CPUs; elsewhere an item does a row
@@ -44,7 +43,7 @@ private:
     {
         const std::size_t stride = fine_stride;
         columns.assign(3 * stride, 0);
-        weights.assign(3 * stride, T(0));
+        weights.assign(3 * stride, 0);
         parallel_for(P.columns.size(),
                      [&](std::size_t begin, std::size_t end)
                      {
@@ -57,7 +56,7 @@ private:
                              {
                                  const double w = P.weight(i, k);
                                  columns[k * stride + i] = P.columns[i][w == 0 ? used : k];
-                                 weights[k * stride + i] = static_cast<T>(w);
+                                 weights[k * stride + i] = w;
                              }
                          }
                      });

@@ -16,20 +16,20 @@ namespace taut
 
 /// Minimises an energy on one level of a hierarchy after another. The kernels are traced and compiled once; buffers and
 /// matrices live as long as the level that they serve is at work.
-template <class P, class R>
 class level_solver
 {
 public:
-    using kernels = newton_kernels<triangle, P, R>;
-    using plan = newton_plan<triangle, R>;
+    using kernels = newton_kernels<triangle>;
+    using plan = newton_plan<triangle>;
 
     /// Refers to the levels.
-    level_solver(queue q, const mesh_levels& levels, const any_energy& energy, energy::weighting weights)
+    level_solver(queue q, const mesh_levels& levels, const any_energy& energy, energy::weighting weights,
+                 const real_types& types)
         : queue_(q),
           levels_(levels),
           energy_(energy),
           weights_(weights),
-          kernels_(std::make_shared<const kernels>(q, energy))
+          kernels_(std::make_shared<const kernels>(q, energy, types))
     {
     }
 
@@ -51,27 +51,27 @@ public:
         /// host: that of the level. uv: the map to start from, coordinates of the level's vertices. constraints: in the
         /// level's numbers.
         level(level_solver& owner, plan host, const std::vector<vec2>& uv, const point_constraints<2>& constraints = {})
-            : problem_(owner.queue_, std::move(host), owner.energy_, owner.weights_, owner.kernels_, constraints),
-              x_(problem_.make_point())
+            : objective_(owner.queue_, std::move(host), owner.energy_, owner.weights_, owner.kernels_, constraints),
+              x_(objective_.make_point())
         {
-            problem_.upload(uv, x_);
+            objective_.upload(uv, x_);
         }
 
-        std::vector<vec2> download() const { return problem_.download(x_); }
+        std::vector<vec2> download() const { return objective_.download(x_); }
 
         /// Spreads out what caps the first step: meant for maps that come from a coarser level.
-        void relax() { problem_.relax(x_); }
+        void relax() { objective_.relax(x_); }
 
         solve::report minimize(const solve::params& how, const solve::observer& ask = {})
         {
-            return solve::minimize(problem_, x_, how, ask);
+            return solve::minimize(objective_, x_, how, ask);
         }
 
-        void warm_up() { problem_.warm_up(x_); }
+        void warm_up() { objective_.warm_up(x_); }
 
     private:
-        newton_problem<triangle, P, R> problem_;
-        typename newton_problem<triangle, P, R>::point x_;
+        newton_objective<triangle> objective_;
+        newton_objective<triangle>::point x_;
     };
 
 private:

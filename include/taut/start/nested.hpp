@@ -44,12 +44,11 @@ struct coarse_to_fine_params
 /// Nested iteration: a start map on a coarse level, minimised, and then for each finer level its vertices reinserted
 /// without flips, the worst elements relaxed, and the map minimised again. It needs no map of the fine mesh to begin
 /// with and hands the fine level one that lacks detail only (the paper's coarse-to-fine scheme, its section 5).
-template <class P, class R>
 class coarse_to_fine
 {
 public:
     /// Refers to the levels and the solver.
-    coarse_to_fine(const mesh_levels& levels, level_solver<P, R>& solver, coarse_to_fine_params params)
+    coarse_to_fine(const mesh_levels& levels, level_solver& solver, coarse_to_fine_params params)
         : levels_(levels), solver_(solver), params_(std::move(params))
     {
         params_.stopping.base = solver.energy_at_rest();
@@ -59,7 +58,7 @@ public:
     /// reason() then says how.
     /// plan: that of a level; asked for each level but the finest, coarse ones first.
     std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer,
-                          const std::function<typename level_solver<P, R>::plan(std::size_t level)>& plan)
+                          const std::function<level_solver::plan(std::size_t level)>& plan)
     {
         const std::size_t first = params_.first_level(levels_);
         start_ = robust_start(levels_.surface(first), params_.start);
@@ -89,10 +88,10 @@ public:
     const std::vector<level_report>& reports() const { return reports_; }
 
 private:
-    std::vector<vec2> minimised(std::size_t l, typename level_solver<P, R>::plan host, const std::vector<vec2>& uv,
-                                bool relax, const solve::observer& ask)
+    std::vector<vec2> minimised(std::size_t l, level_solver::plan host, const std::vector<vec2>& uv, bool relax,
+                                const solve::observer& ask)
     {
-        typename level_solver<P, R>::level level(solver_, std::move(host), uv);
+        level_solver::level level(solver_, std::move(host), uv);
         if (relax && params_.stopping.max_iterations > 0) level.relax();
         auto stopping = params_.stopping;
         if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;
@@ -109,7 +108,7 @@ private:
     }
 
     const mesh_levels& levels_;
-    level_solver<P, R>& solver_;
+    level_solver& solver_;
     coarse_to_fine_params params_;
     start_map start_;
     std::string reason_;

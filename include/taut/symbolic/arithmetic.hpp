@@ -19,6 +19,9 @@ namespace detail
 /// They are friends and no templates, which only an argument of type sym<T> brings into view: so literals and
 /// proxies of array elements convert to sym<T>, and code that does not mention sym<T> never sees them. Two different
 /// precisions do not mix: float + double is an error where it is written, not a slow kernel.
+///
+/// sym<double> may be in float all the same, where a recording chose so for its arrays (recording::in): precision is
+/// then data, and an error of the recording where it is mixed.
 template <class T>
 struct sym_arithmetic
 {
@@ -47,24 +50,34 @@ struct sym_arithmetic
     /// cond ? a : b, without a branch: both are computed, one is taken, and only the taken one has a derivative.
     friend sym<T> select(sym_bool cond, sym<T> a, sym<T> b)
     {
-        return sym<T>::of(build(tape::current(), opcode::select, scalar_type_of<T>, cond.id(), a.id(), b.id()));
+        tape& t = tape::current();
+        node_id yes = a.id(), no = b.id();
+        const scalar_type type = shared_type(t, yes, no);
+        return sym<T>::of(build(t, opcode::select, type, cond.id(), yes, no));
     }
 
 protected:
     static sym<T> make(opcode op, sym<T> a)
     {
-        return sym<T>::of(build(tape::current(), op, scalar_type_of<T>, a.id()));
+        tape& t = tape::current();
+        return sym<T>::of(build(t, op, t[a.id()].type, a.id()));
     }
 
     static sym<T> make(opcode op, sym<T> a, sym<T> b)
     {
-        return sym<T>::of(build(tape::current(), op, scalar_type_of<T>, a.id(), b.id()));
+        tape& t = tape::current();
+        node_id left = a.id(), right = b.id();
+        const scalar_type type = shared_type(t, left, right);
+        return sym<T>::of(build(t, op, type, left, right));
     }
 
 private:
     static sym_bool compare(opcode op, sym<T> a, sym<T> b)
     {
-        return sym_bool::of(build(tape::current(), op, scalar_type::boolean, a.id(), b.id()));
+        tape& t = tape::current();
+        node_id left = a.id(), right = b.id();
+        shared_type(t, left, right);
+        return sym_bool::of(build(t, op, scalar_type::boolean, left, right));
     }
 };
 

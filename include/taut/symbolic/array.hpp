@@ -8,6 +8,18 @@
 namespace taut
 {
 
+namespace detail
+{
+
+/// Stores in the type of the array.
+inline void store(std::uint32_t argument, scalar_type type, sym<idx> at, node_id value)
+{
+    tape& t = tape::current();
+    t.store(argument, at.id(), build(t, opcode::cast, type, value));
+}
+
+} // namespace detail
+
 /// An element of an array that the kernel may read and write: converts to its traced value, and can be assigned.
 /// Each conversion is a load as of that moment, so `auto r = y[i];` sees later stores, as a reference does.
 ///
@@ -16,19 +28,20 @@ namespace taut
 template <class Sym>
 class element_reference
 {
-    using value = typename Sym::value_type;
-
 public:
-    element_reference(std::uint32_t argument, sym<idx> at) noexcept : argument_(argument), at_(at) {}
+    element_reference(std::uint32_t argument, scalar_type type, sym<idx> at) noexcept
+        : argument_(argument), type_(type), at_(at)
+    {
+    }
     element_reference(const element_reference&) = default;
 
     operator Sym() const { return load(); }
 
-    Sym load() const { return Sym::of(tape::current().load(argument_, scalar_type_of<value>, at_.id())); }
+    Sym load() const { return Sym::of(tape::current().load(argument_, type_, at_.id())); }
 
     const element_reference& operator=(Sym x) const
     {
-        tape::current().store(argument_, at_.id(), x.id());
+        detail::store(argument_, type_, at_, x.id());
         return *this;
     }
 
@@ -47,6 +60,7 @@ public:
 
 private:
     std::uint32_t argument_;
+    scalar_type type_;
     sym<idx> at_;
 };
 
@@ -55,18 +69,22 @@ template <class Sym>
 class element_sink
 {
 public:
-    element_sink(std::uint32_t argument, sym<idx> at) noexcept : argument_(argument), at_(at) {}
+    element_sink(std::uint32_t argument, scalar_type type, sym<idx> at) noexcept
+        : argument_(argument), type_(type), at_(at)
+    {
+    }
     element_sink(const element_sink&) = delete;
 
     const element_sink& operator=(Sym x) const
     {
-        tape::current().store(argument_, at_.id(), x.id());
+        detail::store(argument_, type_, at_, x.id());
         return *this;
     }
     const element_sink& operator=(const element_sink&) const = delete;
 
 private:
     std::uint32_t argument_;
+    scalar_type type_;
     sym<idx> at_;
 };
 
@@ -75,14 +93,16 @@ template <traceable T>
 class in_array
 {
 public:
-    explicit in_array(std::uint32_t argument) noexcept : argument_(argument) {}
-    sym<T> operator[](sym<idx> at) const
+    /// type: of the numbers in memory; of doubles, it may be f32.
+    explicit in_array(std::uint32_t argument, scalar_type type = scalar_type_of<T>) noexcept
+        : argument_(argument), type_(type)
     {
-        return sym<T>::of(tape::current().load(argument_, scalar_type_of<T>, at.id()));
     }
+    sym<T> operator[](sym<idx> at) const { return sym<T>::of(tape::current().load(argument_, type_, at.id())); }
 
 private:
     std::uint32_t argument_;
+    scalar_type type_;
 };
 
 /// A pointer argument that the kernel only writes: x[i] = value. Reading it does not compile.
@@ -90,11 +110,16 @@ template <traceable T>
 class out_array
 {
 public:
-    explicit out_array(std::uint32_t argument) noexcept : argument_(argument) {}
-    element_sink<sym<T>> operator[](sym<idx> at) const { return {argument_, at}; }
+    /// type: of the numbers in memory; of doubles, it may be f32.
+    explicit out_array(std::uint32_t argument, scalar_type type = scalar_type_of<T>) noexcept
+        : argument_(argument), type_(type)
+    {
+    }
+    element_sink<sym<T>> operator[](sym<idx> at) const { return {argument_, type_, at}; }
 
 private:
     std::uint32_t argument_;
+    scalar_type type_;
 };
 
 /// A pointer argument that the kernel reads and writes: y[i] = a * x[i] + y[i].
@@ -102,11 +127,16 @@ template <traceable T>
 class inout_array
 {
 public:
-    explicit inout_array(std::uint32_t argument) noexcept : argument_(argument) {}
-    element_reference<sym<T>> operator[](sym<idx> at) const { return {argument_, at}; }
+    /// type: of the numbers in memory; of doubles, it may be f32.
+    explicit inout_array(std::uint32_t argument, scalar_type type = scalar_type_of<T>) noexcept
+        : argument_(argument), type_(type)
+    {
+    }
+    element_reference<sym<T>> operator[](sym<idx> at) const { return {argument_, type_, at}; }
 
 private:
     std::uint32_t argument_;
+    scalar_type type_;
 };
 
 /// cast<float>(y[i]): a template does not convert its argument by itself.

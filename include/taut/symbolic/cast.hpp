@@ -17,6 +17,12 @@ sym<To> cast(sym<From> x)
     return sym<To>::of(detail::build(tape::current(), opcode::cast, scalar_type_of<To>, x.id()));
 }
 
+/// A traced real number in a precision that is chosen when the kernel is recorded: f32 or f64.
+inline sym<double> cast(scalar_type to, sym<double> x)
+{
+    return sym<double>::of(detail::build(tape::current(), opcode::cast, to, x.id()));
+}
+
 /// The same on the host, for code that is a template on its scalar.
 template <traceable To, class From>
     requires std::is_arithmetic_v<From>

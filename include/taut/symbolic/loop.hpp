@@ -19,7 +19,6 @@ auto sum_over(sym<idx> begin, sym<idx> end, F&& summand)
 {
     tape& t = tape::current();
     using result = decltype(+std::forward<F>(summand)(sym<idx>())); // a proxy becomes its value
-    using value = typename result::value_type;
 
     struct open_loop // closes also when the summand throws
     {
@@ -42,7 +41,7 @@ auto sum_over(sym<idx> begin, sym<idx> end, F&& summand)
         term = r.id();
     }
     return result::of(t.intern({.op = opcode::loop_sum,
-                                .type = scalar_type_of<value>,
+                                .type = t[term].type,
                                 .operands = {first, last, term},
                                 .payload = static_cast<std::uint64_t>(loop)}));
 }

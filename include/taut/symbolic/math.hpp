@@ -39,13 +39,17 @@ struct sym_math
     /// Constant integer and half-integer exponents become products and square roots.
     friend sym<T> pow(sym<T> x, sym<T> exponent) requires std::floating_point<T>
     {
-        return sym<T>::of(build_power(tape::current(), x.id(), exponent.id()));
+        tape& t = tape::current();
+        node_id base = x.id(), power = exponent.id();
+        shared_type(t, base, power);
+        return sym<T>::of(build_power(t, base, power));
     }
 
 private:
     static sym<T> function(opcode op, sym<T> x)
     {
-        return sym<T>::of(build(tape::current(), op, scalar_type_of<T>, x.id()));
+        tape& t = tape::current();
+        return sym<T>::of(build(t, op, t[x.id()].type, x.id()));
     }
 };
 

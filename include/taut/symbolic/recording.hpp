@@ -31,34 +31,37 @@ namespace taut
 class recording
 {
 public:
-    recording() : scope_(tape_) {}
+    /// real: the type of constants of sym<double>, for a kernel whose formulas are in float.
+    explicit recording(scalar_type real = scalar_type::f64) : scope_(tape_) { tape_.constants_in(real); }
 
     /// Declares a pointer argument. A name is a C identifier, distinct from the others and not of the form t0, i0 or
     /// taut_x; an empty one becomes a0, a1, ... by position. Throws parameter_error for any other.
+    /// type: of the numbers in memory. Doubles may be f32 there; what is loaded is then a sym<double> in float, and so
+    /// is all that is computed from it.
     template <traceable T>
-    in_array<T> in(std::string_view name = {})
+    in_array<T> in(std::string_view name = {}, scalar_type type = scalar_type_of<T>)
     {
-        return in_array<T>(declare(name, argument_kind::in, scalar_type_of<T>));
+        return in_array<T>(declare(name, argument_kind::in, type), type);
     }
 
     template <traceable T>
-    out_array<T> out(std::string_view name = {})
+    out_array<T> out(std::string_view name = {}, scalar_type type = scalar_type_of<T>)
     {
-        return out_array<T>(declare(name, argument_kind::out, scalar_type_of<T>));
+        return out_array<T>(declare(name, argument_kind::out, type), type);
     }
 
     template <traceable T>
-    inout_array<T> inout(std::string_view name = {})
+    inout_array<T> inout(std::string_view name = {}, scalar_type type = scalar_type_of<T>)
     {
-        return inout_array<T>(declare(name, argument_kind::inout, scalar_type_of<T>));
+        return inout_array<T>(declare(name, argument_kind::inout, type), type);
     }
 
     /// Declares a number that may change from launch to launch, unlike a captured host value, which becomes a literal.
     template <traceable T>
-    sym<T> scalar(std::string_view name = {})
+    sym<T> scalar(std::string_view name = {}, scalar_type type = scalar_type_of<T>)
     {
-        const std::uint32_t position = declare(name, argument_kind::scalar, scalar_type_of<T>);
-        return sym<T>::of(tape_.intern({.op = opcode::argument, .type = scalar_type_of<T>, .payload = position}));
+        const std::uint32_t position = declare(name, argument_kind::scalar, type);
+        return sym<T>::of(tape_.intern({.op = opcode::argument, .type = type, .payload = position}));
     }
 
     /// The number of the work-item along dimension 0, 1 or 2 of the range.

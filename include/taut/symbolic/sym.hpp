@@ -32,7 +32,7 @@ public:
     /// The constant. A traced integer takes integers only.
     template <class A>
         requires(std::floating_point<A> || std::integral<A>)
-    &&(std::floating_point<T> || std::integral<A>)sym(A value) : id_(tape::current().constant(narrow(value))) {}
+    &&(std::floating_point<T> || std::integral<A>)sym(A value) : id_(constant(narrow(value))) {}
 
     /// The handle of a node that exists; the caller vouches for its type.
     static sym of(node_id id) noexcept
@@ -48,13 +48,18 @@ public:
     /// The number of the node on the current tape.
     node_id id() const
     {
-        // Zero bytes stand for zero; node 0 is a double, the other types have their own zero.
-        if constexpr (!std::same_as<T, double>)
-            if (id_ == 0) return tape::current().constant(T(0));
-        return id_;
+        return id_ == 0 ? constant(T(0)) : id_; // zero bytes stand for zero
     }
 
 private:
+    static node_id constant(T value)
+    {
+        if constexpr (std::same_as<T, double>)
+            return tape::current().real_constant(value);
+        else
+            return tape::current().constant(value);
+    }
+
     template <class A>
     static T narrow(A value)
     {

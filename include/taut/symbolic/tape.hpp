@@ -71,6 +71,13 @@ public:
         return intern({.op = opcode::constant, .type = scalar_type_of<T>, .payload = detail::to_bits(value)});
     }
 
+    /// The type of constants of sym<double>: f64 unless it was chosen otherwise.
+    void constants_in(scalar_type real) noexcept { real_ = real; }
+    node_id real_constant(double value)
+    {
+        return real_ == scalar_type::f32 ? constant(static_cast<float>(value)) : constant(value);
+    }
+
     /// A new independent variable, equal to no other.
     node_id variable(scalar_type type) { return intern({.op = opcode::variable, .type = type, .payload = serial_++}); }
 
@@ -131,6 +138,7 @@ private:
     std::vector<std::uint32_t> epochs_; // stores so far, by argument
     std::vector<node_id> loops_;        // index nodes of the open loops, outermost first
     std::uint64_t serial_ = 0;
+    scalar_type real_ = scalar_type::f64;
 };
 
 /// Makes a tape the calling thread's current one for the lifetime of the scope; scopes nest.

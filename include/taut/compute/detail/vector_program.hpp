@@ -2,12 +2,11 @@
 #pragma once
 
 #include <string>
-#include <type_traits>
-
 #include <taut/compute/detail/kernels/blas.hpp>
 #include <taut/compute/detail/kernels/gather.hpp>
 #include <taut/compute/detail/kernels/reduce.hpp>
 #include <taut/compute/reduction_plan.hpp>
+#include <taut/symbolic/scalar_type.hpp>
 
 namespace taut::detail
 {
@@ -20,13 +19,11 @@ inline const std::string& vector_program()
     return text;
 }
 
-/// Its build options for numbers of type T.
-template <class T>
-std::string vector_options(const device& d, const reduction_plan& plan)
+/// Its build options for numbers of a type.
+inline std::string vector_options(scalar_type real, const device& d, const reduction_plan& plan)
 {
-    return std::string("-DREAL=") + (std::is_same_v<T, double> ? "double" : "float") +
-           " -DFP64=" + (d.has_fp64() ? "1" : "0") + " -DL=" + std::to_string(plan.local) +
-           " -DV=" + std::to_string(plan.width);
+    return "-DREAL=" + std::string(spelling(real)) + " -DFP64=" + (d.has_fp64() ? "1" : "0") +
+           " -DL=" + std::to_string(plan.local) + " -DV=" + std::to_string(plan.width);
 }
 
 } // namespace taut::detail

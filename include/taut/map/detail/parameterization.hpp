@@ -221,19 +221,13 @@ private:
         return r.gradient_norm <= params_.solve.stopping.gradient_tolerance;
     }
 
-    bool solve_in(precision how)
-    {
-        if (how == precision::fp64) return levels_ ? solve_levels<double, double>() : solve_alone<double, double>();
-        if (how == precision::mixed) return levels_ ? solve_levels<double, float>() : solve_alone<double, float>();
-        return levels_ ? solve_levels<float, float>() : solve_alone<float, float>();
-    }
+    bool solve_in(precision how) { return levels_ ? solve_levels(types_of(how)) : solve_alone(types_of(how)); }
 
     /// Without a hierarchy.
-    template <class P, class R>
-    bool solve_alone()
+    bool solve_alone(const real_types& types)
     {
         const auto local = std::make_shared<const layout<triangle>>(in_.surface, in_.held.pinned());
-        problem<triangle, P, R> f(queue_, local, params_.energy, params_.weights, in_.held.beyond_pins(centre_));
+        map_objective<triangle> f(queue_, local, params_.energy, params_.weights, types, in_.held.beyond_pins(centre_));
         auto x = f.make_point();
         f.upload(centred(report().start.uv), x);
         report().seconds.setup += limits_.lap();
@@ -250,34 +244,31 @@ private:
         return true;
     }
 
-    template <class P, class R>
-    bool solve_levels()
+    bool solve_levels(const real_types& types)
     {
         const auto& numbers = levels_->order().vertices;
         if (!arrival_ && !coarse_) arrival_ = numbers.apply(centred(report().start.uv));
         const auto how = descent();
         const std::size_t first = arrival_ ? 0 : how.first_level(*levels_);
         // Plans are made while the driver compiles, and while coarser levels are solved.
-        using solver_type = level_solver<P, R>;
-        using plan = typename solver_type::plan;
+        using plan = level_solver::plan;
         const auto form = lane_form::for_device(queue_.device());
         made_ahead<plan> plans(first + 1, [&, this](std::size_t k) { return plan(*levels_, first - k, form); });
         const auto take = [&](std::size_t l) { return plans.take(first - l); };
 
         auto asked = ask_between_builds();
-        solver_type solver(queue_, *levels_, params_.energy, params_.weights);
+        level_solver solver(queue_, *levels_, params_.energy, params_.weights, types);
         solver.warm_up();
         asked.reset();
         report().seconds.device += limits_.lap();
         limits_.check();
         if (!arrival_)
         {
-            coarse_to_fine<P, R> nested(*levels_, solver, how);
+            coarse_to_fine nested(*levels_, solver, how);
             auto uv = nested.run([this](std::size_t l) { return observer_on(l); }, take);
             if (!arrive(nested, std::move(uv))) return false;
         }
-        typename solver_type::level finest(solver, take(0), *arrival_,
-                                           in_.held.beyond_pins(centre_).renumbered(numbers));
+        level_solver::level finest(solver, take(0), *arrival_, in_.held.beyond_pins(centre_).renumbered(numbers));
         report().seconds.setup += limits_.lap();
         limits_.check();
         if (coarse_ && iterates()) finest.relax();
@@ -303,8 +294,7 @@ private:
     }
 
     /// Takes in what a descent came to; false if it failed.
-    template <class P, class R>
-    bool arrive(const coarse_to_fine<P, R>& nested, std::vector<vec2> uv)
+    bool arrive(const coarse_to_fine& nested, std::vector<vec2> uv)
     {
         report().start = nested.start();
         report().levels = nested.reports();

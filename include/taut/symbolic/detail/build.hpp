@@ -163,4 +163,18 @@ inline node_id build(tape& t, opcode op, scalar_type type, node_id a, node_id b,
     return t.intern(n);
 }
 
+/// The type that two operands share. A constant takes that of the other one. Throws tape_error where float meets
+/// double.
+inline scalar_type shared_type(tape& t, node_id& a, node_id& b)
+{
+    if (t[a].type == t[b].type) return t[a].type;
+    if (is_constant(t, b))
+        b = build(t, opcode::cast, t[a].type, b);
+    else if (is_constant(t, a))
+        a = build(t, opcode::cast, t[b].type, a);
+    else
+        throw tape_error("float and double meet in one operation; cast() one of them");
+    return t[a].type;
+}
+
 } // namespace taut::detail

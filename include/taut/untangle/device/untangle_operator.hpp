@@ -249,13 +249,33 @@ private:
         const auto cells = static_cast<idx>(arrays_.cell_stride), vertices = static_cast<idx>(arrays_.vertex_stride);
         for (std::int64_t i = 0; i < iterations; ++i)
         {
-            elements_({groups_ * items_, items_}, problem_.rest.cell_count(), cells, vertices, static_cast<idx>(block_),
-                      margin, goal, static_cast<float>(1 / params.beta), static_cast<float>(params.shear), state_,
-                      arrays_.corners, x_, contributions_, partials_);
-            decide_({items_, items_}, static_cast<idx>(groups_), params.increases(),
-                    static_cast<float>(params.least_delta), partials_, state_);
-            move_(arrays_.rows(), cells, vertices, state_, arrays_.offsets, arrays_.places, arrays_.held,
-                  contributions_, x_, best_);
+            elements_({groups_ * items_, items_}, {{"count", problem_.rest.cell_count()},
+                                                   {"cells", cells},
+                                                   {"vertices", vertices},
+                                                   {"block", static_cast<idx>(block_)},
+                                                   {"margin", margin},
+                                                   {"goal", goal},
+                                                   {"inverse_beta", 1 / params.beta},
+                                                   {"shear", params.shear},
+                                                   {"state", state_},
+                                                   {"corners", arrays_.corners},
+                                                   {"x", x_},
+                                                   {"contributions", contributions_},
+                                                   {"partials", partials_}});
+            decide_({items_, items_}, {{"groups", static_cast<idx>(groups_)},
+                                       {"patience", params.increases()},
+                                       {"least_delta", params.least_delta},
+                                       {"partials", partials_},
+                                       {"state", state_}});
+            move_(arrays_.rows(), {{"cells", cells},
+                                   {"vertices", vertices},
+                                   {"state", state_},
+                                   {"offsets", arrays_.offsets},
+                                   {"places", arrays_.places},
+                                   {"held", arrays_.held},
+                                   {"contributions", contributions_},
+                                   {"x", x_},
+                                   {"best", best_}});
         }
     }
 
@@ -278,12 +298,7 @@ private:
     std::size_t groups_;
     buffer<float> x_, best_, contributions_, partials_;
     buffer<idx> state_;
-    using in = const buffer<idx>;
-    typed_kernel<idx, idx, idx, idx, float, float, float, float, in, in, const buffer<float>, buffer<float>,
-                 buffer<float>>
-        elements_;
-    typed_kernel<idx, idx, float, const buffer<float>, buffer<idx>> decide_;
-    typed_kernel<idx, idx, in, in, in, in, const buffer<float>, buffer<float>, buffer<float>> move_;
+    kernel elements_, decide_, move_;
 };
 
 } // namespace taut
