@@ -8,6 +8,8 @@
 #include <set>
 #include <vector>
 
+#include <taut/compute/handler.hpp>
+#include <taut/symbolic/loop.hpp>
 #include <taut/taut.hpp>
 
 using namespace taut;

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <vector>
 
-#include <taut/taut.hpp>
+#include <taut/compute/handler.hpp>
 
 int main()
 {

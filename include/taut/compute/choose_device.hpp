@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cctype>
-#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <optional>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include <taut/compute/device.hpp>
-#include <taut/compute/errors.hpp>
 
 namespace taut
 {
@@ -33,134 +25,23 @@ struct listed_device
 };
 
 /// Why d does not meet the needs, in words; empty if it does.
-inline std::string refusal(const device& d, const device_requirements& needs = {})
-{
-    if (!d.available()) return "not available (in use, or disabled)";
-    if (!d.has_compiler()) return "its driver has no compiler";
-    if (d.opencl_version() < 120) return "OpenCL " + std::to_string(d.opencl_version() / 100) + ".x, 1.2 is needed";
-    if (needs.fp64 && !d.has_fp64()) return "no double precision (fp64)";
-    if (d.global_memory() < needs.memory) return "too little memory: " + std::to_string(d.global_memory()) + " bytes";
-    return {};
-}
+std::string refusal(const device& d, const device_requirements& needs = {});
 
 /// Every device of every platform, in the order of the driver loader: TAUT_DEVICE counts them in this order, from 0.
-inline std::vector<listed_device> devices(const device_requirements& needs = {})
-{
-    std::vector<listed_device> all;
-    for (const auto& platform : boost::compute::system::platforms())
-    {
-        std::vector<boost::compute::device> found;
-        try
-        {
-            found = platform.devices();
-        }
-        catch (const boost::compute::opencl_error&)
-        {
-            // A platform without a device answers with an error; choose_device lists it by name.
-        }
-        for (const auto& handle : found)
-        {
-            device d(handle.id());
-            std::string why = refusal(d, needs);
-            all.push_back({std::move(d), std::move(why)});
-        }
-    }
-    return all;
-}
-
-namespace detail
-{
-
-inline std::string lower(std::string text)
-{
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
-/// The whole number that the text is, if it is one.
-inline std::optional<std::size_t> as_number(const std::string& text)
-{
-    if (text.empty() || text.size() > 6 ||
-        !std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); }))
-        return std::nullopt;
-    return static_cast<std::size_t>(std::stoul(text));
-}
-
-/// Larger is better: double precision first, then GPU, accelerator, CPU; then units times clock.
-inline auto device_rank(const device& d)
-{
-    const int kind = d.is_gpu() ? 2 : d.is_cpu() ? 0 : 1;
-    return std::tuple(d.has_fp64(), kind, d.compute_units() * std::max<std::size_t>(d.clock(), 1));
-}
-
-/// The device with the form of kernels that TAUT_FORM asks for. Throws parameter_error.
-inline device in_wanted_form(const device& d)
-{
-    const char* form = std::getenv("TAUT_FORM");
-    if (!form || !*form) return d;
-    if (std::string(form) != "gpu") throw parameter_error("TAUT_FORM", "is \"" + std::string(form) + "\", not \"gpu\"");
-    return d.as_gpu();
-}
-
-[[noreturn]] inline void refuse(const std::string& headline, const std::vector<listed_device>& all)
-{
-    std::string text = headline + "\n";
-    const auto platforms = boost::compute::system::platforms();
-    if (platforms.empty())
-    {
-        const char* folder = std::getenv("OCL_ICD_VENDORS");
-        text += "  no OpenCL platform is installed (drivers are registered in " +
-                std::string(folder ? folder : "/etc/OpenCL/vendors") + ")\n";
-    }
-    for (const auto& platform : platforms)
-    {
-        text += "  platform " + platform.name() + ", " + platform.version() + "\n";
-        bool any = false;
-        for (std::size_t i = 0; i < all.size(); ++i)
-        {
-            const auto& [d, why] = all[i];
-            if (d.native_platform() != platform.id()) continue;
-            any = true;
-            text += "    " + std::to_string(i) + ": " + d.name() + ": " + (why.empty() ? "usable" : why) + "\n";
-        }
-        if (!any) text += "    no device\n";
-    }
-    throw no_device(text + "  install a driver: on Debian and Ubuntu pocl-opencl-icd (any CPU), nvidia-opencl-icd, "
-                           "intel-opencl-icd or mesa-opencl-icd; `clinfo -l` lists what is seen");
-}
-
-} // namespace detail
+std::vector<listed_device> devices(const device_requirements& needs = {});
 
 /// The device that a wish names: an index into devices(), or a part of a device's, vendor's or platform's name, in any
 /// case. Of several that fit, and for an empty wish, the best one: double precision before none, then GPU before CPU,
 /// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits; what the message then
 /// calls the wish is `said` and the wish.
-inline device find_device(const std::string& wish, const device_requirements& needs = {},
-                          const std::string& said = "the wish ")
-{
-    const auto all = devices(needs);
-    const std::string wanted = detail::lower(wish);
-    const auto number = detail::as_number(wanted);
-
-    const device* best = nullptr;
-    for (std::size_t i = 0; i < all.size(); ++i)
-    {
-        const auto& [d, why] = all[i];
-        if (!why.empty()) continue;
-        if (number && *number != i) continue;
-        const std::string names = detail::lower(d.name() + '\n' + d.vendor() + '\n' + d.platform());
-        if (!number && names.find(wanted) == std::string::npos) continue;
-        if (!best || detail::device_rank(*best) < detail::device_rank(d)) best = &d;
-    }
-    if (best) return detail::in_wanted_form(*best);
-    detail::refuse("no OpenCL device fits" + (wanted.empty() ? "" : ' ' + said + wish), all);
-}
+device find_device(const std::string& wish, const device_requirements& needs = {},
+                   const std::string& said = "the wish ");
 
 /// The device that TAUT_DEVICE names if it is set, else the best one; see find_device.
-inline device choose_device(const device_requirements& needs = {})
-{
-    const char* wish = std::getenv("TAUT_DEVICE");
-    return find_device(wish ? wish : "", needs, "TAUT_DEVICE=");
-}
+device choose_device(const device_requirements& needs = {});
 
 } // namespace taut
+
+#ifndef TAUT_COMPILED
+#include <taut/compute/detail/choose_device.ipp>
+#endif

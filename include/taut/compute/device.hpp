@@ -7,7 +7,8 @@
 #include <string>
 #include <utility>
 
-#include <taut/compute/detail/opencl.hpp>
+#include <taut/compute/detail/cl.hpp>
+#include <taut/config.hpp>
 
 namespace taut
 {
@@ -16,8 +17,8 @@ namespace taut
 class device
 {
 public:
-    /// Wraps a device of the user's. The handle is retained.
-    explicit device(cl_device_id id) : device(boost::compute::device(id)) {}
+    /// Wraps a device of the user's.
+    explicit device(cl_device_id id);
 
     const std::string& name() const noexcept { return name_; }
     const std::string& vendor() const noexcept { return vendor_; }
@@ -63,54 +64,17 @@ public:
         return d;
     }
 
-    cl_device_id native() const { return handle_.id(); }
-    cl_platform_id native_platform() const { return handle_.platform().id(); }
+    cl_device_id native() const noexcept { return id_; }
+    cl_platform_id native_platform() const noexcept { return platform_id_; }
     /// "NAME, driver VERSION", as error messages quote it.
     std::string label() const { return name_ + ", driver " + driver_version_; }
 
     friend bool operator==(const device& a, const device& b) { return a.native() == b.native(); }
-    friend std::ostream& operator<<(std::ostream& out, const device& d)
-    {
-        return out << d.name_ << " ("
-                   << (d.is_gpu()   ? "GPU"
-                       : d.is_cpu() ? "CPU"
-                                    : "accelerator")
-                   << ", " << d.platform_ << ", driver " << d.driver_version_ << (d.has_fp64_ ? "" : ", no fp64")
-                   << ')';
-    }
+    friend std::ostream& operator<<(std::ostream& out, const device& d);
 
 private:
-    explicit device(boost::compute::device handle)
-        : handle_(std::move(handle)),
-          name_(trimmed(handle_.name())),
-          vendor_(trimmed(handle_.vendor())),
-          driver_version_(trimmed(handle_.driver_version())),
-          platform_(trimmed(handle_.platform().name())),
-          platform_version_(trimmed(handle_.platform().version())),
-          type_(handle_.type()),
-          has_fp64_(handle_.get_info<cl_device_fp_config>(CL_DEVICE_DOUBLE_FP_CONFIG) != 0),
-          available_(handle_.get_info<cl_bool>(CL_DEVICE_AVAILABLE) != 0),
-          has_compiler_(handle_.get_info<cl_bool>(CL_DEVICE_COMPILER_AVAILABLE) != 0),
-          compute_units_(handle_.compute_units()),
-          clock_(handle_.clock_frequency()),
-          max_group_(handle_.get_info<std::size_t>(CL_DEVICE_MAX_WORK_GROUP_SIZE)),
-          global_memory_(handle_.global_memory_size()),
-          max_allocation_(handle_.max_memory_alloc_size())
-    {
-        // "OpenCL 1.2 whatever the vendor likes to add"
-        const std::string version = handle_.version();
-        if (version.size() > 9 && version.compare(0, 7, "OpenCL ") == 0)
-            opencl_version_ = 100 * (version[7] - '0') + 10 * (version[9] - '0');
-    }
-
-    static std::string trimmed(const std::string& text)
-    {
-        const auto first = text.find_first_not_of(" \t\n");
-        if (first == std::string::npos) return {};
-        return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
-    }
-
-    boost::compute::device handle_;
+    cl_device_id id_ = nullptr;
+    cl_platform_id platform_id_ = nullptr;
     std::string name_, vendor_, driver_version_, platform_, platform_version_;
     cl_device_type type_ = 0;
     bool has_fp64_ = false, available_ = false, has_compiler_ = false;
@@ -120,3 +84,7 @@ private:
 };
 
 } // namespace taut
+
+#ifndef TAUT_COMPILED
+#include <taut/compute/detail/device.ipp>
+#endif

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
-#include <string>
-#include <string_view>
-#include <system_error>
-#include <utility>
-
-#include <taut/io/obj.hpp>
-#include <taut/io/off.hpp>
-#include <taut/io/ply.hpp>
-#include <taut/io/read_file.hpp>
+#include <taut/config.hpp>
+#include <taut/io/surface_file.hpp>
 
 namespace taut::io
 {
@@ -26,69 +18,15 @@ enum class surface_format
     ply
 };
 
-namespace detail
-{
-
-/// By the extension; automatic if that is none of ours.
-inline surface_format format_of_name(const std::filesystem::path& path)
-{
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    return extension == ".obj"   ? surface_format::obj
-           : extension == ".off" ? surface_format::off
-           : extension == ".ply" ? surface_format::ply
-                                 : surface_format::automatic;
-}
-
-/// By the first word: PLY begins with one, OFF with a word that ends in OFF or with a number.
-inline surface_format format_of_text(std::string_view text)
-{
-    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    if (text.starts_with("ply")) return surface_format::ply;
-    constexpr std::string_view space = " \t\r\n";
-    for (;;)
-    {
-        text.remove_prefix(std::min(text.find_first_not_of(space), text.size()));
-        if (!text.starts_with('#')) break;
-        text.remove_prefix(std::min(text.find_first_of("\r\n"), text.size()));
-    }
-    const auto word = text.substr(0, text.find_first_of(space));
-    const bool number = !word.empty() && word[0] >= '0' && word[0] <= '9';
-    return number || word.ends_with("OFF") ? surface_format::off : surface_format::obj;
-}
-
-/// A device, a pipe or standard input: its name says nothing of what is in it.
-inline bool is_stream_to_read(const std::filesystem::path& path)
-{
-    std::error_code unknown;
-    return open_file_number(path) >= 0 ||
-           (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown) &&
-            !std::filesystem::is_directory(path, unknown));
-}
-
-} // namespace detail
-
 /// Reads a surface with its texture coordinates and notes.
 /// Throws io_error (unreadable, unknown or malformed, with line or byte), mesh_error (empty, NaN, ...).
-inline surface_file read_surface_file(const std::filesystem::path& path,
-                                      surface_format format = surface_format::automatic)
-{
-    const std::string name = path.string();
-    if (format == surface_format::automatic) format = detail::format_of_name(path);
-    if (format == surface_format::automatic && !detail::is_stream_to_read(path))
-        throw io_error(name, "unknown kind of file; surfaces are read from .obj, .off and .ply, from other names if "
-                             "the format is given");
-    std::string text = read_file(path);
-    if (format == surface_format::automatic) format = detail::format_of_text(text);
-    return format == surface_format::off   ? parse_off(text, name)
-           : format == surface_format::ply ? parse_ply(text, name)
-                                           : parse_obj(std::move(text), name);
-}
+surface_file read_surface_file(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
 /// The surface alone.
-inline mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format = surface_format::automatic)
-{
-    return read_surface_file(path, format).surface;
-}
+mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
 } // namespace taut::io
+
+#ifndef TAUT_COMPILED
+#include <taut/io/detail/read_surface.ipp>
+#endif

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <taut/compute/queue.hpp>
+#include <taut/config.hpp>
 #include <taut/map/map_result.hpp>
 #include <taut/map/parameterize_params.hpp>
 #include <taut/mesh/mesh.hpp>
@@ -23,7 +24,6 @@ map_result parameterize(queue& q, const mesh<Element>& m, const parameterize_par
 
 } // namespace taut
 
-// Where TAUT_SEPARATE is defined, another file of the project instantiates it.
-#ifndef TAUT_SEPARATE
+#ifndef TAUT_COMPILED
 #include <taut/map/detail/parameterization.hpp>
 #endif

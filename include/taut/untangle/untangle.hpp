@@ -2,6 +2,7 @@
 #pragma once
 
 #include <taut/compute/queue.hpp>
+#include <taut/config.hpp>
 #include <taut/constrain/untangle_problem.hpp>
 #include <taut/untangle/params.hpp>
 #include <taut/untangle/result.hpp>
@@ -24,7 +25,6 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
 
 } // namespace taut
 
-// Where TAUT_SEPARATE is defined, another file of the project instantiates it.
-#ifndef TAUT_SEPARATE
+#ifndef TAUT_COMPILED
 #include <taut/untangle/untangle_on_device.hpp>
 #endif

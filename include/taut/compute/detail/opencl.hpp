@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/compute/detail/cl.hpp>
+
 // The one door to OpenCL and Boost.Compute. As a system header it keeps their warnings out of the user's build.
 #if defined(__GNUC__)
 #pragma GCC system_header
 #endif
 
-// OpenCL 1.2 is what every driver in use offers; the pins keep both header sets from warning about newer versions.
-#ifndef CL_TARGET_OPENCL_VERSION
-#define CL_TARGET_OPENCL_VERSION 120
-#endif
+// The highest version that Boost.Compute may use.
 #ifndef BOOST_COMPUTE_MAX_CL_VERSION // of 210, 201
 #define BOOST_COMPUTE_MAX_CL_VERSION (CL_TARGET_OPENCL_VERSION / 100 * 100 + CL_TARGET_OPENCL_VERSION % 100 / 10)
 #endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include <taut/compute/detail/queue_state.hpp>
+#include <taut/compute/queue.hpp>
+
+namespace taut
+{
+
+namespace detail
+{
+
+/// A handle of the user's, found to be alive. Throws device_error.
+template <class Wrap>
+std::invoke_result_t<Wrap> adopt(Wrap&& wrap)
+{
+    try
+    {
+        auto handle = wrap();
+        handle.get_device();
+        return handle;
+    }
+    catch (const boost::compute::opencl_error& e)
+    {
+        throw device_error("adopting the user's context or queue", e.error_string(), "", e.error_code());
+    }
+}
+
+template <class MakeContext>
+std::shared_ptr<queue_state> open(const taut::device& device, queue_options options, MakeContext&& make)
+{
+    try
+    {
+        const boost::compute::context context = make();
+        const cl_command_queue_properties flags = options.profiling ? CL_QUEUE_PROFILING_ENABLE : 0;
+        boost::compute::command_queue commands(context, boost::compute::device(device.native()), flags);
+        return std::make_shared<queue_state>(device, context, std::move(commands));
+    }
+    catch (const boost::compute::opencl_error& e)
+    {
+        throw device_error("opening a queue", e.error_string(), device.label(), e.error_code());
+    }
+}
+
+} // namespace detail
+
+TAUT_INLINE queue::queue(const taut::device& device, queue_options options)
+    : state_(detail::open(device, options,
+                          [&] { return boost::compute::context(boost::compute::device(device.native())); }))
+{
+}
+
+TAUT_INLINE queue::queue(cl_context context, queue_options options)
+{
+    const auto adopted = detail::adopt([&] { return boost::compute::context(context); });
+    state_ = detail::open(taut::device(adopted.get_device().id()), options, [&] { return adopted; });
+}
+
+TAUT_INLINE queue::queue(cl_command_queue native)
+{
+    const auto adopted = detail::adopt([&] { return boost::compute::command_queue(native); });
+    state_ =
+        std::make_shared<detail::queue_state>(taut::device(adopted.get_device().id()), adopted.get_context(), adopted);
+    const auto properties = adopted.get_info<cl_command_queue_properties>(CL_QUEUE_PROPERTIES);
+    if (properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)
+        state_->fail("adopting a command queue", "it is out of order; taut relies on the order of commands");
+}
+
+TAUT_INLINE const taut::device& queue::device() const noexcept
+{
+    return state_->device;
+}
+
+TAUT_INLINE void queue::finish()
+{
+    ++state_->counters.waits;
+    state_->run("finishing the queue", [&] { state_->commands.finish(); });
+}
+
+TAUT_INLINE queue_counters queue::counters() const
+{
+    queue_counters now = state_->counters;
+    now.builds = state_->cache.builds();
+    now.build_seconds = state_->cache.seconds();
+    return now;
+}
+
+TAUT_INLINE std::uint64_t queue::allocated() const noexcept
+{
+    return state_->live_bytes;
+}
+
+TAUT_INLINE cl_command_queue queue::native() const
+{
+    return state_->commands.get();
+}
+TAUT_INLINE cl_context queue::native_context() const
+{
+    return state_->context.get();
+}
+
+} // namespace taut

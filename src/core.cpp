@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+// The bodies of core/ and compute/ for the compiled form.
+#include <taut/compute/detail/choose_device.ipp>
+#include <taut/compute/detail/device.ipp>
+#include <taut/compute/detail/queue.ipp>
+#include <taut/core/detail/parallel.ipp>

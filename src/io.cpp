@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+// The bodies of io/ for the compiled form.
+#include <taut/io/detail/cut_seams.ipp>
+#include <taut/io/detail/read_surface.ipp>
+#include <taut/io/detail/write_files.ipp>
+#include <taut/io/detail/write_obj.ipp>
