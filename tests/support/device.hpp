@@ -8,6 +8,7 @@
 
 #include <support/size.hpp>
 #include <taut/compute/queue.hpp>
+#include <taut/symbolic/scalar_type.hpp>
 
 namespace taut::test
 {
@@ -25,6 +26,20 @@ std::vector<T> random_values(std::size_t n, unsigned seed)
     std::normal_distribution<double> normal;
     std::vector<T> values(n);
     for (T& v : values) v = static_cast<T>(normal(generator));
+    return values;
+}
+
+/// x as a device has it in `type`: narrowed to float and back, or x.
+inline double as_real(scalar_type type, double x)
+{
+    return type == scalar_type::f32 ? static_cast<double>(static_cast<float>(x)) : x;
+}
+
+/// random_values<double>(), as a device has them in `type`.
+inline std::vector<double> random_reals(scalar_type type, std::size_t n, unsigned seed)
+{
+    auto values = random_values<double>(n, seed);
+    for (double& v : values) v = as_real(type, v);
     return values;
 }
 

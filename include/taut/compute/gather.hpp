@@ -36,7 +36,11 @@ public:
     /// term: the type of contributions. sum: the type of what is stored of their sums.
     gather(queue& q, std::span<const idx> offsets, std::span<const idx> cells, std::span<const idx> corners,
            const gather_layout& layout, scalar_type term, scalar_type sum)
-        : components_(layout.components), vertices_(to_int(layout.vertex_stride)), cells_(to_int(layout.cell_stride))
+        : term_(term),
+          sum_(sum),
+          components_(layout.components),
+          vertices_(to_int(layout.vertex_stride)),
+          cells_(to_int(layout.cell_stride))
     {
         const auto D = static_cast<std::size_t>(layout.components);
         const std::size_t rows = offsets.empty() ? 0 : offsets.size() - 1;
@@ -93,6 +97,8 @@ public:
     /// Enqueues the sums: one launch, or two with vertices of high valence.
     void operator()(const real_buffer& contributions, real_buffer& out) const
     {
+        if (contributions.type() != term_ || out.type() != sum_)
+            throw parameter_error("gather", "buffers of the types that it was made for are needed");
         if (contributions.size() < reach_ || out.size() < sums_)
             throw parameter_error("gather", "buffers of " + std::to_string(reach_) + " contributions and " +
                                                 std::to_string(sums_) + " sums are needed");
@@ -162,6 +168,7 @@ private:
         return static_cast<idx>(n);
     }
 
+    scalar_type term_, sum_;
     idx components_, vertices_, cells_, rest_rows_ = 0;
     std::size_t reach_ = 0; ///< contributions up to the last one that is read
     std::size_t sums_ = 0;

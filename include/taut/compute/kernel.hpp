@@ -57,7 +57,7 @@ public:
         kernel_ = state_->cache.find(source, name_, options);
     }
 
-    /// Throws parameter_error for an argument that is missing, unknown, or of another type.
+    /// Throws parameter_error for an argument that is missing, unknown, there twice, or of another type.
     event operator()(range r, std::initializer_list<named_argument> arguments) const
     {
         return launch(r, std::span(arguments.begin(), arguments.size()));
@@ -65,20 +65,22 @@ public:
     event launch(range r, std::span<const named_argument> arguments) const
     {
         const auto use = state_->enter();
-        if (arguments.size() != signature_.size())
-            refuse("it takes " + std::to_string(signature_.size()) + " arguments, not " +
-                   std::to_string(arguments.size()));
+        std::vector<bool> bound(signature_.size());
         std::size_t guess = 0;
         for (const named_argument& a : arguments)
         {
             guess = position(a.name, guess);
             const auto& p = signature_[guess];
+            if (bound[guess]) refuse("it has " + p.name + " twice");
+            bound[guess] = true;
             const auto value = a.value.as(p.type);
             if (value.is_memory() != p.is_memory || value.type() != p.type)
                 refuse(p.name + " is " + describe(p.type, p.is_memory) + ", not " +
                        describe(value.type(), value.is_memory()));
             value.set(*state_, kernel_.get(), name_, static_cast<cl_uint>(guess++));
         }
+        for (std::size_t i = 0; i < bound.size(); ++i)
+            if (!bound[i]) refuse("it needs an argument " + signature_[i].name);
         return state_->launch(kernel_, name_, r);
     }
 

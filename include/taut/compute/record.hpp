@@ -190,16 +190,18 @@ public:
     }
     event operator()(range r, std::span<const named_argument> arguments) const
     {
-        std::vector<detail::argument> by_position(arguments.size() + 1, idx(0));
-        if (arguments.size() + 1 != text_.arguments.size())
-            refuse("it takes " + std::to_string(text_.arguments.size() - 1) + " arguments, not " +
-                   std::to_string(arguments.size()));
+        std::vector<detail::argument> by_position(text_.arguments.size(), idx(0));
+        std::vector<bool> bound(text_.arguments.size() - 1);
         std::size_t at = 0;
         for (const auto& a : arguments)
         {
             at = position(a.name, at);
+            if (bound[at]) refuse(std::string("it has ") + a.name + " twice");
+            bound[at] = true;
             by_position[at++] = a.value;
         }
+        for (std::size_t i = 0; i < bound.size(); ++i)
+            if (!bound[i]) refuse("it needs an argument " + text_.arguments[i].name);
         return launch(r, by_position);
     }
     template <class... Args>
@@ -224,6 +226,9 @@ private:
     /// arguments: all of them, and room for the count of indices.
     event launch(range r, std::span<detail::argument> arguments) const
     {
+        if (arguments.size() != text_.arguments.size())
+            refuse("it takes " + std::to_string(text_.arguments.size() - 1) + " arguments, not " +
+                   std::to_string(arguments.size() - 1));
         for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
         {
             const auto& declared = text_.arguments[i];

@@ -92,8 +92,13 @@ public:
     /// four by four share their loads, one launch a tile.
     result dots(std::span<const real_view> left, std::span<const real_view> right, std::size_t n)
     {
-        for (const auto& x : left) check(x, n, "dot");
-        for (const auto& x : right) check(x, n, "dot");
+        const auto& some = left.empty() ? right : left;
+        for (const auto& vectors : {left, right})
+            for (const auto& x : vectors)
+            {
+                check(x, n, "dot");
+                if (x.real() != some[0].real()) throw parameter_error("dot", "float and double do not mix");
+            }
         begin_round();
         const result all = {jobs_.size(), left.size() * right.size()};
         const auto blocks = plan_.cut(n);

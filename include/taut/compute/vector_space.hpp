@@ -110,6 +110,8 @@ public:
     /// out = a[0] x[0] + a[1] x[1] + ..., up to eight vectors a launch. out must not be one of x.
     void linear_combination(std::span<const double> a, std::span<const vector* const> x, vector& out) const
     {
+        require_type(out);
+        for (const vector* v : x) require_type(*v);
         std::size_t done = 0;
         if (x.empty()) out.data().fill(0);
         while (done < x.size())
@@ -144,6 +146,11 @@ public:
 private:
     static constexpr std::size_t group = 256;
     range all() const { return {padded_, group}; }
+
+    void require_type(const vector& x) const
+    {
+        if (x.data().type() != type()) throw parameter_error("vector", "is not of the type of the space");
+    }
 
     static std::vector<real_view> views(std::span<const vector* const> vectors)
     {

@@ -7,9 +7,9 @@
 
 #include "support/device.hpp"
 
-using taut::buffer;
-using taut::gather_layout;
-using taut::test::random_values;
+using taut::real_buffer;
+using taut::scalar_type;
+using taut::test::random_reals;
 using taut::test::sized_count;
 
 namespace
@@ -41,21 +41,22 @@ struct incidence
 TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in order, at every valence", T, float, double)
 {
     taut::queue q;
+    constexpr scalar_type type = taut::scalar_type_of<T>;
     for (const int D : {2, 3})
     {
         CAPTURE(D);
         const std::size_t rows = sized_count(1000, 150), vertices = taut::padded(rows + 3, 64), cells = 192;
         const auto corners = static_cast<std::size_t>(D) + 1;
         const incidence meet(rows, 190, static_cast<taut::idx>(corners));
-        const taut::gather<T> sum(q, meet.offsets, meet.cells, meet.corners, {D, cells, vertices});
+        const taut::gather sum(q, meet.offsets, meet.cells, meet.corners, {D, cells, vertices}, type, type);
         CHECK(sum.width() == 8);
         CHECK(sum.overfull() == 1);
 
         const auto d = static_cast<std::size_t>(D);
-        const auto host = random_values<T>(corners * d * cells, 3);
-        const buffer<T> contributions(q, host);
-        buffer<T> out(q, d * vertices);
-        out.fill(T(9));
+        const auto host = random_reals(type, corners * d * cells, 3);
+        const real_buffer contributions(q, type, host);
+        real_buffer out(q, type, d * vertices);
+        out.fill(9);
         sum(contributions, out);
 
         // Sums in T and in the order of the rows: equal to the last bit.
@@ -64,9 +65,10 @@ TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in ord
             for (std::size_t c = 0; c < d; ++c)
                 for (auto k = static_cast<std::size_t>(meet.offsets[v]);
                      k < static_cast<std::size_t>(meet.offsets[v + 1]); ++k)
-                    expected[c * vertices + v] += host[(static_cast<std::size_t>(meet.corners[k]) * d + c) * cells +
-                                                       static_cast<std::size_t>(meet.cells[k])];
-        CHECK(out.download() == expected);
+                    expected[c * vertices + v] +=
+                        static_cast<T>(host[(static_cast<std::size_t>(meet.corners[k]) * d + c) * cells +
+                                            static_cast<std::size_t>(meet.cells[k])]);
+        CHECK(out.download() == std::vector<double>(expected.begin(), expected.end()));
     }
 }
 
@@ -75,9 +77,9 @@ TEST_CASE("gather: agrees with the host at every width that its kernels have")
     taut::queue q;
     const std::size_t rows = 60, cells = 128;
     std::mt19937 random(11);
-    const auto host = random_values<double>(4 * 3 * cells, 3);
-    const buffer<double> contributions(q, host);
-    for (const std::size_t valence : {1, 4, 5, 7, 10, 11, 16, 20, 30, 40, 48, 60})
+    const auto host = random_reals(scalar_type::f64, 4 * 3 * cells, 3);
+    const real_buffer contributions(q, scalar_type::f64, host);
+    for (const std::size_t valence : {1u, 4u, 5u, 7u, 10u, 11u, 16u, 20u, 30u, 40u, 48u, 60u})
     {
         CAPTURE(valence);
         std::vector<taut::idx> offsets{0}, cell, corner;
@@ -94,14 +96,45 @@ TEST_CASE("gather: agrees with the host at every width that its kernels have")
             }
             offsets.push_back(static_cast<taut::idx>(cell.size()));
         }
-        const taut::gather<double> sum(q, offsets, cell, corner, {3, cells, 64});
+        const taut::gather sum(q, offsets, cell, corner, {3, cells, 64}, scalar_type::f64, scalar_type::f64);
         if (valence <= 48) CHECK(sum.width() >= valence);
         CHECK(sum.overfull() == (valence <= 48 ? 0 : rows));
-        buffer<double> out(q, 3 * 64);
+        real_buffer out(q, scalar_type::f64, 3 * 64);
         sum(contributions, out);
         CHECK(out.download() == expected);
     }
     CHECK(q.counters().builds == 1);
+}
+
+TEST_CASE("gather: sums are formed in the type of the terms, and stored in another")
+{
+    taut::queue q;
+    const std::size_t cells = 128;
+    // A vertex of the first launch, and one whose rest is summed in the second: 1 is lost in float beside 2^24.
+    std::vector<taut::idx> offsets{0, 3}, cell{0, 1, 2}, corner{0, 0, 0};
+    for (int v = 0; v < 59; ++v) offsets.push_back(3);
+    for (taut::idx k = 0; k < 60; ++k) cell.push_back(k), corner.push_back(1);
+    offsets.push_back(63);
+    std::vector<double> host(2 * 2 * cells, 0.0);
+    host[0] = host[2 * cells] = 0x1p24;
+    host[1] = host[2] = 1;
+    for (std::size_t k = 1; k < 60; ++k) host[2 * cells + k] = 1;
+    for (const scalar_type term : {scalar_type::f32, scalar_type::f64})
+        for (const scalar_type sum : {scalar_type::f32, scalar_type::f64})
+        {
+            const taut::gather add(q, offsets, cell, corner, {2, cells, 64}, term, sum);
+            CHECK(add.overfull() == 1);
+            const real_buffer contributions(q, term, host);
+            real_buffer out(q, sum, 128);
+            add(contributions, out);
+            const auto result = out.download();
+            const bool narrow = term == scalar_type::f32;
+            CHECK(result[0] == 0x1p24 + (narrow ? 0 : 2));
+            CHECK(result[60] >= 0x1p24);
+            CHECK(result[60] <= 0x1p24 + (narrow ? 0 : 60));
+            if (!narrow && sum == scalar_type::f64) CHECK(result[60] == 0x1p24 + 59);
+            CHECK(result[64] == 0);
+        }
 }
 
 TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
@@ -109,12 +142,12 @@ TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
     taut::queue q;
     // One vertex, in corner 1 of cell 1; the place that fillers read, cell 0, holds NaN.
     const std::vector<taut::idx> offsets = {0, 1}, cells = {1}, corners = {1};
-    const taut::gather<double> sum(q, offsets, cells, corners, {2, 64, 64});
+    const taut::gather sum(q, offsets, cells, corners, {2, 64, 64}, scalar_type::f64, scalar_type::f64);
     std::vector<double> host(3 * 2 * 64, std::numeric_limits<double>::quiet_NaN());
     host[2 * 64 + 1] = 5;
     host[3 * 64 + 1] = 6;
-    const buffer<double> contributions(q, host);
-    buffer<double> out(q, 128);
+    const real_buffer contributions(q, scalar_type::f64, host);
+    real_buffer out(q, scalar_type::f64, 128);
     sum(contributions, out);
     const auto result = out.download();
     CHECK(result[0] == 5);
@@ -127,22 +160,26 @@ TEST_CASE("gather: layouts that do not hold the mesh are refused")
 {
     taut::queue q;
     const std::vector<taut::idx> offsets = {0, 1}, cells = {70}, corners = {0};
-    CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 64, 64}), taut::parameter_error);
-    CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 128, 100}), taut::parameter_error);
-    CHECK_THROWS_AS(taut::gather<double>(q, offsets, cells, corners, {2, 128, 0}), taut::parameter_error);
+    const auto make = [&](const taut::gather_layout& layout)
+    { return taut::gather(q, offsets, cells, corners, layout, scalar_type::f64, scalar_type::f64); };
+    CHECK_THROWS_AS(make({2, 64, 64}), taut::parameter_error);
+    CHECK_THROWS_AS(make({2, 128, 100}), taut::parameter_error);
+    CHECK_THROWS_AS(make({2, 128, 0}), taut::parameter_error);
 
     const std::vector<taut::idx> first = {0};
-    const taut::gather<double> one(q, offsets, first, first, {2, 64, 64});
-    buffer<double> enough(q, 128), few(q, 64);
+    const taut::gather one(q, offsets, first, first, {2, 64, 64}, scalar_type::f64, scalar_type::f64);
+    real_buffer enough(q, scalar_type::f64, 128), few(q, scalar_type::f64, 64), narrow(q, scalar_type::f32, 128);
     CHECK_THROWS_AS(one(few, enough), taut::parameter_error);
     CHECK_THROWS_AS(one(enough, few), taut::parameter_error);
+    CHECK_THROWS_AS(one(narrow, enough), taut::parameter_error);
+    CHECK_THROWS_AS(one(enough, narrow), taut::parameter_error);
 }
 
 TEST_CASE("gather: without any cell all sums are zero")
 {
     taut::queue q;
-    const taut::gather<float> nothing(q, {}, {}, {}, {3, 0, 64});
-    buffer<float> none(q, 0), out(q, 192);
+    const taut::gather nothing(q, {}, {}, {}, {3, 0, 64}, scalar_type::f32, scalar_type::f32);
+    real_buffer none(q, scalar_type::f32, 0), out(q, scalar_type::f32, 192);
     nothing(none, out);
-    CHECK(out.download() == std::vector<float>(192, 0.0f));
+    CHECK(out.download() == std::vector<double>(192, 0.0));
 }

@@ -148,3 +148,82 @@ TEST_CASE("kernel: a buffer of another queue's context is refused")
     taut::buffer<taut::idx> foreign(other, 64);
     CHECK_THROWS_AS(k(64, foreign), taut::device_error);
 }
+
+TEST_CASE("kernel: arguments are bound by name in any order")
+{
+    taut::queue q;
+    const taut::kernel k(q, axpy, "axpy");
+    const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
+    taut::buffer<float> y(q, std::vector<float>(64, 1.0f));
+    k(64, {{"a", 3.0f}, {"x", x}, {"y", y}});
+    k(64, {{"y", y}, {"a", 0.5f}, {"x", x}});
+    k(64, {{"x", x}, {"y", y}, {"a", -1.0f}});
+    CHECK(y.download() == std::vector<float>(64, 6.0f));
+    const std::vector<taut::named_argument> arguments = {{"y", y}, {"x", x}, {"a", 1.0f}};
+    k.launch(64, arguments);
+    CHECK(y.download() == std::vector<float>(64, 8.0f));
+}
+
+TEST_CASE("kernel: a double narrows to a float parameter, by name")
+{
+    taut::queue q;
+    const taut::kernel k(q, axpy, "axpy");
+    const taut::real_buffer x(q, taut::scalar_type::f32, std::vector<double>(64, 1.0));
+    taut::real_buffer y(q, taut::scalar_type::f32, std::vector<double>(64, 0.0));
+    k(64, {{"a", 0.1}, {"x", x}, {"y", y}});
+    CHECK(y.download() == std::vector<double>(64, static_cast<double>(0.1f)));
+}
+
+TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
+{
+    taut::queue q;
+    const std::string source = "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n"
+                               "__kernel void scale(const REAL factor, __global REAL* restrict x)\n"
+                               "{ x[get_global_id(0)] *= factor; }\n";
+    for (const auto type : {taut::scalar_type::f32, taut::scalar_type::f64})
+    {
+        const taut::kernel k(q, source, "scale", "-DREAL=" + std::string(spelling(type)), type);
+        taut::real_buffer x(q, type, std::vector<double>(64, 3.0));
+        k(64, {{"factor", 0.1}, {"x", x}});
+        CHECK(x.download()[63] == taut::test::as_real(type, 3 * taut::test::as_real(type, 0.1)));
+        taut::real_buffer other(q, type == taut::scalar_type::f32 ? taut::scalar_type::f64 : taut::scalar_type::f32,
+                                64);
+        CHECK_THROWS_AS(k(64, {{"factor", 0.1}, {"x", other}}), taut::parameter_error);
+    }
+    taut::queue weak(taut::choose_device().without_fp64());
+    CHECK_THROWS_AS(taut::kernel(weak, source, "scale", "-DREAL=double", taut::scalar_type::f64), taut::device_error);
+}
+
+TEST_CASE("kernel: a missing, unknown, repeated or wrongly typed argument is refused by its name")
+{
+    taut::queue q;
+    const taut::kernel k(q, axpy, "axpy"), count(q, axpy, "count");
+    const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
+    const taut::buffer<double> wide(q, 64);
+    taut::buffer<float> y(q, std::vector<float>(64, 1.0f));
+    const auto refusal = [&](std::vector<taut::named_argument> arguments)
+    {
+        try
+        {
+            k.launch(64, arguments);
+        }
+        catch (const taut::parameter_error& e)
+        {
+            return std::string(e.what());
+        }
+        return std::string("not refused");
+    };
+    CHECK(contains(refusal({{"a", 1.0f}, {"y", y}}), "kernel axpy: it needs an argument x"));
+    CHECK(contains(refusal({{"x", x}, {"y", y}}), "kernel axpy: it needs an argument a"));
+    CHECK(contains(refusal({{"a", 1.0f}, {"x", x}, {"z", y}}), "kernel axpy: it has no argument z"));
+    CHECK(contains(refusal({{"a", 1.0f}, {"x", x}, {"y", y}, {"z", y}}), "kernel axpy: it has no argument z"));
+    CHECK(contains(refusal({{"a", 1.0f}, {"x", x}, {"x", x}}), "kernel axpy: it has x twice"));
+    CHECK(contains(refusal({{"a", 1.0f}, {"x", wide}, {"y", y}}), "x is a buffer of float, not a buffer of double"));
+    CHECK(
+        contains(refusal({{"a", 1.0f}, {"x", 2.0f}, {"y", y}}), "x is a buffer of float, not a number of type float"));
+    CHECK(contains(refusal({{"a", x}, {"x", x}, {"y", y}}), "a is a number of type float, not a buffer of float"));
+    CHECK(contains(refusal({{"a", 1}, {"x", x}, {"y", y}}), "a is a number of type float, not a number of type int"));
+    CHECK_THROWS_AS(count(64, {{"c", y}}), taut::parameter_error);
+    CHECK(q.counters().launches == 0);
+    CHECK(y.download() == std::vector<float>(64, 1.0f));
+}

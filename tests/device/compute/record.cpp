@@ -110,9 +110,8 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
     for (const char* helper : {" taut_cbrt_f32(const float", " taut_cbrt_f64(const double"})
         CHECK(p.source().find(helper) == p.source().rfind(helper));
 
-    using floats = taut::traced_kernel<taut::in<float>, taut::out<float>>;
-    using doubles = taut::traced_kernel<taut::in<double>, taut::out<double>>;
-    const auto run = [&]<class Kernel, class T>(const Kernel& kernel, const std::vector<T>& x)
+    using taut::recorded_kernel;
+    const auto run = [&]<class T>(const recorded_kernel& kernel, const std::vector<T>& x)
     {
         const buffer<T> bx(q, x);
         buffer<T> by(q, x.size());
@@ -121,17 +120,18 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
     };
     const auto x = random_values<float>(500, 5);
     const auto y = random_values<double>(500, 6);
-    const auto narrow = run(floats(p, "narrow"), x), narrow_square = run(floats(p, "narrow_square"), x);
-    const auto wide = run(doubles(p, "wide"), y), wide_square = run(doubles(p, "wide_square"), y);
+    const auto narrow = run(recorded_kernel(p, "narrow"), x),
+               narrow_square = run(recorded_kernel(p, "narrow_square"), x);
+    const auto wide = run(recorded_kernel(p, "wide"), y), wide_square = run(recorded_kernel(p, "wide_square"), y);
     CHECK(q.counters().builds == 1);
-    CHECK(narrow == run(floats(q, texts[0]), x));
-    CHECK(wide == run(doubles(q, texts[1]), y));
-    CHECK(narrow_square == run(floats(q, texts[2]), x));
-    CHECK(wide_square == run(doubles(q, texts[3]), y));
+    CHECK(narrow == run(recorded_kernel(q, texts[0]), x));
+    CHECK(wide == run(recorded_kernel(q, texts[1]), y));
+    CHECK(narrow_square == run(recorded_kernel(q, texts[2]), x));
+    CHECK(wide_square == run(recorded_kernel(q, texts[3]), y));
     CHECK(wide[7] == doctest::Approx(std::cbrt(y[7])));
 
-    CHECK_THROWS_AS(floats(p, "absent"), taut::parameter_error);
-    CHECK_THROWS_AS(floats(p, "wide"), taut::device_error);
+    CHECK_THROWS_AS(recorded_kernel(p, "absent"), taut::parameter_error);
+    CHECK_THROWS_AS(run(recorded_kernel(p, "wide"), x), taut::parameter_error);
     CHECK_THROWS_AS(taut::traced_program(q, {texts[0], texts[1], texts[0]}), taut::parameter_error);
 }
 
@@ -157,4 +157,72 @@ TEST_CASE("trace: double is refused on a device without fp64, also where it is o
     buffer<float> x(q, std::vector<float>{1.5f});
     narrow(1, x);
     CHECK(x.download()[0] == 3);
+}
+
+TEST_CASE("recorded_kernel: formulas of doubles run in the precision of the recording, with arguments by name")
+{
+    taut::queue q;
+    for (const auto type : {taut::scalar_type::f32, taut::scalar_type::f64})
+    {
+        taut::recording r(type);
+        const auto x = r.in<double>("x", type);
+        const auto y = r.inout<double>("y", type);
+        const auto a = r.scalar<double>("a", type);
+        const auto i = r.global_id();
+        y[i] = select(x[i] < 0, taut::sym<double>(1.0), 0.1) * y[i] + a;
+        const auto form = q.device().is_cpu() ? taut::kernel_form::run : taut::kernel_form::guarded;
+        const taut::recorded_kernel k(q, r.finish("advance", form));
+        CHECK((k.text().source.find("double") == std::string::npos) == (type == taut::scalar_type::f32));
+
+        const taut::real_buffer bx(q, type, std::vector<double>{-1, 1, -2});
+        taut::real_buffer by(q, type, std::vector<double>{3, 4, 5});
+        k(2, {{"y", by}, {"a", 0.1}, {"x", bx}});
+        const auto real = [&](double v) { return taut::test::as_real(type, v); };
+        const auto got = by.download();
+        CHECK(got[0] == real(3 + real(0.1)));
+        CHECK(got[1] == doctest::Approx(0.5).epsilon(type == taut::scalar_type::f32 ? 1e-6 : 1e-15));
+        CHECK(got[2] == 5);
+        // By position, and as a list made at run time.
+        by.fill(1);
+        k(1, bx, by, 2.0);
+        k(1, std::vector<taut::named_argument>{{"x", bx}, {"y", by}, {"a", -1.0}});
+        CHECK(by.download()[0] == 2);
+    }
+}
+
+TEST_CASE("recorded_kernel: a missing, unknown, repeated or wrongly typed argument is refused by its name")
+{
+    taut::queue q;
+    const auto form = q.device().is_cpu() ? taut::kernel_form::run : taut::kernel_form::guarded;
+    taut::recording r(taut::scalar_type::f32);
+    const auto x = r.in<double>("x", taut::scalar_type::f32);
+    const auto at = r.scalar<taut::idx>("at");
+    r.out<double>("y", taut::scalar_type::f32)[r.global_id()] = x[at];
+    const taut::recorded_kernel k(q, r.finish("pick", form));
+    const buffer<float> bx(q, std::vector<float>{1, 2, 3});
+    const buffer<double> wide(q, 3);
+    buffer<float> by(q, std::vector<float>{0, 0, 0});
+    const auto refusal = [&](std::vector<taut::named_argument> arguments)
+    {
+        try
+        {
+            k(3, arguments);
+        }
+        catch (const taut::parameter_error& e)
+        {
+            return std::string(e.what());
+        }
+        return std::string("not refused");
+    };
+    CHECK(refusal({{"x", bx}, {"y", by}}) == "parameter kernel pick: it needs an argument at");
+    CHECK(refusal({{"x", bx}, {"y", by}, {"to", 1}}) == "parameter kernel pick: it has no argument to");
+    CHECK(refusal({{"x", bx}, {"y", by}, {"y", by}}) == "parameter kernel pick: it has y twice");
+    CHECK(refusal({{"x", wide}, {"y", by}, {"at", 1}}) == "parameter kernel pick: x is of another type: float");
+    CHECK(refusal({{"x", 1.0f}, {"y", by}, {"at", 1}}) == "parameter kernel pick: x is of another type: float");
+    CHECK(refusal({{"x", bx}, {"y", by}, {"at", 1.0}}) == "parameter kernel pick: at is of another type: int");
+    CHECK_THROWS_AS(k(3, bx, 1), taut::parameter_error);
+    CHECK_THROWS_AS(k(3, bx, 1, by, 1), taut::parameter_error);
+    CHECK(q.counters().launches == 0);
+    k(3, bx, 1, by);
+    CHECK(by.download() == std::vector<float>(3, 2.0f));
 }

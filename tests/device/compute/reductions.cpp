@@ -9,6 +9,8 @@
 #include "support/device.hpp"
 
 using taut::buffer;
+using taut::real_buffer;
+using taut::real_view;
 using taut::reduction_plan;
 using taut::reductions;
 using taut::test::random_values;
@@ -120,10 +122,10 @@ TEST_CASE_TEMPLATE("reductions: every left with every right vector, at every sha
                 if (plan.local > 1 && nl + nr > 8 && sized_count(0, 1) != 0) continue;
                 CAPTURE(nl);
                 CAPTURE(nr);
-                std::vector<const buffer<T>*> left, right;
-                for (std::size_t i = 0; i < nl; ++i) left.push_back(&device[i]);
-                for (std::size_t j = 0; j < nr; ++j) right.push_back(&device[8 - j]);
-                const auto dots = r.template dots<T>(left, right, n);
+                std::vector<real_view> left, right;
+                for (std::size_t i = 0; i < nl; ++i) left.emplace_back(device[i]);
+                for (std::size_t j = 0; j < nr; ++j) right.emplace_back(device[8 - j]);
+                const auto dots = r.dots(left, right, n);
                 r.fetch();
                 double worst = 0;
                 for (std::size_t i = 0; i < nl; ++i)
@@ -258,6 +260,35 @@ TEST_CASE("reductions: float works on a device without fp64, to float accuracy")
         r.fetch();
         CHECK(r.value(square) == doctest::Approx(static_cast<double>(host_dot(host, host, 0, n))).epsilon(1e-5));
         CHECK(r.value(least) == static_cast<double>(*std::min_element(host.begin(), host.end())));
+    }
+}
+
+TEST_CASE_TEMPLATE("reductions: a buffer whose precision is data has the same results bit for bit", T, float, double)
+{
+    taut::queue q;
+    constexpr auto type = taut::scalar_type_of<T>;
+    const std::size_t n = sized_count(9001, 1500);
+    const auto hx = random_values<T>(n, 9), hy = random_values<T>(n, 10);
+    const buffer<T> x(q, hx), y(q, hy);
+    const real_buffer rx(q, type, std::vector<double>(hx.begin(), hx.end())),
+        ry(q, type, std::vector<double>(hy.begin(), hy.end()));
+    for (const auto& plan : forms)
+    {
+        reductions r(q, plan);
+        const auto sum = r.sum(x), sum_again = r.sum(rx);
+        const auto dot = r.dot(x, y, n), dot_again = r.dot(rx, ry, n), dot_mixed = r.dot(x, ry, n);
+        const auto least = r.minimum(x, n), least_again = r.minimum(rx, n);
+        buffer<T> limit(q, 1);
+        real_buffer limit_again(q, type, 1);
+        r.limit(least, 0.5, 1, limit);
+        r.limit(least_again, 0.5, 1, limit_again);
+        r.fetch();
+        CHECK(r.value(sum_again) == r.value(sum));
+        CHECK(r.value(dot_again) == r.value(dot));
+        CHECK(r.value(dot_mixed) == r.value(dot));
+        CHECK(r.value(least_again) == r.value(least));
+        CHECK(limit_again.download()[0] == static_cast<double>(limit.download()[0]));
+        CHECK(limit_again.download()[0] == 0.5 * r.value(least));
     }
 }
 

@@ -10,6 +10,9 @@
 
 using taut::device_vector;
 using taut::device_vectors;
+using taut::scalar_type;
+using taut::scalar_type_of;
+using taut::test::random_reals;
 using taut::test::random_values;
 using taut::test::sized_count;
 
@@ -27,40 +30,38 @@ double tolerance()
 TEST_CASE_TEMPLATE("device_vectors: a new vector is zero, and its padding is and stays zero", T, float, double)
 {
     taut::queue q;
-    const device_vectors<T> space(q, 1500);
+    const device_vectors space(q, scalar_type_of<T>, 1500);
     auto x = space.make();
     CHECK(x.size() == 1500);
     CHECK(x.padded_size() == 2048);
-    CHECK(x.download() == std::vector<T>(1500, T(0)));
+    CHECK(x.download() == std::vector<double>(1500, 0.0));
 
-    x.upload(std::vector<T>(1500, T(2)));
+    x.upload(std::vector<double>(1500, 2.0));
     auto y = space.make();
     space.axpby(3, x, 0, y);
     space.axpby(1, x, -1, y);
     const auto all = y.data().download();
     CHECK(all[0] == -4);
     for (std::size_t i = 1500; i < all.size(); ++i) REQUIRE(all[i] == 0);
-    CHECK_THROWS_AS(x.upload(std::vector<T>(1501)), taut::parameter_error);
+    CHECK_THROWS_AS(x.upload(std::vector<double>(1501)), taut::parameter_error);
 }
 
 TEST_CASE_TEMPLATE("device_vectors: axpby, with b = 0 not reading y", T, float, double)
 {
     taut::queue q;
     const std::size_t n = sized_count(3000, 200);
-    const device_vectors<T> space(q, n);
-    const auto hx = random_values<T>(n, 1), hy = random_values<T>(n, 2);
+    const device_vectors space(q, scalar_type_of<T>, n);
+    const auto hx = random_reals(scalar_type_of<T>, n, 1), hy = random_reals(scalar_type_of<T>, n, 2);
     auto x = space.make(), y = space.make(), bad = space.make();
     x.upload(hx);
     y.upload(hy);
     space.axpby(0.5, x, -2, y);
     const auto sum = y.download();
     double worst = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        worst = std::max(worst, std::abs(static_cast<double>(sum[i]) -
-                                         (0.5 * static_cast<double>(hx[i]) - 2 * static_cast<double>(hy[i]))));
+    for (std::size_t i = 0; i < n; ++i) worst = std::max(worst, std::abs(sum[i] - (0.5 * hx[i] - 2 * hy[i])));
     CHECK(worst < tolerance<T>());
 
-    bad.upload(std::vector<T>(n, std::numeric_limits<T>::quiet_NaN()));
+    bad.upload(std::vector<double>(n, std::numeric_limits<double>::quiet_NaN()));
     space.axpby(1, x, 0, bad);
     CHECK(bad.download() == hx);
     space.copy(x, y);
@@ -71,10 +72,10 @@ TEST_CASE_TEMPLATE("device_vectors: multi_dot agrees with dot, in one wait", T, 
 {
     taut::queue q;
     const std::size_t n = sized_count(20000, 600);
-    const device_vectors<T> space(q, n);
-    std::vector<device_vector<T>> v;
-    std::vector<const device_vector<T>*> left, right;
-    for (unsigned k = 0; k < 8; ++k) v.emplace_back(space.queue(), random_values<T>(n, k));
+    const device_vectors space(q, scalar_type_of<T>, n);
+    std::vector<device_vector> v;
+    std::vector<const device_vector*> left, right;
+    for (unsigned k = 0; k < 8; ++k) v.emplace_back(space.queue(), space.type(), random_reals(space.type(), n, k));
     for (std::size_t k = 0; k < 3; ++k) left.push_back(&v[k]);
     for (std::size_t k = 1; k < 8; ++k) right.push_back(&v[k]);
 
@@ -94,19 +95,19 @@ TEST_CASE_TEMPLATE("device_vectors: linear combinations of any number of vectors
 {
     taut::queue q;
     const std::size_t n = sized_count(2500, 100);
-    const device_vectors<T> space(q, n);
-    std::vector<std::vector<T>> host;
-    std::vector<device_vector<T>> v;
+    const device_vectors space(q, scalar_type_of<T>, n);
+    std::vector<std::vector<double>> host;
+    std::vector<device_vector> v;
     for (unsigned k = 0; k < 17; ++k)
     {
-        host.push_back(random_values<T>(n, k));
-        v.emplace_back(space.queue(), host.back());
+        host.push_back(random_reals(space.type(), n, k));
+        v.emplace_back(space.queue(), space.type(), host.back());
     }
     const auto a = random_values<double>(17, 99);
     for (std::size_t m = 0; m <= 17; ++m)
     {
         CAPTURE(m);
-        std::vector<const device_vector<T>*> x;
+        std::vector<const device_vector*> x;
         for (std::size_t k = 0; k < m; ++k) x.push_back(&v[k]);
         auto out = space.make();
         out.data().fill(7);
@@ -116,8 +117,8 @@ TEST_CASE_TEMPLATE("device_vectors: linear combinations of any number of vectors
         for (std::size_t i = 0; i < n; ++i)
         {
             double s = 0;
-            for (std::size_t k = 0; k < m; ++k) s += a[k] * static_cast<double>(host[k][i]);
-            worst = std::max(worst, std::abs(static_cast<double>(result[i]) - s));
+            for (std::size_t k = 0; k < m; ++k) s += a[k] * host[k][i];
+            worst = std::max(worst, std::abs(result[i] - s));
         }
         CHECK(worst < tolerance<T>());
     }
@@ -127,19 +128,18 @@ TEST_CASE_TEMPLATE("device_vectors: a step from double positions keeps their pre
 {
     taut::queue q;
     const std::size_t n = sized_count(1025, 65);
-    const device_vectors<T> space(q, n);
-    const auto hd = random_values<T>(n, 3);
+    const device_vectors space(q, scalar_type_of<T>, n);
+    const auto hd = random_reals(space.type(), n, 3);
     auto hx = random_values<double>(n, 4);
     for (double& x : hx) x += 1e9; // where a float position would lose the step
-    auto x = space.template make_points<double>(), out = space.template make_points<double>();
+    auto x = space.make_points(scalar_type::f64), out = space.make_points(scalar_type::f64);
     auto d = space.make();
     x.upload(hx);
     d.upload(hd);
     space.step(x, 0.125, d, out);
     const auto moved = out.download();
     double worst = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        worst = std::max(worst, std::abs(moved[i] - (hx[i] + 0.125 * static_cast<double>(hd[i]))));
+    for (std::size_t i = 0; i < n; ++i) worst = std::max(worst, std::abs(moved[i] - (hx[i] + 0.125 * hd[i])));
     CHECK(worst < 3e-7);
     space.step(x, 0.125, d, x);
     CHECK(x.download() == moved);
@@ -150,26 +150,26 @@ TEST_CASE_TEMPLATE("device_vectors: a step from double positions keeps their pre
 TEST_CASE("device_vectors: float positions step on a device without fp64")
 {
     taut::queue q(taut::choose_device().without_fp64());
-    const device_vectors<float> space(q, 10);
+    const device_vectors space(q, scalar_type::f32, 10);
     auto x = space.make(), d = space.make();
-    d.upload(std::vector<float>(10, 2.0f));
+    d.upload(std::vector<double>(10, 2.0));
     space.step(x, 0.5, d, x);
-    CHECK(x.download() == std::vector<float>(10, 1.0f));
+    CHECK(x.download() == std::vector<double>(10, 1.0));
     CHECK(space.dot(x, d) == 20);
 }
 
 TEST_CASE("device_vectors: vectors, reductions and gathers of a type share one build")
 {
     taut::queue q;
-    const device_vectors<float> space(q, 100);
+    const device_vectors space(q, scalar_type::f32, 100);
     auto x = space.make(), y = space.make();
-    auto point = space.make_points<double>();
+    auto point = space.make_points(scalar_type::f64);
     space.axpby(2, x, 3, y);
     space.step(point, 0.5, x, point);
     CHECK(space.dot(x, y) == 0);
-    for (const std::size_t n : {2, 3, 8})
+    for (const std::size_t n : {2u, 3u, 8u})
     {
-        const std::vector<const device_vector<float>*> v(n, &x);
+        const std::vector<const device_vector*> v(n, &x);
         const std::vector<double> a(n, 1.0);
         space.linear_combination(a, v, y);
         std::vector<double> products(n * n);
@@ -180,15 +180,42 @@ TEST_CASE("device_vectors: vectors, reductions and gathers of a type share one b
     r.minimum(x.data(), 100);
     r.fetch();
     const std::vector<taut::idx> offsets = {0, 1}, zero = {0};
-    const taut::gather<float> sum(q, offsets, zero, zero, {.components = 3, .cell_stride = 64, .vertex_stride = 64});
+    const taut::gather sum(q, offsets, zero, zero, {.components = 3, .cell_stride = 64, .vertex_stride = 64},
+                           scalar_type::f32, scalar_type::f32);
     q.finish();
     CHECK(q.counters().builds == 1);
+}
+
+TEST_CASE("device_vectors: a vector of another type is refused")
+{
+    taut::queue q;
+    for (const scalar_type type : {scalar_type::f32, scalar_type::f64})
+    {
+        const device_vectors space(q, type, 100);
+        CHECK(space.type() == type);
+        auto x = space.make(),
+             other = space.make_points(type == scalar_type::f32 ? scalar_type::f64 : scalar_type::f32);
+        CHECK(x.data().type() == type);
+        CHECK(other.data().type() != type);
+        CHECK_THROWS_AS(space.dot(x, other), taut::parameter_error);
+        CHECK_THROWS_AS(space.axpby(1, x, 1, other), taut::parameter_error);
+        CHECK_THROWS_AS(space.axpby(1, x, 0, other), taut::parameter_error);
+        CHECK_THROWS_AS(space.copy(x, other), taut::parameter_error);
+        CHECK_THROWS_AS(space.step(other, 1, x, x), taut::parameter_error);
+        const std::vector<double> a = {1};
+        const std::vector<const device_vector*> one = {&x}, wrong = {&other};
+        CHECK_THROWS_AS(space.linear_combination(a, one, other), taut::parameter_error);
+        CHECK_THROWS_AS(space.linear_combination(a, wrong, x), taut::parameter_error);
+        std::vector<double> out(1);
+        CHECK_THROWS_AS(space.multi_dot(one, wrong, out), taut::parameter_error);
+        CHECK(space.dot(x, x) == 0);
+    }
 }
 
 TEST_CASE("device_vectors: the space of no dimension")
 {
     taut::queue q;
-    const device_vectors<double> space(q, 0);
+    const device_vectors space(q, scalar_type::f64, 0);
     auto x = space.make(), y = space.make();
     space.axpby(1, x, 1, y);
     CHECK(space.dot(x, y) == 0);

@@ -10,7 +10,7 @@
 #include "support/device.hpp"
 
 using namespace taut;
-using taut::test::random_values;
+using taut::test::random_reals;
 
 namespace
 {
@@ -25,26 +25,24 @@ mesh<triangle> test_mesh()
 }
 
 /// A plain host product of values by place of the pattern.
-template <class T>
-std::vector<double> host_product(const block_pattern& p, std::size_t D, std::size_t stride, const std::vector<T>& A,
-                                 const std::vector<T>& x)
+std::vector<double> host_product(const block_pattern& p, std::size_t D, std::size_t stride,
+                                 const std::vector<double>& A, const std::vector<double>& x)
 {
     std::vector<double> y(D * stride, 0.0);
     for (std::size_t r = 0; r < p.rows(); ++r)
         for (std::size_t j = 0; j < p.length(r); ++j)
             for (std::size_t a = 0; a < D; ++a)
                 for (std::size_t b = 0; b < D; ++b)
-                    y[a * stride + r] += double(A[p.place(r, j) * D * D + a * D + b]) *
-                                         double(x[b * stride + std::size_t(p.column(r, j))]);
+                    y[a * stride + r] +=
+                        A[p.place(r, j) * D * D + a * D + b] * x[b * stride + std::size_t(p.column(r, j))];
     return y;
 }
 
 /// Random values on the rows of a vector, zero padding.
-template <class T>
-device_vector<T> random_vector(const block_matrix<T>& A, unsigned seed, std::vector<T>& host)
+device_vector random_vector(const block_matrix& A, unsigned seed, std::vector<double>& host)
 {
-    const auto values = random_values<T>(std::size_t(A.block_size()) * A.rows(), seed);
-    host.assign(std::size_t(A.block_size()) * A.stride(), T(0));
+    const auto values = random_reals(A.type(), std::size_t(A.block_size()) * A.rows(), seed);
+    host.assign(std::size_t(A.block_size()) * A.stride(), 0.0);
     for (std::size_t c = 0, k = 0; c < std::size_t(A.block_size()); ++c)
         for (std::size_t r = 0; r < A.rows(); ++r) host[c * A.stride() + r] = values[k++];
     auto v = A.vector();
@@ -52,14 +50,13 @@ device_vector<T> random_vector(const block_matrix<T>& A, unsigned seed, std::vec
     return v;
 }
 
-template <class T, class U>
-double difference(const std::vector<T>& a, const std::vector<U>& b)
+double difference(const std::vector<double>& a, const std::vector<double>& b)
 {
     REQUIRE(a.size() == b.size());
     double most = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
     {
-        const double d = std::abs(double(a[i]) - double(b[i]));
+        const double d = std::abs(a[i] - b[i]);
         most = d <= most ? most : d; // NaN wins
     }
     return most;
@@ -69,10 +66,9 @@ template <class T>
 constexpr double tolerance = std::is_same_v<T, double> ? 1e-12 : 2e-4;
 
 /// Random blocks of the nonzeros, and 0 where there is none.
-template <class T>
-std::vector<T> random_blocks(const block_pattern& p, std::size_t d, unsigned seed)
+std::vector<double> random_blocks(scalar_type type, const block_pattern& p, std::size_t d, unsigned seed)
 {
-    auto values = random_values<T>(p.columns.size() * d * d, seed);
+    auto values = random_reals(type, p.columns.size() * d * d, seed);
     std::vector<char> used(p.columns.size(), 0);
     for (std::size_t r = 0; r < p.rows(); ++r)
         for (std::size_t j = 0; j < p.length(r); ++j) used[p.place(r, j)] = 1;
@@ -116,25 +112,25 @@ TEST_CASE_TEMPLATE("block sparse: products, residuals and smoothing steps are th
             CAPTURE(D);
             CAPTURE(form.lanes);
             const auto d = std::size_t(D);
-            block_matrix<T> A(q, pattern_of_cells(m.cells(), m.points().size(), form.slice), D, form);
+            block_matrix A(q, scalar_type_of<T>, pattern_of_cells(m.cells(), m.points().size(), form.slice), D, form);
             const auto p = A.pattern();
             std::size_t nonzeros = 0;
             for (std::size_t r = 0; r < p.rows(); ++r) nonzeros += p.length(r);
             CHECK(nonzeros == std::size_t(m.points().size()) + 2 * (m.points().size() + m.cells().size() - 1));
-            auto values = random_blocks<T>(p, d, 5);
+            auto values = random_blocks(A.type(), p, d, 5);
             // Diagonal blocks: symmetric and positive, one of them of rank one, one zero.
             for (std::size_t r = 0; r < p.rows(); ++r)
                 for (std::size_t a = 0; a < d; ++a)
                     for (std::size_t b = 0; b < d; ++b)
-                        values[p.place(r, 0) * d * d + a * d + b] = T(r == 3   ? 0
-                                                                      : r == 2 ? 1
-                                                                      : a == b ? 3 + double(r % 3)
-                                                                               : 0.5);
+                        values[p.place(r, 0) * d * d + a * d + b] = r == 3   ? 0
+                                                                    : r == 2 ? 1
+                                                                    : a == b ? 3 + double(r % 3)
+                                                                             : 0.5;
             A.upload(values);
             CHECK(difference(A.download(), values) == 0);
             A.forget_pattern();
             CHECK(A.pattern().columns == p.columns);
-            std::vector<T> hx, hb, hz;
+            std::vector<double> hx, hb, hz;
             const auto x = random_vector(A, 1, hx), b = random_vector(A, 2, hb), z = random_vector(A, 3, hz);
             auto y = A.vector();
             A.multiply(x, y);
@@ -142,21 +138,20 @@ TEST_CASE_TEMPLATE("block sparse: products, residuals and smoothing steps are th
             CHECK(difference(y.download(), Ax) < 20 * tolerance<T>);
             A.residual(x, b, y);
             auto r = Ax;
-            for (std::size_t i = 0; i < r.size(); ++i) r[i] = double(hb[i]) - Ax[i];
+            for (std::size_t i = 0; i < r.size(); ++i) r[i] = hb[i] - Ax[i];
             CHECK(difference(y.download(), r) < 20 * tolerance<T>);
 
             A.invert_diagonal();
             A.jacobi(b, 1, y);
             const auto solved = y.download();
-            for (const T v : solved) REQUIRE(std::isfinite(v));
+            for (const double v : solved) REQUIRE(std::isfinite(v));
             for (std::size_t row = 4; row < p.rows(); ++row)
                 for (std::size_t a = 0; a < d; ++a)
                 {
                     double back = 0;
                     for (std::size_t c = 0; c < d; ++c)
-                        back +=
-                            double(values[p.place(row, 0) * d * d + a * d + c]) * double(solved[c * A.stride() + row]);
-                    REQUIRE(back == doctest::Approx(double(hb[a * A.stride() + row]))
+                        back += values[p.place(row, 0) * d * d + a * d + c] * solved[c * A.stride() + row];
+                    REQUIRE(back == doctest::Approx(hb[a * A.stride() + row])
                                         .scale(1)
                                         .epsilon(std::is_same_v<T, double> ? 1e-9 : 1e-4));
                 }
@@ -170,7 +165,7 @@ TEST_CASE_TEMPLATE("block sparse: products, residuals and smoothing steps are th
             A.smooth(b, x, out, 1.25, -0.25, 0.7, out);
             auto expected = correction.download();
             for (std::size_t i = 0; i < expected.size(); ++i)
-                if (i % A.stride() != 2) expected[i] += T(1.25) * hx[i] - T(0.25) * hz[i];
+                if (i % A.stride() != 2) expected[i] += 1.25 * hx[i] - 0.25 * hz[i];
             auto got = out.download();
             // Row 2 is singular: its inverse magnifies rounding.
             for (std::size_t c = 0; c < d; ++c) got[c * A.stride() + 2] = expected[c * A.stride() + 2];
@@ -190,10 +185,10 @@ TEST_CASE_TEMPLATE("block sparse: element blocks are summed into place, transpos
         for (const int D : {2, 3})
         {
             const auto d = std::size_t(D);
-            block_matrix<T> A(q, pattern_of_cells(m.cells(), n, form.slice), D, form);
-            const auto host = random_values<T>((3 * d * (d + 1) / 2 + 3 * d * d) * stride, 9);
-            const buffer<T> blocks(q, host);
-            const block_assembly<T> assembly(A, {A.pattern(), D, m.cells(), stride, fixed});
+            block_matrix A(q, scalar_type_of<T>, pattern_of_cells(m.cells(), n, form.slice), D, form);
+            const auto host = random_reals(A.type(), (3 * d * (d + 1) / 2 + 3 * d * d) * stride, 9);
+            const real_buffer blocks(q, A.type(), host);
+            const block_assembly assembly(A, {A.pattern(), D, m.cells(), stride, fixed});
             assembly(blocks, A);
             std::vector<double> expected(A.pattern().columns.size() * d * d, 0.0);
             for (std::size_t cell = 0; cell < cells; ++cell)
@@ -207,16 +202,16 @@ TEST_CASE_TEMPLATE("block sparse: element blocks are summed into place, transpos
                                 const auto& p = A.pattern();
                                 const std::size_t vw = p.place(v, p.find(v, taut::idx(w))),
                                                   wv = p.place(w, p.find(w, taut::idx(v)));
-                                const double value = double(host[slot * stride + cell]);
+                                const double value = host[slot * stride + cell];
                                 expected[vw * d * d + a * d + b] += value;
                                 if (k != l || a != b) expected[wv * d * d + b * d + a] += value;
                             }
             CHECK(difference(A.download(), expected) < tolerance<T>);
-            CHECK_THROWS_AS(assembly(buffer<T>(q, 10), A), parameter_error);
+            CHECK_THROWS_AS(assembly(real_buffer(q, A.type(), 10), A), parameter_error);
 
             // A second matrix shares the lists, not the values.
             auto B = A.like();
-            CHECK(difference(B.download(), std::vector<T>(expected.size())) == 0);
+            CHECK(difference(B.download(), std::vector<double>(expected.size())) == 0);
             assembly(blocks, B);
             A.values().fill(0);
             CHECK(difference(B.download(), expected) < tolerance<T>);
@@ -239,11 +234,11 @@ TEST_CASE_TEMPLATE("block sparse: transfers and the coarse matrix are those of a
         {
             const auto d = std::size_t(D);
             const auto view = P.view(fixed);
-            block_matrix<T> A(q, pattern_of_cells(m.cells(), n, form.slice), D, form);
-            block_matrix<T> B(q, pattern_of_product(A.pattern(), view), D, form);
-            const auto values = random_blocks<T>(A.pattern(), d, 4);
+            block_matrix A(q, scalar_type_of<T>, pattern_of_cells(m.cells(), n, form.slice), D, form);
+            block_matrix B(q, scalar_type_of<T>, pattern_of_product(A.pattern(), view), D, form);
+            const auto values = random_blocks(A.type(), A.pattern(), d, 4);
             A.upload(values);
-            const block_transfer<T> transfer(A, view, B);
+            const block_transfer transfer(A, view, B);
             transfer.refresh(A, B);
             std::vector<double> expected(B.pattern().columns.size() * d * d, 0.0);
             for (std::size_t i = 0; i < n; ++i)
@@ -259,24 +254,24 @@ TEST_CASE_TEMPLATE("block sparse: transfers and the coarse matrix are those of a
                             REQUIRE(at < B.pattern().length(I));
                             for (std::size_t e = 0; e < d * d; ++e)
                                 expected[B.pattern().place(I, at) * d * d + e] +=
-                                    w * double(values[A.pattern().place(i, j) * d * d + e]);
+                                    w * values[A.pattern().place(i, j) * d * d + e];
                         }
             CHECK(difference(B.download(), expected) < tolerance<T>);
 
             // Restriction with its first smoothing step, then prolongation.
             B.invert_diagonal();
-            std::vector<T> hr, hx, hc;
+            std::vector<double> hr, hx, hc;
             const auto r = random_vector(A, 1, hr), coarse = random_vector(B, 2, hc);
             auto b = B.vector(), y = B.vector(), y2 = B.vector(), x = random_vector(A, 3, hx);
             transfer.restrict_residual(r, B, 0.5, b, y);
-            std::vector<double> hb(d * B.stride(), 0.0), hp(hx.begin(), hx.end());
+            std::vector<double> hb(d * B.stride(), 0.0), hp = hx;
             for (std::size_t i = 0; i < n; ++i)
                 for (std::size_t k = 0; k < 3; ++k)
                     for (std::size_t c = 0; c < d; ++c)
                     {
                         const auto I = std::size_t(P.columns[i][k]);
-                        hb[c * B.stride() + I] += view.weight(i, k) * double(hr[c * A.stride() + i]);
-                        hp[c * A.stride() + i] += view.weight(i, k) * double(hc[c * B.stride() + I]);
+                        hb[c * B.stride() + I] += view.weight(i, k) * hr[c * A.stride() + i];
+                        hp[c * A.stride() + i] += view.weight(i, k) * hc[c * B.stride() + I];
                     }
             CHECK(difference(b.download(), hb) < tolerance<T>);
             B.jacobi(b, 0.5, y2);
@@ -302,11 +297,11 @@ TEST_CASE_TEMPLATE("block sparse: the product with the identity is the matrix, r
     for (const lane_form form : forms)
         for (const int D : {2, 3})
         {
-            block_matrix<T> A(q, pattern_of_cells(cells, columns.size(), form.slice), D, form);
-            block_matrix<T> B(q, pattern_of_product(A.pattern(), identity), D, form);
-            const auto values = random_blocks<T>(A.pattern(), std::size_t(D), 7);
+            block_matrix A(q, scalar_type_of<T>, pattern_of_cells(cells, columns.size(), form.slice), D, form);
+            block_matrix B(q, scalar_type_of<T>, pattern_of_product(A.pattern(), identity), D, form);
+            const auto values = random_blocks(A.type(), A.pattern(), std::size_t(D), 7);
             A.upload(values);
-            block_transfer<T>(A, identity, B).refresh(A, B);
+            block_transfer(A, identity, B).refresh(A, B);
             const auto product = B.download();
             double most = 0;
             const auto d = std::size_t(D * D);
@@ -316,8 +311,8 @@ TEST_CASE_TEMPLATE("block sparse: the product with the identity is the matrix, r
                     const std::size_t at = B.pattern().find(r, A.pattern().column(r, j));
                     REQUIRE(at < B.pattern().length(r));
                     for (std::size_t e = 0; e < d; ++e)
-                        most = std::max(most, std::abs(double(product[B.pattern().place(r, at) * d + e]) -
-                                                       double(values[A.pattern().place(r, j) * d + e])));
+                        most = std::max(most, std::abs(product[B.pattern().place(r, at) * d + e] -
+                                                       values[A.pattern().place(r, j) * d + e]));
                 }
             CHECK(most < tolerance<T>);
         }

@@ -6,6 +6,7 @@
 
 #include <support/dense_matrix.hpp>
 #include <support/meshes.hpp>
+#include <taut/sparse/cell_pattern.hpp>
 #include <taut/sparse/dense_inverse.hpp>
 
 #include "support/device.hpp"
@@ -16,11 +17,10 @@ namespace
 {
 
 /// Values of a symmetric, diagonally dominant matrix of random blocks.
-template <class T>
-std::vector<T> dominant_blocks(const block_pattern& p, std::size_t d)
+std::vector<double> dominant_blocks(scalar_type type, const block_pattern& p, std::size_t d)
 {
-    std::vector<T> values(p.columns.size() * d * d, T(0));
-    const auto random = test::random_values<T>(values.size(), 11);
+    std::vector<double> values(p.columns.size() * d * d, 0.0);
+    const auto random = test::random_values<double>(values.size(), 11);
     for (std::size_t r = 0; r < p.rows(); ++r)
         for (std::size_t j = 0; j < p.length(r); ++j)
         {
@@ -30,7 +30,8 @@ std::vector<T> dominant_blocks(const block_pattern& p, std::size_t d)
             for (std::size_t a = 0; a < d; ++a)
                 for (std::size_t b = r == c ? a : 0; b < d; ++b)
                 {
-                    const T value = r == c && a == b ? T(9 + double(r % 4)) : T(0.3) * random[here * d * d + a * d + b];
+                    const double value = r == c && a == b ? 9 + double(r % 4)
+                                                          : test::as_real(type, 0.3 * random[here * d * d + a * d + b]);
                     values[here * d * d + a * d + b] = values[there * d * d + b * d + a] = value;
                 }
         }
@@ -38,8 +39,7 @@ std::vector<T> dominant_blocks(const block_pattern& p, std::size_t d)
 }
 
 /// The rows of a block matrix that are in the list, as a dense one.
-template <class T>
-test::dense_matrix dense(const block_pattern& p, std::size_t d, const std::vector<T>& values,
+test::dense_matrix dense(const block_pattern& p, std::size_t d, const std::vector<double>& values,
                          const std::vector<taut::idx>& rows)
 {
     test::dense_matrix A(rows.size() * d);
@@ -71,9 +71,9 @@ TEST_CASE_TEMPLATE("dense inverse: that of the host, in the form for CPUs and in
             CAPTURE(D);
             CAPTURE(form.lanes);
             const auto d = static_cast<std::size_t>(D);
-            block_matrix<T> A(q, pattern_of_cells(m.cells(), m.points().size(), form.slice), D, form);
+            block_matrix A(q, scalar_type_of<T>, pattern_of_cells(m.cells(), m.points().size(), form.slice), D, form);
             const auto p = A.pattern();
-            auto values = dominant_blocks<T>(p, d);
+            auto values = dominant_blocks(A.type(), p, d);
             // An unknown that the matrix does not see.
             for (std::size_t j = 0; j < p.length(2); ++j)
             {
@@ -82,25 +82,24 @@ TEST_CASE_TEMPLATE("dense inverse: that of the host, in the form for CPUs and in
                     values[p.place(2, j) * d * d + e] = values[p.place(c, p.find(c, 2)) * d * d + e * d] = 0;
             }
             A.upload(values);
-            detail::dense_inverse<T> inverse(A, rows);
+            detail::dense_inverse inverse(A, rows);
             CHECK(static_cast<std::size_t>(inverse.size()) == rows.size() * d);
             inverse.refresh(A);
 
             const double shift = std::is_same_v<T, double> ? 1e-8 : 1e-4;
             const auto X = test::shifted_inverse(dense(p, d, values, rows), shift);
-            const auto random = test::random_values<T>(d * A.rows(), 5);
-            std::vector<T> b(d * A.stride(), T(0));
+            const auto random = test::random_reals(A.type(), d * A.rows(), 5);
+            std::vector<double> b(d * A.stride(), 0.0);
             for (std::size_t c = 0, k = 0; c < d; ++c)
                 for (std::size_t r = 0; r < A.rows(); ++r) b[c * A.stride() + r] = random[k++];
             auto right = A.vector(), x = A.vector();
             right.upload(b);
-            x.data().fill(T(7));
+            x.data().fill(7);
             inverse.apply(right, x);
 
             std::vector<double> packed;
             for (const taut::idx r : rows)
-                for (std::size_t c = 0; c < d; ++c)
-                    packed.push_back(static_cast<double>(b[c * A.stride() + static_cast<std::size_t>(r)]));
+                for (std::size_t c = 0; c < d; ++c) packed.push_back(b[c * A.stride() + static_cast<std::size_t>(r)]);
             const auto solution = X * packed;
             std::vector<double> expected(d * A.stride(), 7.0); // other places stay as they are
             for (std::size_t k = 0; k < rows.size(); ++k)
@@ -108,8 +107,7 @@ TEST_CASE_TEMPLATE("dense inverse: that of the host, in the form for CPUs and in
                     expected[c * A.stride() + static_cast<std::size_t>(rows[k])] = solution[k * d + c];
             const auto got = x.download();
             double worst = 0;
-            for (std::size_t i = 0; i < got.size(); ++i)
-                worst = std::max(worst, std::abs(static_cast<double>(got[i]) - expected[i]));
+            for (std::size_t i = 0; i < got.size(); ++i) worst = std::max(worst, std::abs(got[i] - expected[i]));
             CHECK(worst < (std::is_same_v<T, double> ? 1e-13 : 1e-5));
             CHECK(got[2] == 0);
         }
@@ -123,18 +121,19 @@ TEST_CASE_TEMPLATE("dense inverse: what is not finite or not positive is taken o
     std::vector<taut::idx> rows(m.points().size());
     for (std::size_t v = 0; v < rows.size(); ++v) rows[v] = static_cast<taut::idx>(v);
     for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
-        for (const T bad : {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity(), T(-1), T(0)})
+        for (const double bad :
+             {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0, 0.0})
         {
             CAPTURE(form.lanes);
             CAPTURE(bad);
-            block_matrix<T> A(q, pattern_of_cells(m.cells(), m.points().size(), form.slice), 2, form);
-            auto values = dominant_blocks<T>(A.pattern(), 2);
+            block_matrix A(q, scalar_type_of<T>, pattern_of_cells(m.cells(), m.points().size(), form.slice), 2, form);
+            auto values = dominant_blocks(A.type(), A.pattern(), 2);
             values[A.pattern().place(5, 0) * 4] = bad; // of the first unknown of row 5 with itself
             A.upload(values);
-            detail::dense_inverse<T> inverse(A, rows);
+            detail::dense_inverse inverse(A, rows);
             inverse.refresh(A);
             auto b = A.vector(), x = A.vector();
-            b.data().fill(T(1));
+            b.data().fill(1);
             inverse.apply(b, x);
             const auto got = x.download();
             for (std::size_t r = 0; r < A.rows(); ++r)

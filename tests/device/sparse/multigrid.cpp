@@ -18,8 +18,7 @@ namespace
 
 /// A multigrid of the energy of small displacements (sum of squared gradients plus squared divergence, D components
 /// over a planar triangulation), as element blocks. With pins, the boundary of the lower side is fixed.
-template <class T>
-multigrid<T> elastic(queue& q, const mesh<triangle>& m, int D, bool pinned, lane_form form)
+multigrid elastic(queue& q, scalar_type type, const mesh<triangle>& m, int D, bool pinned, lane_form form)
 {
     const std::size_t n = m.points().size(), d = std::size_t(D), cells = m.cells().size(), stride = padded(cells, 256);
     std::vector<char> fixed(n, 0);
@@ -39,7 +38,7 @@ multigrid<T> elastic(queue& q, const mesh<triangle>& m, int D, bool pinned, lane
                              .offsets = P.transpose.offsets,
                              .places = P.transpose.items});
     }
-    std::vector<T> blocks((3 * d * (d + 1) / 2 + 3 * d * d) * stride, T(0));
+    std::vector<double> blocks((3 * d * (d + 1) / 2 + 3 * d * d) * stride, 0.0);
     for (std::size_t cell = 0; cell < cells; ++cell)
     {
         vec2 x[3], gradient[3];
@@ -57,23 +56,22 @@ multigrid<T> elastic(queue& q, const mesh<triangle>& m, int D, bool pinned, lane
                     {
                         const double div = a < 2 && b < 2 ? gradient[k][int(a)] * gradient[l][int(b)] : 0;
                         const double same = a == b ? glm::dot(gradient[k], gradient[l]) : 0;
-                        blocks[slot * stride + cell] = T(twice * (same + div));
+                        blocks[slot * stride + cell] = twice * (same + div);
                     }
     }
     const auto around = incidence_of_cells(m.cells(), n);
-    multigrid_plan<T> plan(pattern_of_cells(m.cells(), around, form.slice), D, transfers, form);
+    multigrid_plan plan(pattern_of_cells(m.cells(), around, form.slice), D, transfers, form);
     const assembly_lists lists(plan.patterns.front(), D, m.cells(), around, stride, fixed);
-    multigrid<T> mg(q, std::move(plan));
-    const block_assembly<T> assembly(mg.matrix(), lists);
-    assembly(buffer<T>(q, blocks), mg.matrix());
+    multigrid mg(q, type, std::move(plan));
+    const block_assembly assembly(mg.matrix(), lists);
+    assembly(real_buffer(q, type, blocks), mg.matrix());
     q.finish();
     mg.refresh();
     return mg;
 }
 
 /// A matrix of the multigrid as a dense one, row r * D + c for component c of row r.
-template <class T>
-test::dense_matrix dense(const block_matrix<T>& A)
+test::dense_matrix dense(const block_matrix& A)
 {
     const auto p = A.pattern();
     const auto values = A.download();
@@ -133,13 +131,12 @@ struct host_cycle
 };
 
 /// A right side that the matrix reaches.
-template <class T>
-device_vector<T> image(const multigrid<T>& mg, unsigned seed)
+device_vector image(const multigrid& mg, unsigned seed)
 {
     const auto& A = mg.matrix();
     auto x = A.vector(), b = A.vector();
-    const auto values = test::random_values<T>(A.rows(), seed);
-    std::vector<T> host(std::size_t(A.block_size()) * A.stride(), T(0));
+    const auto values = test::random_reals(A.type(), A.rows(), seed);
+    std::vector<double> host(std::size_t(A.block_size()) * A.stride(), 0.0);
     for (std::size_t c = 0; c < std::size_t(A.block_size()); ++c)
         for (std::size_t r = 0; r < A.rows(); ++r) host[c * A.stride() + r] = values[(r * (c + 1)) % A.rows()];
     x.upload(host);
@@ -148,12 +145,11 @@ device_vector<T> image(const multigrid<T>& mg, unsigned seed)
 }
 
 /// Iterations of preconditioned conjugate gradients until the residual has fallen by `tolerance`.
-template <class T>
-int solve(queue& q, multigrid<T>& mg, double tolerance)
+int solve(queue& q, multigrid& mg, double tolerance)
 {
     const auto& A = mg.matrix();
     auto r = image(mg, 3), x = A.vector(), z = A.vector(), p = A.vector(), Ap = A.vector();
-    const device_vectors<T> space(q, x.size());
+    const device_vectors space(q, A.type(), x.size());
     const double start = std::sqrt(space.dot(r, r));
     mg.apply(r, z);
     space.copy(z, p);
@@ -191,11 +187,14 @@ TEST_CASE_TEMPLATE("multigrid: the cycle is symmetric and positive", T, float, d
     std::vector<shape> shapes{{narrow, true, 2}, {wide, false, 3}, {narrow, false, 3}, {wide, true, 2},
                               {narrow, true, 3}, {wide, true, 3},  {narrow, false, 2}, {wide, false, 2}};
     shapes.resize(static_cast<std::size_t>(test::sized(8, 2)));
-    for (const auto& [form, pinned, D] : shapes)
+    for (const shape& s : shapes)
     {
+        const lane_form form = s.form;
+        const bool pinned = s.pinned;
+        const int D = s.D;
         CAPTURE(D);
         CAPTURE(pinned);
-        auto mg = elastic<T>(q, m, D, pinned, form);
+        auto mg = elastic(q, scalar_type_of<T>, m, D, pinned, form);
         CHECK(mg.levels() >= 2);
         CHECK(mg.solves_coarsest());
         const auto u = image(mg, 1), v = image(mg, 2);
@@ -208,7 +207,7 @@ TEST_CASE_TEMPLATE("multigrid: the cycle is symmetric and positive", T, float, d
         CHECK(q.counters().launches - refreshed == mg.launches());
         CHECK(q.counters().waits == before.waits);
         mg.apply(v, Mv);
-        const device_vectors<T> space(q, u.size());
+        const device_vectors space(q, scalar_type_of<T>, u.size());
         const double uMv = space.dot(u, Mv), vMu = space.dot(v, Mu), uMu = space.dot(u, Mu), vMv = space.dot(v, Mv);
         CHECK(uMu > 0);
         CHECK(vMv > 0);
@@ -232,7 +231,7 @@ TEST_CASE_TEMPLATE("multigrid: the cycle of two levels is that of a host, fused 
             CAPTURE(D);
             CAPTURE(form.lanes);
             const auto d = std::size_t(D);
-            auto mg = elastic<T>(q, m, D, false, form);
+            auto mg = elastic(q, scalar_type_of<T>, m, D, false, form);
             REQUIRE(mg.levels() == 2);
             REQUIRE(mg.solves_coarsest());
             CHECK(mg.launches() == (form.lanes > 1 ? 1 : 8));
@@ -254,12 +253,12 @@ TEST_CASE_TEMPLATE("multigrid: the cycle of two levels is that of a host, fused 
             const auto right = b.download(), got = x.download();
             const std::size_t stride = mg.matrix().stride();
             std::vector<double> packed(A.size());
-            for (std::size_t i = 0; i < A.size(); ++i) packed[i] = double(right[i % d * stride + i / d]);
+            for (std::size_t i = 0; i < A.size(); ++i) packed[i] = right[i % d * stride + i / d];
             const auto expected = cycle(packed);
             double worst = 0, size = 0;
             for (std::size_t i = 0; i < A.size(); ++i)
             {
-                worst = std::max(worst, std::abs(double(got[i % d * stride + i / d]) - expected[i]));
+                worst = std::max(worst, std::abs(got[i % d * stride + i / d] - expected[i]));
                 size = std::max(size, std::abs(expected[i]));
             }
             CHECK(worst < (std::is_same_v<T, double> ? 1e-7 : 1e-3) * size);
@@ -274,11 +273,11 @@ TEST_CASE("multigrid: conjugate gradients need as many cycles on fine meshes as 
         for (const int D : {2, 3})
             for (const int n : {test::sized(45, 10), test::sized(100, 14), test::sized(224, 18)})
             {
-                auto mg = elastic<double>(q, test::grid(n, n), D, pinned, form);
+                auto mg = elastic(q, scalar_type::f64, test::grid(n, n), D, pinned, form);
                 const int its = solve(q, mg, 1e-8);
                 MESSAGE("n ", n, " D ", D, " pinned ", pinned, ": ", its, " iterations, ", mg.levels(), " levels");
                 CHECK(its <= 22);
             }
-    auto mg = elastic<float>(q, test::grid(test::sized(100, 14), test::sized(100, 14)), 2, true, form);
+    auto mg = elastic(q, scalar_type::f32, test::grid(test::sized(100, 14), test::sized(100, 14)), 2, true, form);
     CHECK(solve(q, mg, 1e-4) <= 14);
 }

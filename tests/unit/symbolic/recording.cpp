@@ -5,6 +5,7 @@
 
 #include <taut/symbolic/differentiate.hpp>
 #include <taut/symbolic/evaluate.hpp>
+#include <taut/symbolic/loop.hpp>
 #include <taut/symbolic/recording.hpp>
 
 using taut::sym;
@@ -151,4 +152,88 @@ TEST_CASE("recording: a recording is current while it lives")
         CHECK(&taut::tape::current() == &r.recorded());
     }
     CHECK_THROWS_AS(taut::tape::current(), taut::tape_error);
+}
+
+TEST_CASE("recording: a kernel in float is written with doubles, and mentions none")
+{
+    using taut::scalar_type;
+    const auto record = [](scalar_type type, taut::kernel_form form)
+    {
+        taut::recording r(type);
+        const auto x = r.in<double>("x", type);
+        const auto starts = r.in<taut::idx>("starts");
+        const auto y = r.inout<double>("y", type);
+        const auto z = r.out<double>("z", type);
+        const auto a = r.scalar<double>("a", type);
+        const auto i = r.global_id();
+        const sym<double> u = x[i], v = y[i];
+        const sym<double> chosen = select(u < 0.5 * v || v != 1, sym<double>(1.0), 0.0);
+        const sym<double> roots = sqrt(u) + cbrt(u) + exp(u) + log(u) + sin(u) + cos(u) + tan(u) + atan(u);
+        const sym<double> powers = pow(u, 3) + pow(u, 1.5) + pow(u, 4.0 / 3) + pow(u, v) + pow(2.0, u);
+        const sym<double> parts = abs(u) + floor(u) + min(u, 0.25) + max(v, 3) + fabs(-v);
+        const sym<double> along = taut::sum_over(starts[i], starts[i + 1], [&](auto k) { return 2 * x[k]; });
+        const auto slopes = differentiate(roots * powers + chosen * parts * a, {u, v});
+        sym<double> zero{};
+        y[i] = 1;
+        y[i] += slopes[0] / 3 - slopes[1];
+        z[i] = chosen * roots + parts * powers + along + zero + 0.1;
+        z[i + 1] = select(chosen > 0.5, sym<double>(1.0), sym<double>(0.0));
+        return r.finish("f", form).source;
+    };
+    for (const auto form : {taut::kernel_form::item, taut::kernel_form::guarded, taut::kernel_form::run})
+    {
+        const std::string narrow = record(scalar_type::f32, form), wide = record(scalar_type::f64, form);
+        CHECK(narrow.find("double") == std::string::npos);
+        CHECK(narrow.find("fp64") == std::string::npos);
+        CHECK(narrow.find("__global const float* x, __global const int* starts, __global float* y, __global float* z, "
+                          "const float a") != std::string::npos);
+        CHECK(count(narrow, taut::detail::literal(0.1f)) == 1);
+        CHECK(wide.find("float*") == std::string::npos);
+        CHECK(wide.find("__global const double* x") != std::string::npos);
+    }
+}
+
+TEST_CASE("recording: a constant takes the precision of what it meets, and a store that of its array")
+{
+    using taut::scalar_type;
+    taut::recording r; // constants are doubles
+    const auto x = r.in<double>("x", scalar_type::f32);
+    const auto wide = r.in<double>("wide");
+    const auto y = r.out<double>("y", scalar_type::f32);
+    const auto i = r.global_id();
+    const auto type = [&](sym<double> v) { return r.recorded()[v.id()].type; };
+    CHECK(type(x[i]) == scalar_type::f32);
+    CHECK(type(0.1 * x[i] + 1) == scalar_type::f32);
+    CHECK(type(pow(x[i], 2)) == scalar_type::f32);
+    CHECK(type(select(x[i] < 0.1, x[i], 0.1)) == scalar_type::f32);
+    CHECK(type(wide[i] * 0.1) == scalar_type::f64);
+    CHECK(type(sym<double>(0.1)) == scalar_type::f64);
+    CHECK(type(taut::cast(scalar_type::f64, x[i])) == scalar_type::f64);
+    CHECK(type(taut::cast(scalar_type::f32, wide[i])) == scalar_type::f32);
+    y[i] = wide[i] + 1;
+    const auto& tape = r.recorded();
+    CHECK(tape[tape[tape.stores().back()].operands[1]].type == scalar_type::f32);
+}
+
+TEST_CASE("recording: float that meets double without a cast is an error")
+{
+    using taut::scalar_type;
+    taut::recording r(scalar_type::f32);
+    const auto x = r.in<double>("x", scalar_type::f32);
+    const auto y = r.inout<double>("y");
+    const auto a = r.scalar<double>("a");
+    const auto i = r.global_id();
+    const sym<double> u = x[i], v = y[i];
+    CHECK_THROWS_AS(u + v, taut::tape_error);
+    CHECK_THROWS_AS(v - u, taut::tape_error);
+    CHECK_THROWS_AS(a * u, taut::tape_error);
+    CHECK_THROWS_AS(u / a, taut::tape_error);
+    CHECK_THROWS_AS(static_cast<void>(u < v), taut::tape_error);
+    CHECK_THROWS_AS(static_cast<void>(v == u), taut::tape_error);
+    CHECK_THROWS_AS(select(u < 1, u, v), taut::tape_error);
+    CHECK_THROWS_AS(min(u, v), taut::tape_error);
+    CHECK_THROWS_AS(pow(u, v), taut::tape_error);
+    CHECK_THROWS_AS(y[i] += u, taut::tape_error);
+    CHECK_NOTHROW(taut::cast(scalar_type::f64, u) + v);
+    CHECK_NOTHROW(y[i] = u); // a store has the type of its array
 }
