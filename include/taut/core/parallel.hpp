@@ -39,4 +39,5 @@ void parallel_for(std::size_t n, Body&& body, unsigned threads = 0, std::size_t 
 } // namespace taut
 
 #ifndef TAUT_COMPILED
+#include <taut/core/detail/parallel.ipp>
 #endif
