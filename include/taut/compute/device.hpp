@@ -24,7 +24,6 @@ public:
     const std::string& vendor() const noexcept { return vendor_; }
     const std::string& driver_version() const noexcept { return driver_version_; }
     const std::string& platform() const noexcept { return platform_; }
-    const std::string& platform_version() const noexcept { return platform_version_; }
     /// OpenCL version as 100 * major + 10 * minor: 120, 200, 300.
     int opencl_version() const noexcept { return opencl_version_; }
 
@@ -75,7 +74,7 @@ public:
 private:
     cl_device_id id_ = nullptr;
     cl_platform_id platform_id_ = nullptr;
-    std::string name_, vendor_, driver_version_, platform_, platform_version_;
+    std::string name_, vendor_, driver_version_, platform_;
     cl_device_type type_ = 0;
     bool has_fp64_ = false, available_ = false, has_compiler_ = false;
     std::size_t compute_units_ = 0, clock_ = 0, max_group_ = 0;

@@ -6,6 +6,17 @@
 #include <taut/compute/device.hpp>
 
 /// The oddities of platforms, by name. Code and tests ask these predicates instead of hiding workarounds.
+///
+/// PoCL's, which all of our code respects and nothing asks for:
+/// - 3.1 gives wrong results for barriers inside loops (a min/max tree over two local arrays; Oclgrind runs it right)
+/// and
+///   compiles several trees in one kernel in exponential time. Our kernels hold at most one barrier outside of loops;
+///   the one exception, invert_dense of block_sparse.cl with TEAM > 1, comes out right there (tests compare it).
+/// - It reserves memory when a buffer is first touched, so an allocation beyond the device's limits "succeeds"; buffers
+///   check the limits themselves.
+/// - It emits scalar code around float2/double2 and around interleaved stores: kernels use scalar loads and stride-1
+///   structure-of-arrays stores.
+/// - It compiles a kernel once more for every local size: the library keeps to a few.
 namespace taut::quirks
 {
 
@@ -26,34 +37,6 @@ inline bool is_oclgrind(const device& d)
 inline bool wants_serial_items(const device& d)
 {
     return d.is_cpu();
-}
-
-/// PoCL 3.1 gives wrong results for barriers inside loops (a min/max tree over two local arrays; Oclgrind runs it
-/// right) and compiles several trees in one kernel in exponential time. Our kernels hold at most one barrier outside of
-/// loops; the one exception, invert_dense of block_sparse.cl with TEAM > 1, comes out right there (tests compare it).
-inline bool miscompiles_barriers_in_loops(const device& d)
-{
-    return is_pocl(d);
-}
-
-/// PoCL reserves memory when a buffer is first touched, so an allocation beyond the device's limits "succeeds".
-/// buffer<T> checks the limits itself, everywhere.
-inline bool allocates_lazily(const device& d)
-{
-    return is_pocl(d);
-}
-
-/// PoCL emits scalar code around float2/double2 and around interleaved stores: kernels use scalar loads and stride-1
-/// structure-of-arrays stores.
-inline bool scalarises_short_vectors(const device& d)
-{
-    return is_pocl(d);
-}
-
-/// PoCL compiles a kernel once more for every local size: the library keeps to a few.
-inline bool compiles_per_local_size(const device& d)
-{
-    return is_pocl(d);
 }
 
 } // namespace taut::quirks

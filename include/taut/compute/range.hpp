@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include <taut/core/padded.hpp>
+
 namespace taut
 {
 
@@ -16,11 +18,5 @@ struct range
     constexpr range(std::size_t all) : global(all) {} // NOLINT: k(n, ...) reads as it should
     constexpr range(std::size_t all, std::size_t group) : global(all), local(group) {}
 };
-
-/// n rounded up to a multiple of unit.
-constexpr std::size_t padded(std::size_t n, std::size_t unit = 1024)
-{
-    return (n + unit - 1) / unit * unit;
-}
 
 } // namespace taut

@@ -39,20 +39,6 @@ void prolong(const prolongation& P, std::span<const Value> coarse, std::span<Val
     }
 }
 
-/// coarse = P^T fine.
-template <class Value>
-void restrict_to(const prolongation& P, std::span<const Value> fine, std::span<Value> coarse)
-{
-    for (std::size_t j = 0; j < coarse.size(); ++j)
-    {
-        Value sum{};
-        for (const idx place : P.transpose.row(static_cast<idx>(j)))
-            sum = sum + P.weights[static_cast<std::size_t>(place / 3)][static_cast<std::size_t>(place % 3)] *
-                            fine[static_cast<std::size_t>(place / 3)];
-        coarse[j] = sum;
-    }
-}
-
 namespace detail
 {
 

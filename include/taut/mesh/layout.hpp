@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include <taut/core/padded.hpp>
 #include <taut/core/parallel.hpp>
+#include <taut/mesh/ideal.hpp>
 #include <taut/mesh/incidence.hpp>
 #include <taut/mesh/order.hpp>
-#include <taut/mesh/padding.hpp>
 
 namespace taut
 {
@@ -56,8 +57,8 @@ struct layout
         const ideal_elements<Element> ideal(local);
         const double total = std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0);
         scale = std::exp2(std::round(std::log2(static_cast<double>(cell_count) / total) / D));
-        cell_stride = round_up(local.cells().size(), step);
-        vertex_stride = round_up(local.points().size(), step);
+        cell_stride = padded(local.cells().size(), step);
+        vertex_stride = padded(local.points().size(), step);
         spread(local.cells(), ideal);
     }
 
@@ -99,7 +100,8 @@ private:
     /// Braces, which evaluate from left to right: the order is used before it is moved.
     layout(const mesh<Element>& m, solution_order s) : layout{permute(m, s.order), std::move(s.order), s.free_count} {}
 
-    /// The arrays from the cells, lengthened as pad() does.
+    /// The arrays from the cells, padded with copies of the last one of measure 0: their energy is as finite as that
+    /// cell's and counts nothing, and no step they allow is shorter.
     void spread(const std::vector<typename mesh<Element>::cell>& cells, const ideal_elements<Element>& ideal)
     {
         corners.resize((D + 1) * cell_stride);

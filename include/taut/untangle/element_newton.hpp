@@ -123,7 +123,6 @@ public:
         const std::vector<vec2> d = solver_.solve(force);
         double slope = 0;
         for (std::size_t v = 0; v < x.size(); ++v) slope -= glm::dot(force[v], d[v]);
-        slope_ = slope;
         if (!(slope < 0)) return here;
 
         double t = 1;
@@ -146,7 +145,6 @@ public:
     }
 
     double last_length() const { return length_; } ///< of the last step, in Newton steps
-    double last_slope() const { return slope_; }   ///< minus twice what the quadratic model of the last step promised
 
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
@@ -205,7 +203,7 @@ private:
     std::vector<front_cholesky::block> blocks_;
     std::vector<std::array<vec2, 3>> forces_;
     std::vector<std::size_t> first_cell_; // of a vertex
-    double length_ = 0, slope_ = 0;
+    double length_ = 0;
 };
 
 } // namespace taut::detail

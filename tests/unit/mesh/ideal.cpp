@@ -7,7 +7,6 @@
 #include <support/meshes.hpp>
 #include <taut/core/linalg.hpp>
 #include <taut/mesh/ideal.hpp>
-#include <taut/mesh/padding.hpp>
 
 // Small numbers are compared as ratios: doctest's Approx is absolute below 1.
 namespace
@@ -229,26 +228,4 @@ TEST_CASE("determinant: twice the area and six times the volume, with sign")
     CHECK(triangle::determinant({vec2(0, 0), vec2(0, 3), vec2(2, 0)}) == -6.0);
     CHECK(tetrahedron::determinant({vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)}) == 1.0);
     CHECK(tetrahedron::determinant({vec3(0), vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, 1)}) == -1.0);
-}
-
-TEST_CASE("padding: copies of the last cell that weigh nothing")
-{
-    CHECK(round_up(0, 64) == 0);
-    CHECK(round_up(1, 64) == 64);
-    CHECK(round_up(64, 64) == 64);
-    CHECK(round_up(65, 64) == 128);
-    const auto m = test::grid(3, 3);
-    auto cells = m.cells();
-    ideal_elements<triangle> ideals(m);
-    pad(cells, ideals, 64);
-    REQUIRE(cells.size() == 64);
-    REQUIRE(ideals.inverse.size() == 64);
-    REQUIRE(ideals.measure.size() == 64);
-    for (std::size_t c = 18; c < 64; ++c)
-    {
-        CHECK(cells[c] == m.cells().back());
-        CHECK(ideals.inverse[c] == ideals.inverse[17]);
-        CHECK(ideals.measure[c] == 0.0);
-    }
-    CHECK(ideals.measure[17] > 0.0);
 }

@@ -31,7 +31,6 @@ TAUT_INLINE device::device(cl_device_id id) : id_(id)
     vendor_ = detail::trimmed(handle.vendor());
     driver_version_ = detail::trimmed(handle.driver_version());
     platform_ = detail::trimmed(handle.platform().name());
-    platform_version_ = detail::trimmed(handle.platform().version());
     type_ = handle.type();
     has_fp64_ = handle.get_info<cl_device_fp_config>(CL_DEVICE_DOUBLE_FP_CONFIG) != 0;
     available_ = handle.get_info<cl_bool>(CL_DEVICE_AVAILABLE) != 0;
