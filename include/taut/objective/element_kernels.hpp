@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <taut/compute/record.hpp>
-#include <taut/objective/first_flip.hpp>
+#include <taut/mesh/first_flip.hpp>
 #include <taut/objective/traced_element.hpp>
 
 namespace taut

@@ -13,7 +13,7 @@
 
 #include <taut/hierarchy/detail/star_region.hpp>
 #include <taut/mesh/ideal.hpp>
-#include <taut/objective/first_flip.hpp>
+#include <taut/mesh/first_flip.hpp>
 #include <taut/sparse/front_cholesky.hpp>
 
 namespace taut::detail

@@ -14,7 +14,7 @@
 
 #include <taut/core/parallel.hpp>
 #include <taut/energy/regularized_triangle.hpp>
-#include <taut/objective/first_flip.hpp>
+#include <taut/mesh/first_flip.hpp>
 #include <taut/sparse/front_cholesky.hpp>
 #include <taut/start/target_shapes.hpp>
 
