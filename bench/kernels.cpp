@@ -74,29 +74,27 @@ std::vector<To> to(const std::vector<From>& v)
 }
 
 /// The two steps of the gradient on the device.
-template <class P, class R>
 class device_elements
 {
 public:
-    device_elements(queue& q, const arrays& a)
+    device_elements(queue& q, const arrays& a, const real_types& types)
         : queue_(q),
           a_(a),
-          kernels_(q, energy::isometric{}),
+          kernels_(q, energy::isometric{}, types),
           corners_(q, a.corners),
-          inverse_(q, to<R>(a.inverse)),
-          measure_(q, to<R>(a.measure)),
-          x_(q, to<P>(a.x)),
-          energy_(q, a.cell_stride),
-          gradient_(q, 2 * a.vertex_stride),
-          corner_gradient_(q, 6 * a.cell_stride),
-          gather_(make_gather())
+          inverse_(q, types.vector, a.inverse),
+          measure_(q, types.vector, a.measure),
+          x_(q, types.position, a.x),
+          energy_(q, types.vector, a.cell_stride),
+          gradient_(q, types.vector, 2 * a.vertex_stride),
+          corner_gradient_(q, types.position, 6 * a.cell_stride),
+          gather_(make_gather(types))
     {
     }
 
     void value()
     {
-        kernels_.value(range(), corners_, inverse_, measure_, measure_, x_, energy_, stride(a_.cell_stride),
-                       stride(a_.vertex_stride));
+        kernels_.value(range(), with({{"energy", energy_}}));
         queue_.finish();
     }
     void elements()
@@ -110,19 +108,32 @@ public:
         gather_(corner_gradient_, gradient_);
         queue_.finish();
     }
-    std::vector<R> result() const { return gradient_.download(); }
+    std::vector<double> result() const { return gradient_.download(); }
 
 private:
     void launch_elements()
     {
-        kernels_.gradient(range(), corners_, inverse_, measure_, measure_, x_, energy_, corner_gradient_,
-                          stride(a_.cell_stride), stride(a_.vertex_stride));
+        kernels_.gradient(range(), with({{"energy", energy_}, {"corner_gradient", corner_gradient_}}));
     }
 
     static taut::idx stride(std::size_t n) { return static_cast<taut::idx>(n); }
     taut::range range() const { return {a_.cell_stride, layout<triangle>::step}; }
 
-    gather<P, R> make_gather()
+    /// The measure is the weight, too.
+    std::vector<named_argument> with(std::initializer_list<named_argument> more) const
+    {
+        std::vector<named_argument> all = {{"corners", corners_},
+                                           {"inverse", inverse_},
+                                           {"measure", measure_},
+                                           {"weight", measure_},
+                                           {"x", x_},
+                                           {"cell_stride", stride(a_.cell_stride)},
+                                           {"vertex_stride", stride(a_.vertex_stride)}};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
+    gather make_gather(const real_types& types)
     {
         std::vector<taut::idx> cell, corner;
         for (const auto item : a_.incidence.items)
@@ -130,19 +141,17 @@ private:
             cell.push_back(item / 3);
             corner.push_back(item % 3);
         }
-        return gather<P, R>(queue_, a_.incidence.offsets, cell, corner,
-                            {.components = 2, .cell_stride = a_.cell_stride, .vertex_stride = a_.vertex_stride});
+        return gather(queue_, a_.incidence.offsets, cell, corner,
+                      {.components = 2, .cell_stride = a_.cell_stride, .vertex_stride = a_.vertex_stride},
+                      types.position, types.vector);
     }
 
     queue queue_;
     const arrays& a_;
-    element_kernels<triangle, P, R> kernels_;
+    element_kernels<triangle> kernels_;
     buffer<taut::idx> corners_;
-    buffer<R> inverse_, measure_;
-    buffer<P> x_;
-    buffer<R> energy_, gradient_;
-    buffer<P> corner_gradient_;
-    gather<P, R> gather_;
+    real_buffer inverse_, measure_, x_, energy_, gradient_, corner_gradient_;
+    gather gather_;
 };
 
 template <class P, class R>
@@ -163,12 +172,12 @@ native::dirichlet<P, R> native_elements(const arrays& a)
 
 /// The largest difference of two gradients, relative to the largest entry.
 template <class R>
-double difference(const std::vector<R>& a, const std::vector<R>& b)
+double difference(const std::vector<R>& a, const std::vector<double>& b)
 {
     double most = 0, scale = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
     {
-        most = std::max(most, std::abs(double(a[i]) - double(b[i])));
+        most = std::max(most, std::abs(double(a[i]) - b[i]));
         scale = std::max(scale, std::abs(double(a[i])));
     }
     return most / scale;
@@ -228,7 +237,8 @@ private:
     template <class P, class R>
     void elements(const char* precision, const arrays& ordered, const arrays& given)
     {
-        device_elements<P, R> device(queue_, ordered), device_given(queue_, given);
+        const real_types types{scalar_type_of<P>, scalar_type_of<R>};
+        device_elements device(queue_, ordered, types), device_given(queue_, given, types);
         auto host = native_elements<P, R>(ordered), host_given = native_elements<P, R>(given);
         const auto gradient = [this](auto& h)
         {
@@ -272,29 +282,26 @@ private:
     /// What an iteration of Newton's method is made of. Bytes are those that must move, each number once.
     void newton(const mesh<triangle>& m)
     {
-        using problem = newton_problem<triangle, double, float>;
+        const auto types = types_of(precision::mixed);
         const mesh_levels levels(m);
-        const problem::plan host(levels, 0, lane_form::for_device(queue_.device()));
+        const newton_plan<triangle> host(levels, 0, lane_form::for_device(queue_.device()));
         const auto local = host.layout;
         const any_energy energy = energy::isometric{};
-        const problem::kernels kernels(queue_, energy);
-        multigrid<float> mg(queue_, host.cycle);
+        const newton_kernels<triangle> kernels(queue_, energy, types);
+        multigrid mg(queue_, types.vector, host.cycle);
         auto& A = mg.matrix();
-        const block_assembly<float> assembly(A, host.assembly);
-        const element_arrays<triangle, float> arrays(queue_, *local, energy::weighting::measure);
+        const block_assembly assembly(A, host.assembly);
+        const element_arrays<triangle> arrays(queue_, types.vector, *local, energy::weighting::measure);
         std::vector<double> positions(2 * local->vertex_stride);
         for (std::size_t v = 0; v < levels.points().size(); ++v)
             for (int c = 0; c < 2; ++c)
                 positions[static_cast<std::size_t>(c) * local->vertex_stride + v] =
                     levels.points()[v][c] * local->scale;
-        const buffer<double> x(queue_, positions);
-        buffer<float> hessian(queue_, hessian_slots<2>::count * local->cell_stride);
-        const auto number = [](std::size_t n) { return static_cast<taut::idx>(n); };
-        const auto hessians = [&]
-        {
-            kernels.second.projected({local->cell_stride, layout<triangle>::step}, arrays.corners, arrays.inverse,
-                                     arrays.measure, arrays.weight, x, hessian, number(local->cell_stride),
-                                     number(local->vertex_stride));
+        const real_buffer x(queue_, types.position, positions);
+        real_buffer hessian(queue_, types.vector, hessian_slots<2>::count * local->cell_stride);
+        const auto hessians = [&] {
+            kernels.second.projected({local->cell_stride, layout<triangle>::step},
+                                     arrays.with(x, {{"hessian", hessian}}));
         };
         hessians();
         assembly(hessian, A);
@@ -343,15 +350,15 @@ private:
     template <class T>
     void vectors(const char* type, std::size_t n)
     {
-        const device_vectors<T> space(queue_, n);
-        std::vector<device_vector<T>> v;
+        const device_vectors space(queue_, scalar_type_of<T>, n);
+        std::vector<device_vector> v;
         for (std::size_t k = 0; k < 9; ++k)
         {
             v.push_back(space.make());
             space.axpby(0, v[k], 0, v[k]);
-            v[k].data().fill(T(1) / T(k + 1));
+            v[k].data().fill(1 / static_cast<double>(k + 1));
         }
-        std::vector<const device_vector<T>*> in;
+        std::vector<const device_vector*> in;
         for (std::size_t k = 0; k < 8; ++k) in.push_back(&v[k]);
         const std::vector<double> coefficients = {1, -1, 0.5, 2, -2, 0.25, 3, -1};
         std::vector<double> products(16);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Launches the kernels of a problem, so that vectorized.sh can look at what the driver made of them. Exit status 77:
+// Launches the kernels of an objective, so that vectorized.sh can look at what the driver made of them. Exit status 77:
 // the device does not leave its machine code where the script could find it.
 #include <cstdio>
 
@@ -11,11 +11,11 @@
 namespace
 {
 
-template <class P, class R>
-void launch_all(taut::queue& q, const taut::mesh<taut::triangle>& surface)
+void launch_all(taut::queue& q, const taut::mesh<taut::triangle>& surface, taut::precision how)
 {
     const auto local = std::make_shared<const taut::layout<taut::triangle>>(surface);
-    taut::problem<taut::triangle, P, R> f(q, local, taut::energy::isometric{}, taut::energy::weighting::uniform);
+    taut::map_objective<taut::triangle> f(q, local, taut::energy::isometric{}, taut::energy::weighting::uniform,
+                                          taut::types_of(how));
     std::vector<taut::vec2> flat;
     for (const auto& p : surface.points()) flat.emplace_back(p.x, p.y);
     auto x = f.make_point();
@@ -31,8 +31,7 @@ int main()
     std::printf("%s, %s\n", q.device().platform().c_str(), q.device().name().c_str());
     if (q.device().platform() != "Portable Computing Language" || !q.device().is_cpu()) return 77;
     const auto surface = taut::test::bumpy(8);
-    launch_all<double, double>(q, surface);
-    launch_all<double, float>(q, surface);
-    launch_all<float, float>(q, surface);
+    for (const auto how : {taut::precision::fp64, taut::precision::mixed, taut::precision::fp32})
+        launch_all(q, surface, how);
     return 0;
 }

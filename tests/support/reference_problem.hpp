@@ -15,7 +15,7 @@
 namespace taut::test
 {
 
-/// What problem<Element, double, double> computes on the device, computed on the host from the energy's double
+/// What map_objective<Element> computes on the device in double, computed on the host from the energy's double
 /// instance: values directly, gradients by the chain rule through the evaluated derivative of E(S). Slow and plain.
 template <class Element>
 class reference_problem

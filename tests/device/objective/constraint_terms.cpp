@@ -39,15 +39,13 @@ struct setting
                           {static_cast<taut::idx>(n - 1), vec2(1.0, 1.5), 40.0}};
     }
 
-    using problem_type = newton_problem<triangle, double, double>;
-
-    problem_type problem(const point_constraints<2>& constraints)
+    newton_objective<triangle> objective(const point_constraints<2>& constraints)
     {
         return {q,
                 {levels, 0, lane_form::for_device(q.device())},
                 energy::isometric{},
                 energy::weighting::measure,
-                std::make_shared<const problem_type::kernels>(q, energy::isometric{}),
+                std::make_shared<const newton_kernels<triangle>>(q, energy::isometric{}, real_types{}),
                 constraints};
     }
 
@@ -66,7 +64,7 @@ struct setting
 TEST_CASE("point constraints: the value is that of the energy plus that of the springs, along a line, too")
 {
     setting s;
-    auto plain = s.problem({}), sprung = s.problem(s.wanted);
+    auto plain = s.objective({}), sprung = s.objective(s.wanted);
     auto x = plain.make_point(), y = plain.make_point();
     plain.upload(s.start, x);
     CHECK(sprung.value(x) == doctest::Approx(plain.value(x) + s.spring_energy(s.start)).epsilon(1e-13));
@@ -87,7 +85,7 @@ TEST_CASE("point constraints: the value is that of the energy plus that of the s
 TEST_CASE("point constraints: the gradient is the derivative of the value, and 0 where a coordinate is held")
 {
     setting s;
-    auto f = s.problem(s.wanted);
+    auto f = s.objective(s.wanted);
     auto x = f.make_point(), y = f.make_point();
     f.upload(s.start, x);
     auto g = f.space().make(), d = f.space().make();
@@ -127,7 +125,7 @@ TEST_CASE("point constraints: the gradient is the derivative of the value, and 0
 TEST_CASE("point constraints: the Hessian is the derivative of the gradient")
 {
     setting s;
-    auto f = s.problem(s.wanted);
+    auto f = s.objective(s.wanted);
     auto x = f.make_point(), y = f.make_point();
     f.upload(s.start, x);
     auto g = f.space().make(), d = f.space().make(), Hd = f.space().make(), other = f.space().make();
@@ -152,7 +150,7 @@ TEST_CASE("point constraints: the Hessian is the derivative of the gradient")
 TEST_CASE("point constraints: Newton's method converges, held coordinates stay and springs pull")
 {
     setting s;
-    auto f = s.problem(s.wanted);
+    auto f = s.objective(s.wanted);
     auto x = f.make_point();
     f.upload(s.start, x);
     solve::params how;

@@ -126,13 +126,12 @@ private:
     std::mt19937 random_{7};
 };
 
-template <class P, class R>
-std::vector<matrix> on_device(queue& q, const any_energy& energy, const elements& e, definiteness sign)
+std::vector<matrix> on_device(queue& q, const any_energy& energy, const elements& e, definiteness sign,
+                              const real_types& types = {})
 {
     const std::size_t n = e.S.size();
     std::vector<taut::idx> corners(3 * n);
-    std::vector<R> inverse(3 * n), measure(n, R(1)), weight(e.weight.begin(), e.weight.end());
-    std::vector<P> x(6 * n);
+    std::vector<double> inverse(3 * n), x(6 * n);
     for (std::size_t c = 0; c < n; ++c)
     {
         const mat2 A = e.S[c] * glm::inverse(e.inverse[c]);
@@ -140,18 +139,24 @@ std::vector<matrix> on_device(queue& q, const any_energy& energy, const elements
         {
             corners[k * n + c] = static_cast<taut::idx>(3 * c + k);
             const vec2 p = k == 0 ? vec2(0.0) : A[static_cast<int>(k) - 1];
-            x[3 * c + k] = static_cast<P>(p.x);
-            x[3 * n + 3 * c + k] = static_cast<P>(p.y);
+            x[3 * c + k] = p.x;
+            x[3 * n + 3 * c + k] = p.y;
         }
-        inverse[c] = static_cast<R>(e.inverse[c][0][0]);
-        inverse[n + c] = static_cast<R>(e.inverse[c][1][0]);
-        inverse[2 * n + c] = static_cast<R>(e.inverse[c][1][1]);
+        inverse[c] = e.inverse[c][0][0];
+        inverse[n + c] = e.inverse[c][1][0];
+        inverse[2 * n + c] = e.inverse[c][1][1];
     }
-    const element_hessian_kernels<triangle, P, R> kernels(q, energy);
-    buffer<R> hessian(q, slots::count * n);
+    const element_hessian_kernels<triangle> kernels(q, energy, types);
+    real_buffer hessian(q, types.vector, slots::count * n);
     const auto& kernel = sign == definiteness::projected ? kernels.projected : kernels.indefinite;
-    kernel({n}, buffer<taut::idx>(q, corners), buffer<R>(q, inverse), buffer<R>(q, measure), buffer<R>(q, weight),
-           buffer<P>(q, x), hessian, static_cast<taut::idx>(n), static_cast<taut::idx>(3 * n));
+    kernel({n}, {{"corners", buffer<taut::idx>(q, corners)},
+                 {"inverse", real_buffer(q, types.vector, inverse)},
+                 {"measure", real_buffer(q, types.vector, std::vector<double>(n, 1.0))},
+                 {"weight", real_buffer(q, types.vector, e.weight)},
+                 {"x", real_buffer(q, types.position, x)},
+                 {"cell_stride", static_cast<taut::idx>(n)},
+                 {"vertex_stride", static_cast<taut::idx>(3 * n)},
+                 {"hessian", hessian}});
     const auto h = hessian.download();
 
     std::vector<matrix> result(n, matrix(6, 6));
@@ -206,19 +211,19 @@ matrix corner_map(const mat2& inverse)
     return K;
 }
 
-template <class P_, class R_>
+template <precision How>
 struct arithmetic
 {
-    using P = P_;
-    using R = R_;
-    static constexpr double epsilon = std::numeric_limits<R>::epsilon();
+    static real_types types() { return types_of(How); }
+    static constexpr double epsilon =
+        How == precision::fp64 ? std::numeric_limits<double>::epsilon() : std::numeric_limits<float>::epsilon();
 };
 
 /// The worst error of all elements, in units of rounding times the condition of det S, which is that of the problem.
 template <class A>
 double worst_error(queue& q, const any_energy& energy, const elements& e, definiteness sign)
 {
-    const auto device = on_device<typename A::P, typename A::R>(q, energy, e, sign);
+    const auto device = on_device(q, energy, e, sign, A::types());
     host_energy host(energy);
     double worst = 0;
     for (std::size_t c = 0; c < e.S.size(); ++c)
@@ -236,15 +241,15 @@ double worst_error(queue& q, const any_energy& energy, const elements& e, defini
 
 } // namespace
 
-TYPE_TO_STRING_AS("double", arithmetic<double, double>);
-TYPE_TO_STRING_AS("mixed", arithmetic<double, float>);
+TYPE_TO_STRING_AS("double", arithmetic<precision::fp64>);
+TYPE_TO_STRING_AS("mixed", arithmetic<precision::mixed>);
 
 TEST_CASE("element Hessian: an energy is known as isotropic by its recording, without being declared")
 {
-    for (const auto& [name, energy, isotropic] : energies())
+    for (const named_energy& tried : energies())
     {
-        CAPTURE(name);
-        CHECK(is_isotropic(energy) == isotropic);
+        CAPTURE(tried.name);
+        CHECK(is_isotropic(tried.energy) == tried.isotropic);
     }
 }
 
@@ -268,11 +273,11 @@ TEST_CASE("element Hessian: it is the derivative of the gradient, by finite diff
 {
     queue q;
     const auto e = generator().mixture(256, 0.5);
-    for (const auto& [name, energy, isotropic] : energies())
+    for (const named_energy& tried : energies())
     {
-        CAPTURE(name);
-        const auto device = on_device<double, double>(q, energy, e, definiteness::indefinite);
-        host_energy host(energy);
+        CAPTURE(tried.name);
+        const auto device = on_device(q, tried.energy, e, definiteness::indefinite);
+        host_energy host(tried.energy);
         double worst = 0;
         for (std::size_t c = 0; c < e.S.size(); ++c)
         {
@@ -301,31 +306,31 @@ TEST_CASE("element Hessian: it is the derivative of the gradient, by finite diff
 }
 
 TEST_CASE_TEMPLATE("element Hessian: unprojected and projected are those of the host, slivers included", A,
-                   arithmetic<double, double>, arithmetic<double, float>)
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     queue q;
     // In float a ratio of stretches of 1e6 leaves no digit of det S.
-    const double decades = std::is_same_v<typename A::R, double> ? 3 : 1.5;
+    const double decades = A::types().vector == scalar_type::f64 ? 3 : 1.5;
     const auto e = generator().mixture(512, decades);
-    for (const auto& [name, energy, isotropic] : energies())
+    for (const named_energy& tried : energies())
     {
-        CAPTURE(name);
-        CHECK(worst_error<A>(q, energy, e, definiteness::indefinite) < 30);
-        CHECK(worst_error<A>(q, energy, e, definiteness::projected) < 30);
+        CAPTURE(tried.name);
+        CHECK(worst_error<A>(q, tried.energy, e, definiteness::indefinite) < 30);
+        CHECK(worst_error<A>(q, tried.energy, e, definiteness::projected) < 30);
     }
 }
 
 TEST_CASE_TEMPLATE("element Hessian: projected is positive semi-definite to rounding on any element", A,
-                   arithmetic<double, double>, arithmetic<double, float>)
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     queue q;
     const auto e = generator().mixture(4096, 3);
-    for (const auto& [name, energy, isotropic] : energies())
+    for (const named_energy& tried : energies())
     {
-        CAPTURE(name);
+        CAPTURE(tried.name);
         double least = 0;
         bool finite = true;
-        for (const auto& H : on_device<typename A::P, typename A::R>(q, energy, e, definiteness::projected))
+        for (const auto& H : on_device(q, tried.energy, e, definiteness::projected, A::types()))
         {
             finite = finite && H.allFinite();
             if (!H.allFinite()) continue;
@@ -353,8 +358,8 @@ TEST_CASE("element Hessian: the twist mode of the isometric energy has its close
         stretches.push_back(s);
         twists.push_back(Eigen::Map<const vector>(&twist[0][0], 4));
     }
-    const auto plain = on_device<double, double>(q, energy::isometric{}, e, definiteness::indefinite);
-    const auto projected = on_device<double, double>(q, energy::isometric{}, e, definiteness::projected);
+    const auto plain = on_device(q, energy::isometric{}, e, definiteness::indefinite);
+    const auto projected = on_device(q, energy::isometric{}, e, definiteness::projected);
     int negative = 0;
     for (std::size_t c = 0; c < e.S.size(); ++c)
     {
@@ -381,7 +386,7 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
     std::vector<sym<double>> unknowns, outputs;
     for (int j = 0; j < N; ++j)
         for (int i = 0; i <= j; ++i) unknowns.push_back(H(i, j) = sym<double>::variable());
-    const auto traced = eigenvalue_clamp<double, N>::apply(H);
+    const auto traced = eigenvalue_clamp<sym<double>, N>::apply(H, scalar_type::f64);
     for (int j = 0; j < N; ++j)
         for (int i = 0; i <= j; ++i) outputs.push_back(traced(i, j));
 
@@ -417,8 +422,8 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
 
 TEST_CASE("element Hessian: in space its kernel writes each entry of the matrix once")
 {
-    using E = element_hessian_kernels<tetrahedron, double, double>;
-    const auto text = E::record(energy::isometric{}, definiteness::indefinite, kernel_form::guarded);
+    using E = element_hessian_kernels<tetrahedron>;
+    const auto text = E::record(energy::isometric{}, definiteness::indefinite, real_types{}, kernel_form::guarded);
     std::size_t stores = 0;
     for (std::size_t at = 0; (at = text.source.find("hessian[", at)) != std::string::npos; ++at) ++stores;
     CHECK(stores == static_cast<std::size_t>(E::slots::count));

@@ -12,6 +12,7 @@
 #include <taut/energy/algebra.hpp>
 #include <taut/energy/isometric.hpp>
 #include <taut/objective/map_objective.hpp>
+#include <taut/objective/newton_objective.hpp>
 #include <taut/solve/minimize.hpp>
 #include <taut/start/barycentric_map.hpp>
 
@@ -19,6 +20,20 @@ namespace
 {
 
 using namespace taut;
+
+/// Costs more where the area grows beyond a limit. Its code chooses between two constants: these have no operand to
+/// take their type from.
+struct two_rates
+{
+    double limit;
+    static constexpr bool barrier = false;
+
+    template <class T, int D>
+    T operator()(const element<T, D>& e) const
+    {
+        return select(e.det > T(limit), T(1), T(0.5)) * norm2(e.S);
+    }
+};
 
 struct named_energy
 {
@@ -53,14 +68,32 @@ struct fixture
     }
 };
 
-template <class P_, class R_>
+template <precision How>
 struct arithmetic
 {
-    using P = P_;
-    using R = R_;
+    static real_types types() { return types_of(How); }
     /// Relative error that is allowed against double.
-    static constexpr double tolerance = std::is_same_v<R, double> ? 1e-11 : std::is_same_v<P, double> ? 2e-5 : 2e-4;
+    static constexpr double tolerance = How == precision::fp64 ? 1e-11 : How == precision::mixed ? 2e-5 : 2e-4;
 };
+
+/// The middle of the widest gap between the factors by which the start scales areas, those in the outer quarters aside:
+/// whether an element grows more is no matter of rounding.
+double gap_of_growth(const fixture& s)
+{
+    const ideal_elements<triangle> ideal(s.surface);
+    std::vector<double> growth;
+    for (std::size_t c = 0; c < s.surface.cells().size(); ++c)
+    {
+        const auto& t = s.surface.cells()[c];
+        const auto at = [&](std::size_t k) { return s.start[static_cast<std::size_t>(t[k])]; };
+        growth.push_back(triangle::determinant({at(0), at(1), at(2)}) * glm::determinant(ideal.inverse[c]));
+    }
+    std::sort(growth.begin(), growth.end());
+    std::size_t widest = growth.size() / 4;
+    for (std::size_t k = widest; k < 3 * growth.size() / 4; ++k)
+        if (growth[k + 1] - growth[k] > growth[widest + 1] - growth[widest]) widest = k;
+    return (growth[widest] + growth[widest + 1]) / 2;
+}
 
 double largest(const std::vector<double>& v)
 {
@@ -71,23 +104,23 @@ double largest(const std::vector<double>& v)
 
 } // namespace
 
-TYPE_TO_STRING_AS("double", arithmetic<double, double>);
-TYPE_TO_STRING_AS("mixed", arithmetic<double, float>);
-TYPE_TO_STRING_AS("float", arithmetic<float, float>);
+TYPE_TO_STRING_AS("double", arithmetic<precision::fp64>);
+TYPE_TO_STRING_AS("mixed", arithmetic<precision::mixed>);
+TYPE_TO_STRING_AS("float", arithmetic<precision::fp32>);
 
-TEST_CASE_TEMPLATE("problem: value and gradient on the device are those of the host", A, arithmetic<double, double>,
-                   arithmetic<double, float>, arithmetic<float, float>)
+TEST_CASE_TEMPLATE("map objective: value and gradient on the device are those of the host", A,
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
 {
     for (const bool pin_some : {false, true})
     {
         fixture s(pin_some);
-        for (const auto& [name, energy] : energies())
+        for (const named_energy& tried : energies())
             for (const auto weights : {energy::weighting::uniform, energy::weighting::measure})
             {
-                CAPTURE(name);
+                CAPTURE(tried.name);
                 CAPTURE(pin_some);
-                problem<triangle, typename A::P, typename A::R> f(s.q, s.local, energy, weights);
-                const test::reference_problem<triangle> host(s.local, energy, weights);
+                map_objective<triangle> f(s.q, s.local, tried.energy, weights, A::types());
+                const test::reference_problem<triangle> host(s.local, tried.energy, weights);
                 auto x = f.make_point();
                 f.upload(s.start, x);
                 auto g = f.space().make();
@@ -99,16 +132,49 @@ TEST_CASE_TEMPLATE("problem: value and gradient on the device are those of the h
                 CHECK(f.value(x) == value);
                 const auto gradient = g.download();
                 std::vector<double> error(expected.size());
-                for (std::size_t i = 0; i < error.size(); ++i) error[i] = double(gradient[i]) - expected[i];
+                for (std::size_t i = 0; i < error.size(); ++i) error[i] = gradient[i] - expected[i];
                 CHECK(largest(error) <= A::tolerance * largest(expected));
             }
     }
 }
 
-TEST_CASE("problem: pinned vertices have no gradient, so they never move")
+TEST_CASE_TEMPLATE("map objective: an energy that chooses between two constants works in any precision", A,
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
+{
+    fixture s;
+    const any_energy energy = two_rates{gap_of_growth(s)};
+    const auto kernels = std::make_shared<const newton_kernels<triangle>>(s.q, energy, A::types());
+    map_objective<triangle> f(s.q, s.local, energy, energy::weighting::measure, A::types(), {kernels, &kernels->first});
+    const test::reference_problem<triangle> host(s.local, energy, energy::weighting::measure);
+    auto x = f.make_point();
+    f.upload(s.start, x);
+    auto g = f.space().make();
+    const double value = f.value_gradient(x, g);
+    std::vector<double> expected(host.size());
+    CHECK(value == doctest::Approx(host(s.local->to_local(s.start), expected)).epsilon(A::tolerance));
+    auto error = g.download();
+    for (std::size_t i = 0; i < error.size(); ++i) error[i] -= expected[i];
+    CHECK(largest(error) <= A::tolerance * largest(expected));
+
+    const auto& first = kernels->first;
+    const auto& second = kernels->second;
+    const auto& relaxation = kernels->relaxation;
+    for (const recorded_kernel* k :
+         {&first.value, &first.gradient, &first.along, &first.first_flips, &second.projected, &second.indefinite,
+          &relaxation.densities, &relaxation.terms, &relaxation.steps, &relaxation.tries, &relaxation.moves})
+    {
+        CAPTURE(k->text().name);
+        const bool has_double = k->text().source.find("double") != std::string::npos;
+        // A kernel that reads no positions is in the type of vectors.
+        const bool no_positions = k == &relaxation.steps;
+        CHECK(has_double == ((no_positions ? A::types().vector : A::types().position) == scalar_type::f64));
+    }
+}
+
+TEST_CASE("map objective: pinned vertices have no gradient, so they never move")
 {
     fixture s(true);
-    problem<triangle, double, double> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
+    map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
     auto x = f.make_point();
     f.upload(s.start, x);
     solve::minimize(f, x, {.stopping = {.max_iterations = 5}});
@@ -122,11 +188,11 @@ TEST_CASE("problem: pinned vertices have no gradient, so they never move")
     CHECK(still == 0);
 }
 
-TEST_CASE_TEMPLATE("problem: a batch of trial steps is the value at each step", A, arithmetic<double, double>,
-                   arithmetic<double, float>)
+TEST_CASE_TEMPLATE("map objective: a batch of trial steps is the value at each step", A, arithmetic<precision::fp64>,
+                   arithmetic<precision::mixed>)
 {
     fixture s;
-    problem<triangle, typename A::P, typename A::R> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
+    map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure, A::types());
     auto x = f.make_point(), moved = f.make_point();
     f.upload(s.start, x);
     auto g = f.space().make(), d = f.space().make();
@@ -150,10 +216,10 @@ TEST_CASE_TEMPLATE("problem: a batch of trial steps is the value at each step", 
     }
 }
 
-TEST_CASE("problem: max_step is the first step that flips an element")
+TEST_CASE("map objective: max_step is the first step that flips an element")
 {
     fixture s;
-    problem<triangle, double, double> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
+    map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     auto x = f.make_point(), moved = f.make_point();
@@ -179,10 +245,10 @@ TEST_CASE("problem: max_step is the first step that flips an element")
     CHECK(std::isinf(f.max_step(x, shift)));
 }
 
-TEST_CASE("problem: a folded map has an infinite value")
+TEST_CASE("map objective: a folded map has an infinite value")
 {
     fixture s;
-    problem<triangle, double, double> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
+    map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
     auto folded = s.start;
     for (auto& p : folded) p.x = -p.x;
     auto x = f.make_point();
@@ -190,11 +256,11 @@ TEST_CASE("problem: a folded map has an infinite value")
     CHECK(std::isinf(f.value(x)));
 }
 
-TEST_CASE("problem: the device and the host model give the same iterates to rounding")
+TEST_CASE("map objective: the device and the host model give the same iterates to rounding")
 {
     fixture s;
     const any_energy energy = energy::isometric{};
-    problem<triangle, double, double> f(s.q, s.local, energy, energy::weighting::measure);
+    map_objective<triangle> f(s.q, s.local, energy, energy::weighting::measure);
     const test::reference_problem<triangle> reference(s.local, energy, energy::weighting::measure);
     auto host = solve::host_objective(reference.size(), reference);
     for (const auto method : {solve::method::lbfgs, solve::method::conjugate_gradient})
@@ -202,9 +268,9 @@ TEST_CASE("problem: the device and the host model give the same iterates to roun
         // Neither the exact barrier nor batches on the device, as the host model has neither: the same algorithm.
         struct plain
         {
-            problem<triangle, double, double>& f;
-            using point = problem<triangle, double, double>::point;
-            using vector = problem<triangle, double, double>::vector;
+            map_objective<triangle>& f;
+            using point = map_objective<triangle>::point;
+            using vector = map_objective<triangle>::vector;
             const auto& space() const { return f.space(); }
             point make_point() const { return f.make_point(); }
             void copy(const point& a, point& b) const { f.copy(a, b); }
@@ -232,13 +298,14 @@ TEST_CASE("problem: the device and the host model give the same iterates to roun
     }
 }
 
-TEST_CASE("problem: the gradient of a tetrahedron is recorded, and its host reference has the cube at rest as minimum")
+TEST_CASE(
+    "map objective: the gradient of a tetrahedron is recorded, and its host reference has the cube at rest as minimum")
 {
     const auto rest = test::cube(2);
     const auto local = std::make_shared<const layout<tetrahedron>>(rest);
     queue q;
     const any_energy energy = energy::isometric{};
-    const auto text = element_kernels<tetrahedron, double, double>::record_gradient(energy, kernel_form::guarded);
+    const auto text = element_kernels<tetrahedron>::record_gradient(energy, {}, kernel_form::guarded);
     CHECK(text.source.find("corner_gradient") != std::string::npos);
     const test::reference_problem<tetrahedron> host(local, energy, energy::weighting::measure);
     std::vector<double> g(host.size());

@@ -58,14 +58,13 @@ struct fixture
         return flags;
     }
 
-    template <class P, class R>
-    newton_problem<triangle, P, R> make(const any_energy& energy) const
+    newton_objective<triangle> make(const any_energy& energy, const real_types& types = {}) const
     {
         return {q,
                 {levels, 0, lane_form::for_device(q.device())},
                 energy,
                 energy::weighting::measure,
-                std::make_shared<const newton_kernels<triangle, P, R>>(q, energy)};
+                std::make_shared<const newton_kernels<triangle>>(q, energy, types)};
     }
 };
 
@@ -74,17 +73,15 @@ mesh<triangle> hills()
     return test::bumpy(test::sized(14, 3), 0.4, 5);
 }
 
-template <class P_, class R_>
+template <precision How>
 struct arithmetic
 {
-    using P = P_;
-    using R = R_;
-    static constexpr bool wide = std::is_same_v<R, double>;
+    static real_types types() { return types_of(How); }
+    static constexpr bool wide = How == precision::fp64;
 };
 
 /// A random vector that is zero where the gradient is.
-template <class Problem>
-std::vector<double> random_vector(const Problem& f, std::mt19937& random)
+std::vector<double> random_vector(const newton_objective<triangle>& f, std::mt19937& random)
 {
     std::normal_distribution<double> normal;
     const auto& l = f.layout();
@@ -92,12 +89,6 @@ std::vector<double> random_vector(const Problem& f, std::mt19937& random)
     for (std::size_t i = 0; i < static_cast<std::size_t>(l.free_count); ++i)
         for (std::size_t r = 0; r < 2; ++r) v[r * l.vertex_stride + i] = normal(random);
     return v;
-}
-
-template <class T>
-std::vector<T> to(const std::vector<double>& v)
-{
-    return {v.begin(), v.end()};
 }
 
 double largest(const std::vector<double>& v)
@@ -109,21 +100,21 @@ double largest(const std::vector<double>& v)
 
 } // namespace
 
-TYPE_TO_STRING_AS("double", arithmetic<double, double>);
-TYPE_TO_STRING_AS("mixed", arithmetic<double, float>);
+TYPE_TO_STRING_AS("double", arithmetic<precision::fp64>);
+TYPE_TO_STRING_AS("mixed", arithmetic<precision::mixed>);
 
-TEST_CASE_TEMPLATE("newton problem: products with the Hessian are differences of gradients", A,
-                   arithmetic<double, double>, arithmetic<double, float>)
+TEST_CASE_TEMPLATE("newton objective: products with the Hessian are differences of gradients", A,
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     for (const bool pin_some : {false, true})
     {
         const fixture s(hills(), pin_some);
-        for (const auto& [name, energy] : energies())
+        for (const named_energy& tried : energies())
         {
-            CAPTURE(name);
+            CAPTURE(tried.name);
             CAPTURE(pin_some);
-            auto f = s.make<typename A::P, typename A::R>(energy);
-            auto reference = s.make<double, double>(energy);
+            auto f = s.make(tried.energy, A::types());
+            auto reference = s.make(tried.energy);
             auto x = f.make_point();
             f.upload(s.start, x);
             auto y = reference.make_point(), moved = reference.make_point();
@@ -135,7 +126,7 @@ TEST_CASE_TEMPLATE("newton problem: products with the Hessian are differences of
             for (int trial = 0; trial < 3; ++trial)
             {
                 const auto direction = random_vector(f, random);
-                v.upload(to<typename A::R>(direction));
+                v.upload(direction);
                 f.hessian_product(v, product);
 
                 d.upload(direction);
@@ -153,7 +144,7 @@ TEST_CASE_TEMPLATE("newton problem: products with the Hessian are differences of
                 for (std::size_t i = 0; i < plus.size(); ++i)
                 {
                     expected[i] = (plus[i] - minus[i]) / (2 * h);
-                    error[i] = static_cast<double>(found[i]) - expected[i];
+                    error[i] = found[i] - expected[i];
                 }
                 CHECK(largest(error) < (A::wide ? 1e-6 : 2e-4) * largest(expected));
                 if (pin_some)
@@ -164,17 +155,18 @@ TEST_CASE_TEMPLATE("newton problem: products with the Hessian are differences of
     }
 }
 
-TEST_CASE_TEMPLATE("newton problem: the stand-in of the Hessian is symmetric, positive semi-definite and not below it",
-                   A, arithmetic<double, double>, arithmetic<double, float>)
+TEST_CASE_TEMPLATE(
+    "newton objective: the stand-in of the Hessian is symmetric, positive semi-definite and not below it", A,
+    arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     for (const bool pin_some : {false, true})
     {
         const fixture s(hills(), pin_some);
-        for (const auto& [name, energy] : energies())
+        for (const named_energy& tried : energies())
         {
-            CAPTURE(name);
+            CAPTURE(tried.name);
             CAPTURE(pin_some);
-            auto f = s.make<typename A::P, typename A::R>(energy);
+            auto f = s.make(tried.energy, A::types());
             auto x = f.make_point();
             f.upload(s.start, x);
             const auto& space = f.space();
@@ -183,8 +175,8 @@ TEST_CASE_TEMPLATE("newton problem: the stand-in of the Hessian is symmetric, po
             double norm = 0, most = 0; // of the matrix, at least; v'(A - H)v of a unit vector v, at most
             for (int trial = 0; trial < 12; ++trial)
             {
-                v.upload(to<typename A::R>(random_vector(f, random)));
-                w.upload(to<typename A::R>(random_vector(f, random)));
+                v.upload(random_vector(f, random));
+                w.upload(random_vector(f, random));
                 f.linearize(x, false);
                 f.hessian_product(w, Aw);
                 norm = std::max(norm, std::sqrt(space.dot(Aw, Aw) / space.dot(w, w)));
@@ -211,15 +203,15 @@ TEST_CASE_TEMPLATE("newton problem: the stand-in of the Hessian is symmetric, po
     }
 }
 
-TEST_CASE_TEMPLATE("newton problem: the preconditioner is symmetric and positive definite", A,
-                   arithmetic<double, double>, arithmetic<double, float>)
+TEST_CASE_TEMPLATE("newton objective: the preconditioner is symmetric and positive definite", A,
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     // One mesh with levels, one without.
     for (const int n : {test::sized(16, 4), 2})
         for (const bool pin_some : {false, true})
         {
             const fixture s(test::bumpy(n, 0.3, 2), pin_some);
-            auto f = s.make<typename A::P, typename A::R>(energy::isometric{});
+            auto f = s.make(energy::isometric{}, A::types());
             auto x = f.make_point();
             f.upload(s.start, x);
             f.linearize(x, false);
@@ -229,8 +221,8 @@ TEST_CASE_TEMPLATE("newton problem: the preconditioner is symmetric and positive
             std::mt19937 random(13);
             for (int trial = 0; trial < 5; ++trial)
             {
-                v.upload(to<typename A::R>(random_vector(f, random)));
-                w.upload(to<typename A::R>(random_vector(f, random)));
+                v.upload(random_vector(f, random));
+                w.upload(random_vector(f, random));
                 f.precondition(v, Mv);
                 f.precondition(w, Mw);
                 CHECK(space.dot(v, Mv) > 0);
@@ -241,11 +233,11 @@ TEST_CASE_TEMPLATE("newton problem: the preconditioner is symmetric and positive
         }
 }
 
-TEST_CASE_TEMPLATE("newton problem: capped values are those at a fraction of the first flip", A,
-                   arithmetic<double, double>, arithmetic<double, float>)
+TEST_CASE_TEMPLATE("newton objective: capped values are those at a fraction of the first flip", A,
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     const fixture s(hills());
-    auto f = s.make<typename A::P, typename A::R>(energy::isometric{});
+    auto f = s.make(energy::isometric{}, A::types());
     auto x = f.make_point();
     f.upload(s.start, x);
     auto g = f.space().make(), d = f.space().make();
@@ -269,16 +261,16 @@ TEST_CASE_TEMPLATE("newton problem: capped values are those at a fraction of the
                 CHECK(capped[i] == doctest::Approx(plain[i]).epsilon(100 * tolerance));
         }
     // Nothing flips along a translation: the full step.
-    d.upload(std::vector<typename A::R>(d.size(), 1));
+    d.upload(std::vector<double>(d.size(), 1));
     std::vector<double> values(a.size());
     CHECK(f.capped_values(x, d, 0.9, a, values) == 1);
     for (const double value : values) CHECK(value == doctest::Approx(f.value(x)).epsilon(100 * tolerance));
 }
 
-TEST_CASE("newton problem: what caps a step is named")
+TEST_CASE("newton objective: what caps a step is named")
 {
     const fixture s(hills());
-    auto f = s.make<double, double>(energy::isometric{});
+    auto f = s.make(energy::isometric{});
     auto x = f.make_point(), moved = f.make_point();
     // One vertex is about to cross an edge that it sees: only triangles at it can flip first.
     f.upload(s.start, x);
@@ -306,11 +298,11 @@ TEST_CASE("newton problem: what caps a step is named")
     }
 }
 
-TEST_CASE_TEMPLATE("newton problem: few waits an iteration, and the minimum that plain BFGS finds", A,
-                   arithmetic<double, double>, arithmetic<double, float>)
+TEST_CASE_TEMPLATE("newton objective: few waits an iteration, and the minimum that plain BFGS finds", A,
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     const fixture s(test::bumpy(test::sized(24, 4), 0.2, 3));
-    auto f = s.make<typename A::P, typename A::R>(energy::isometric{});
+    auto f = s.make(energy::isometric{}, A::types());
     auto x = f.make_point();
     f.upload(s.start, x);
     f.warm_up(x);
@@ -323,7 +315,7 @@ TEST_CASE_TEMPLATE("newton problem: few waits an iteration, and the minimum that
     CHECK(static_cast<int>(waits) <= 2.5 * r.iterations + 1); // 2, and 3 where the systems become harder; the start
     CHECK(r.gradient_norm <= 1e-6);
 
-    problem<triangle, double, double> g(s.q, s.levels.make_layout(0), energy::isometric{}, energy::weighting::measure);
+    map_objective<triangle> g(s.q, s.levels.make_layout(0), energy::isometric{}, energy::weighting::measure);
     auto y = g.make_point();
     g.upload(s.start, y);
     const auto plain = solve::minimize(

@@ -30,11 +30,10 @@ struct anisotropic
     }
 };
 
-template <class P_, class R_>
+template <precision How>
 struct arithmetic
 {
-    using P = P_;
-    using R = R_;
+    static real_types types() { return types_of(How); }
 };
 
 /// Points of a flat mesh as its map: the identity, with every triangle at rest.
@@ -91,34 +90,28 @@ struct fixture
         local = std::make_shared<const layout<triangle>>(surface, pinned);
     }
 
-    template <class P>
-    device_vector<P> point(queue& q) const
+    device_vector point(queue& q, const real_types& types = {}) const
     {
-        const auto x = local->to_local(start);
-        return {q, std::vector<P>(x.begin(), x.end())};
+        return {q, types.position, local->to_local(start)};
     }
 
     /// The energy of device positions, by the host.
-    template <class P>
-    double value(const device_vector<P>& x, const any_energy& energy) const
+    double value(const device_vector& x, const any_energy& energy) const
     {
-        const auto p = x.download();
-        return test::reference_problem<triangle>(local, energy, energy::weighting::measure)(
-            std::vector<double>(p.begin(), p.end()), {});
+        return test::reference_problem<triangle>(local, energy, energy::weighting::measure)(x.download(), {});
     }
 };
 
-template <class P, class R>
-vertex_relaxation<triangle, P, R> make(queue& q, const fixture& s, const any_energy& energy)
+vertex_relaxation<triangle> make(queue& q, const fixture& s, const any_energy& energy, const real_types& types = {})
 {
-    return {q, s.local, energy, energy::weighting::measure};
+    return {q, s.local, energy, energy::weighting::measure, types};
 }
 
 } // namespace
 
-TYPE_TO_STRING_AS("double", arithmetic<double, double>);
-TYPE_TO_STRING_AS("mixed", arithmetic<double, float>);
-TYPE_TO_STRING_AS("float", arithmetic<float, float>);
+TYPE_TO_STRING_AS("double", arithmetic<precision::fp64>);
+TYPE_TO_STRING_AS("mixed", arithmetic<precision::mixed>);
+TYPE_TO_STRING_AS("float", arithmetic<precision::fp32>);
 
 TEST_CASE("vertex relaxation: a schedule has the free vertices of the cells, neighbours in different colours")
 {
@@ -170,16 +163,16 @@ TEST_CASE("vertex relaxation: a schedule has the free vertices of the cells, nei
 }
 
 TEST_CASE_TEMPLATE("vertex relaxation: a sliver recovers, and nothing but its vertices moves", A,
-                   arithmetic<double, double>, arithmetic<double, float>, arithmetic<float, float>)
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
 {
     queue q;
     for (const int n : {6, test::sized(20, 9)})
     {
         fixture s(n, 1, 1e-3, 1);
         REQUIRE(s.slivers == 1);
-        auto x = s.point<typename A::P>(q);
+        auto x = s.point(q, A::types());
         const auto before = x.download();
-        auto relax = make<typename A::P, typename A::R>(q, s, energy::isometric{});
+        auto relax = make(q, s, energy::isometric{}, A::types());
         const auto r = relax(x, {.sweeps = 6});
         const auto after = x.download();
 
@@ -203,19 +196,19 @@ TEST_CASE_TEMPLATE("vertex relaxation: a sliver recovers, and nothing but its ve
 }
 
 TEST_CASE_TEMPLATE("vertex relaxation: the energy falls call by call, for any energy, and repeats bit for bit", A,
-                   arithmetic<double, double>, arithmetic<double, float>, arithmetic<float, float>)
+                   arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
 {
     queue q;
     const fixture s(test::sized(18, 8), 7, 1e-2);
     REQUIRE(s.slivers > 3);
     using namespace taut::energy;
     std::vector<any_energy> energies = {isometric{}, anisotropic{}};
-    if (std::is_same_v<typename A::R, double>)
+    if (A::types().vector == scalar_type::f64)
         energies.insert(energies.end(), {0.5 * isometric{} + 0.5 * shape{}, shape{} * area{}});
     for (const any_energy& energy : energies)
     {
-        auto relax = make<typename A::P, typename A::R>(q, s, energy);
-        auto x = s.point<typename A::P>(q), y = s.point<typename A::P>(q);
+        auto relax = make(q, s, energy, A::types());
+        auto x = s.point(q, A::types()), y = s.point(q, A::types());
         double value = s.value(x, energy);
         const double first = value;
         for (int call = 0; call < 3; ++call)
@@ -246,8 +239,8 @@ TEST_CASE("vertex relaxation: one sweep is the best multiple of the damped Newto
             auto start = flat(wheel);
             start[0] = {0.3, 0.55};
             const auto local = l->to_local(start);
-            device_vector<double> x(q, local);
-            vertex_relaxation<triangle, double, double> relax(q, l, energy, energy::weighting::uniform);
+            device_vector x(q, scalar_type::f64, local);
+            vertex_relaxation<triangle> relax(q, l, energy, energy::weighting::uniform);
             CHECK(relax(x, {.threshold = 1.01, .above_mean = 0, .sweeps = 1}).vertices == 1);
             const auto moved = x.download();
 
@@ -276,7 +269,7 @@ TEST_CASE("vertex relaxation: one sweep is the best multiple of the damped Newto
             mat2 absolute = (H * H + mat2(root)) * (1 / spread);
             CHECK(spread >= std::abs(trace) * (1 - 1e-9));
             const double m = std::max(absolute[0][0], absolute[1][1]);
-            using kernels = relaxation_kernels<triangle, double, double>;
+            using kernels = relaxation_kernels<triangle>;
             absolute += mat2(kernels::damping * m);
             const vec2 d = -(glm::inverse(absolute) * gradient(p));
             double least = at(p, nullptr);
@@ -293,8 +286,8 @@ TEST_CASE("vertex relaxation: without bad elements, or outside of the domain, no
 {
     queue q;
     fixture s(test::sized(12, 6), 10, 1e-2);
-    auto relax = make<double, double>(q, s, energy::isometric{});
-    auto x = s.point<double>(q);
+    auto relax = make(q, s, energy::isometric{});
+    auto x = s.point(q);
     const auto before = x.download();
     relax.warm_up(x);
 
@@ -319,26 +312,27 @@ TEST_CASE("vertex relaxation: without bad elements, or outside of the domain, no
 TEST_CASE("vertex relaxation: all pinned is legal, and meshes share kernels")
 {
     queue q;
-    using kernels = relaxation_kernels<triangle, double, float>;
-    const auto shared = std::make_shared<const kernels>(q, energy::isometric{});
+    using kernels = relaxation_kernels<triangle>;
+    const auto types = types_of(precision::mixed);
+    const auto shared = std::make_shared<const kernels>(q, energy::isometric{}, types);
     for (const int n : {5, 11})
     {
         const fixture s(n, 6, 1e-2);
         const auto arrays =
-            std::make_shared<const element_arrays<triangle, float>>(q, *s.local, energy::weighting::measure);
-        auto x = s.point<double>(q);
+            std::make_shared<const element_arrays<triangle>>(q, types.vector, *s.local, energy::weighting::measure);
+        auto x = s.point(q);
         const double before = s.value(x, energy::isometric{});
-        vertex_relaxation<triangle, double, float> relax(q, s.local, shared, arrays);
+        vertex_relaxation<triangle> relax(q, s.local, shared, arrays);
         CHECK(relax(x).vertices > 0);
         CHECK(s.value(x, energy::isometric{}) < before);
 
         const auto still = std::make_shared<const layout<triangle>>(
             s.surface, std::vector<bool>(std::size_t(s.surface.vertex_count()), true));
-        device_vector<double> y(q, still->to_local(s.start));
+        device_vector y(q, scalar_type::f64, still->to_local(s.start));
         const auto unmoved = y.download();
-        vertex_relaxation<triangle, double, float> none(
+        vertex_relaxation<triangle> none(
             q, still, shared,
-            std::make_shared<const element_arrays<triangle, float>>(q, *still, energy::weighting::measure));
+            std::make_shared<const element_arrays<triangle>>(q, types.vector, *still, energy::weighting::measure));
         none.warm_up(y);
         const auto r = none(y);
         CHECK(r.elements > 0);
@@ -365,8 +359,8 @@ TEST_CASE("vertex relaxation: a flat tetrahedron recovers")
     const double before = host(local->to_local(start), {});
     REQUIRE(std::isfinite(before));
 
-    device_vector<double> x(q, local->to_local(start));
-    vertex_relaxation<tetrahedron, double, double> relax(q, local, energy::isometric{}, energy::weighting::measure);
+    device_vector x(q, scalar_type::f64, local->to_local(start));
+    vertex_relaxation<tetrahedron> relax(q, local, energy::isometric{}, energy::weighting::measure);
     CHECK(relax(x).elements >= 1);
     CHECK(host(x.download(), {}) < std::min(before, 4.0));
 }

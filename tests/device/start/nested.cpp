@@ -98,17 +98,17 @@ TEST_CASE("nested: every energy and weighting ends in one minimum, whatever the 
         {"area", area{}},
         {"a user's", test::mips_power{}},
         {"a sum with a user's", 0.8 * isometric{} + 0.2 * test::mips_power{.p = 3}}};
-    for (const auto& [name, energy] : energies)
+    for (const auto& tried : energies)
         for (const auto weights : {weighting::uniform, weighting::measure})
         {
-            CAPTURE(name);
+            CAPTURE(tried.first);
             CAPTURE(static_cast<int>(weights));
-            parameterize_params p{.energy = energy, .weights = weights};
+            parameterize_params p{.energy = tried.second, .weights = weights};
             const auto nested = parameterize(q, m, p);
             p.start = start_method::barycentric;
             const auto direct = parameterize(q, m, p);
             // The area energy has many maps of the least value, 2, and no curvature between them.
-            if (name == "area")
+            if (tried.first == "area")
             {
                 REQUIRE(nested);
                 REQUIRE(direct);
@@ -271,8 +271,8 @@ TEST_CASE("nested: preconditioned BFGS and conjugate gradients converge, in fewe
             {start_method::barycentric, {.weights = barycentric_weights::uniform}, precision::fp64}};
         for (const auto& [start, barycentric, how] : runs)
         {
-            CAPTURE(static_cast<int>(start));
             p.start = start;
+            CAPTURE(static_cast<int>(p.start));
             p.barycentric = barycentric;
             p.precision = how;
             const auto r = parameterize(q, m, p);
@@ -305,14 +305,15 @@ TEST_CASE("nested: the longest tubes get a certified map of moderate distortion 
     queue q;
     const std::pair<mesh<triangle>, double> tubes[] = {{test::long_tube(test::sized(12, 6), test::sized(90, 5)), 500},
                                                        {test::coiled_tube(test::sized(12, 6), test::sized(3, 1)), 200}};
-    for (const auto& [m, most] : tubes)
+    for (const auto& tube : tubes)
     {
+        const auto& m = tube.first;
         CAPTURE(m.cells().size());
         // Their many minima lie in long flat valleys; not every path to one ends within the iterations.
         const auto r = parameterize(q, m, {.solve = {.stopping = {.max_iterations = 40}}});
         REQUIRE(r);
         CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
-        CHECK(r.report.solve.value < most);
+        CHECK(r.report.solve.value < tube.second);
     }
 }
 
