@@ -64,7 +64,7 @@ struct element_kernels
         auto energies = r.out<double>("energy", types.vector);
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.position);
-        energies[cell] = traced::weighted(energy, e.shape_matrix(), e.measure(), e.weight());
+        energies[cell] = e.weighted(energy, e.shape_matrix());
         return r.finish("element_value", form);
     }
 
@@ -77,7 +77,7 @@ struct element_kernels
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.position);
         const auto S = e.shape_matrix();
-        energies[cell] = traced::weighted(energy, S, e.measure(), e.weight());
+        energies[cell] = e.weighted(energy, S);
         const auto g = e.corner_gradients(energy, S);
         for (int k = 0; k <= D; ++k)
             for (int i = 0; i < D; ++i)
@@ -104,7 +104,7 @@ struct element_kernels
             typename traced::matrix trial;
             for (int c = 0; c < D; ++c)
                 for (int k = 0; k < D; ++k) trial[c][k] = S[c][k] + a * dS[c][k];
-            energies[cell + t * in.cell_stride] = traced::weighted(energy, trial, e.measure(), e.weight());
+            energies[cell + t * in.cell_stride] = e.weighted(energy, trial);
         }
         return r.finish("element_along", form);
     }

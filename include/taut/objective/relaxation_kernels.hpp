@@ -88,7 +88,8 @@ struct relaxation_kernels
         auto density = r.out<double>("minus_density", types.vector);
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.vector);
-        density[cell] = -traced::weighted(energy, e.shape_matrix(), e.measure(), 1.0);
+        const auto S = e.shape_matrix();
+        density[cell] = -traced::weighted(energy, S, e.measure(), 1.0);
         return r.finish("relaxation_densities", form);
     }
 
@@ -166,7 +167,7 @@ struct relaxation_kernels
                                         steps[at.row + i * part.stride], types);
             };
             const auto S = at.cell.shape_matrix(at.edges(in, moved));
-            values[at.entry + t * part.stride] = traced::weighted(energy, S, at.cell.measure(), at.cell.weight());
+            values[at.entry + t * part.stride] = at.cell.weighted(energy, S);
         }
         return r.finish("relaxation_tries", form);
     }

@@ -92,6 +92,13 @@ public:
     /// Of the map itself.
     matrix shape_matrix() const { return shape_matrix(edges(in_.x)); }
 
+    /// weight() * energy at S; +infinity where it has a barrier and is outside of its domain.
+    real weighted(const any_energy& energy, const matrix& S) const
+    {
+        const real area = measure(), factor = weight(); // loaded in this order, so that every compiler gives one text
+        return weighted(energy, S, area, factor);
+    }
+
     /// weight * energy(S); +infinity where a barrier energy is outside its domain.
     static real weighted(const any_energy& energy, const matrix& S, real measure, real weight)
     {
