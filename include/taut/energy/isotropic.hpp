@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -31,11 +30,14 @@ struct invariant_derivatives
 ///
 /// The invariants rather than singular values s1, s2: what comes from E(s1, s2) needs (E_1 - E_2)/(s1 - s2), which is
 /// 0/0 at every similarity, the very state that maps tend to.
-inline std::optional<invariant_derivatives<sym<double>>> derivatives_by_invariants(sym<double> value,
-                                                                                   const glm::mat<2, 2, sym<double>>& S)
+template <int D>
+std::optional<invariant_derivatives<sym<double>>> derivatives_by_invariants(sym<double> value,
+                                                                            const glm::mat<D, D, sym<double>>& S)
 {
     const sym<double> I = norm2(S), d = glm::determinant(S);
-    const std::array<node_id, 6> stops = {I.id(), d.id(), S[0][0].id(), S[0][1].id(), S[1][0].id(), S[1][1].id()};
+    std::vector<node_id> stops = {I.id(), d.id()};
+    for (int c = 0; c < D; ++c)
+        for (int r = 0; r < D; ++r) stops.push_back(S[c][r].id());
     const auto partials = detail::reverse_sweep(tape::current(), value.id(), stops);
     for (std::size_t k = 2; k < stops.size(); ++k)
         if (partials[k] != no_node) return std::nullopt;
@@ -45,17 +47,18 @@ inline std::optional<invariant_derivatives<sym<double>>> derivatives_by_invarian
     return invariant_derivatives<sym<double>>{I, d, first[0], first[1], of_I[0], of_I[1], differentiate(first[1], d)};
 }
 
-/// True if the energy gets the closed form of plane_modes.hpp, found by recording it once.
-inline bool is_isotropic(const any_energy& energy)
+/// True if the energy gets the closed form of modes.hpp in dimension D, found by recording it once.
+template <int D>
+bool is_isotropic(const any_energy& energy)
 {
     using real = sym<double>;
     tape recorded;
     const tape_scope scope(recorded);
-    glm::mat<2, 2, real> S;
-    for (int c = 0; c < 2; ++c)
-        for (int r = 0; r < 2; ++r) S[c][r] = real::variable();
-    const real value = energy(element<real, 2>{S, glm::determinant(S), real::variable()});
-    return derivatives_by_invariants(value, S).has_value();
+    glm::mat<D, D, real> S;
+    for (int c = 0; c < D; ++c)
+        for (int r = 0; r < D; ++r) S[c][r] = real::variable();
+    const real value = energy(element<real, D>{S, glm::determinant(S), real::variable()});
+    return derivatives_by_invariants<D>(value, S).has_value();
 }
 
 } // namespace taut

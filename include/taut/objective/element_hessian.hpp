@@ -7,7 +7,7 @@
 
 #include <taut/compute/record.hpp>
 #include <taut/energy/eigenvalue_clamp.hpp>
-#include <taut/energy/plane_modes.hpp>
+#include <taut/energy/modes.hpp>
 #include <taut/objective/traced_element.hpp>
 
 namespace taut
@@ -43,8 +43,8 @@ struct hessian_slots
 /// The second derivatives of weight * energy by the corners of each element, one work-item an element; arrays and
 /// ranges as in element_kernels. Nothing is tested against the domain: outside of a barrier's the result means nothing.
 ///
-/// In the plane an energy of |S|^2 and det S takes the closed form of plane_modes.hpp. Any other, and all in space, is
-/// differentiated twice on the tape, and projected by Jacobi rotations.
+/// An energy of |S|^2 and det S takes the closed forms of modes.hpp. Any other is differentiated twice on the tape and
+/// projected by Jacobi rotations; in space its diagonal is shifted instead.
 template <class Element>
 struct element_hessian_kernels
 {
@@ -63,8 +63,6 @@ struct element_hessian_kernels
     explicit element_hessian_kernels(const traced_program& p)
         : projected(p, name_of(definiteness::projected)), indefinite(p, name_of(definiteness::indefinite))
     {
-        static_assert(D == 2, "taut: in space the projection is 0.8 MB of unrolled rotations, which a driver compiles "
-                              "for half a minute; take record() for the indefinite kernel");
     }
 
     /// Both kernels as text, for a program that others share.
@@ -74,7 +72,7 @@ struct element_hessian_kernels
                 record(energy, definiteness::indefinite, types, form)};
     }
 
-    /// One as text. In space, too; see the constructor for what a projected one costs there.
+    /// One as text.
     static kernel_text record(const any_energy& energy, definiteness sign, const real_types& types, kernel_form form)
     {
         recording r(types.vector);
@@ -108,9 +106,13 @@ private:
     {
         const matrix S = e.shape_matrix();
         const real weight = e.weight(), value = energy(element<real, D>{S, glm::determinant(S), e.measure()});
+        const auto psi = derivatives_by_invariants<D>(value, S);
         if constexpr (D == 2)
-            if (const auto psi = derivatives_by_invariants(value, S))
-                return plane_modes(S, *psi, sign == definiteness::projected).hessian(weight);
+        {
+            if (psi) return plane_modes<real>(S, *psi, sign == definiteness::projected).hessian(weight);
+        }
+        else if (psi && sign == definiteness::projected)
+            return space_modes<real>(S, *psi, type).hessian(weight);
 
         std::vector<real> entries;
         for (int c = 0; c < D; ++c)
@@ -123,7 +125,27 @@ private:
             const auto row = differentiate(gradient[static_cast<std::size_t>(j)], upper);
             for (int i = 0; i <= j; ++i) H(i, j) = weight * row[static_cast<std::size_t>(i)];
         }
-        return sign == definiteness::projected ? eigenvalue_clamp<real, N>::apply(H, type) : H;
+        if (sign == definiteness::indefinite) return H;
+        if constexpr (D == 2)
+            return eigenvalue_clamp<real, N>::apply(H, type);
+        else
+            return shifted(std::move(H));
+    }
+
+    /// H + t I with the least t >= 0 for which Gershgorin's circles say that it is positive semi-definite. In space the
+    /// rotations of eigenvalue_clamp are 0.8 MB of unrolled code, which a driver compiles for half a minute.
+    static symmetric_matrix<real, N> shifted(symmetric_matrix<real, N> H)
+    {
+        real t = 0.0;
+        for (int i = 0; i < N; ++i)
+        {
+            real radius = 0.0;
+            for (int j = 0; j < N; ++j)
+                if (j != i) radius = radius + abs(H(i, j));
+            t = max(t, radius - H(i, i));
+        }
+        for (int i = 0; i < N; ++i) H(i, i) = H(i, i) + t;
+        return H;
     }
 
     /// From the entries of S to the corners: S is linear in the edges A = S W, and an edge is a corner less corner 0,
