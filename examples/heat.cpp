@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <taut/compute/handler.hpp>
-#include <taut/symbolic/loop.hpp>
 #include <taut/taut.hpp>
 
 using namespace taut;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <taut/compute/device.hpp>
+#include <taut/compute/errors.hpp>
 
 namespace taut
 {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <taut/compute/record.hpp>
+#include <taut/symbolic/loop.hpp>
 
 namespace taut
 {

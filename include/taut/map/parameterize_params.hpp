@@ -29,7 +29,7 @@ enum class boundary_mode
 enum class start_method
 {
     automatic,   ///< `initial` if there is one; else coarse for Newton's method and barycentric for the others
-    coarse,      ///< made and minimised on coarser levels of the mesh (coarse_to_fine.hpp)
+    coarse,      ///< made and minimised on coarser levels of the mesh (start/nested.hpp)
     barycentric, ///< on a convex polygon (barycentric_map.hpp)
     conformal    ///< least squares conformal, or barycentric where that has flips (conformal_start.hpp)
 };

@@ -20,7 +20,7 @@ namespace taut
 
 /// How the levels above the finest one are solved: roughly, since the next one changes everything a little. Before
 /// each one `start.proceed` is asked, too.
-struct coarse_to_fine_params
+struct nested_params
 {
     std::size_t start_vertices = 1000; ///< the start map is made on the finest level with at most so many
     robust_start_params start = {};
@@ -44,11 +44,11 @@ struct coarse_to_fine_params
 /// Nested iteration: a start map on a coarse level, minimised, and then for each finer level its vertices reinserted
 /// without flips, the worst elements relaxed, and the map minimised again. It needs no map of the fine mesh to begin
 /// with and hands the fine level one that lacks detail only (the paper's coarse-to-fine scheme, its section 5).
-class coarse_to_fine
+class nested_iteration
 {
 public:
     /// Refers to the levels and the solver.
-    coarse_to_fine(const mesh_levels& levels, level_solver& solver, coarse_to_fine_params params)
+    nested_iteration(const mesh_levels& levels, level_solver& solver, nested_params params)
         : levels_(levels), solver_(solver), params_(std::move(params))
     {
         params_.stopping.base = solver.energy_at_rest();
@@ -109,7 +109,7 @@ private:
 
     const mesh_levels& levels_;
     level_solver& solver_;
-    coarse_to_fine_params params_;
+    nested_params params_;
     start_map start_;
     std::string reason_;
     std::vector<level_report> reports_;

@@ -264,7 +264,7 @@ private:
         limits_.check();
         if (!arrival_)
         {
-            coarse_to_fine nested(*levels_, solver, how);
+            nested_iteration nested(*levels_, solver, how);
             auto uv = nested.run([this](std::size_t l) { return observer_on(l); }, take);
             if (!arrive(nested, std::move(uv))) return false;
         }
@@ -283,9 +283,9 @@ private:
         return true;
     }
 
-    coarse_to_fine_params descent()
+    nested_params descent()
     {
-        coarse_to_fine_params p;
+        nested_params p;
         if (!iterates()) p.stopping.max_iterations = 0;
         p.start.boundary = params_.barycentric.boundary;
         p.start.fixed_boundary = params_.boundary == boundary_mode::fixed;
@@ -294,7 +294,7 @@ private:
     }
 
     /// Takes in what a descent came to; false if it failed.
-    bool arrive(const coarse_to_fine& nested, std::vector<vec2> uv)
+    bool arrive(const nested_iteration& nested, std::vector<vec2> uv)
     {
         report().start = nested.start();
         report().levels = nested.reports();
