@@ -5,7 +5,7 @@ set -eu
 cd "$1"
 status=0
 while read -r header names; do
-    for file in $(grep -rlE --include='*.hpp' "std::($names)" .); do
+    for file in $(grep -rlE --include='*.[hi]pp' "std::($names)" .); do
         grep -v '^ *//' "$file" | grep -qE "std::($names)" || continue
         grep -q "^#include <$header>" "$file" && continue
         echo "$file: uses std::($names) without #include <$header>"

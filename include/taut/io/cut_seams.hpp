@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <taut/config.hpp>
 #include <taut/io/surface_file.hpp>
+#include <vector>
 
 namespace taut::io
 {

@@ -22,7 +22,7 @@ struct barycentric_system
     std::vector<idx> column;
     std::vector<double> weight;
     std::vector<double> excess;
-    std::vector<vec2> rhs;      ///< sum of weight * position over fixed neighbours
+    std::vector<vec2> rhs;    ///< sum of weight * position over fixed neighbours
     std::vector<idx> unknown; ///< the vertex of row i
 
     std::size_t size() const { return excess.size(); }
