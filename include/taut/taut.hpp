@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Maps of meshes: all that reads, constrains, makes, judges and writes them, in the order of the layers. What lies below
-/// has headers of its own: <taut/compute/handler.hpp> for kernels, <taut/solve/minimize.hpp> for solvers,
+/// Maps of meshes: all that reads, constrains, makes, judges and writes them, in the order of the layers. What lies
+/// below has headers of its own: <taut/compute/handler.hpp> for kernels, <taut/solve/minimize.hpp> for solvers,
 /// <taut/symbolic/recording.hpp> for derivatives.
 #include <taut/version.hpp>
 

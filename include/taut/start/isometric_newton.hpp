@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <taut/hierarchy/detail/star_region.hpp>
-#include <taut/mesh/ideal.hpp>
 #include <taut/mesh/first_flip.hpp>
+#include <taut/mesh/ideal.hpp>
 #include <taut/sparse/front_cholesky.hpp>
 
 namespace taut::detail
