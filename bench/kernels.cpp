@@ -53,8 +53,10 @@ struct arrays
         incidence = vertex_corners(local);
         ideal_elements<triangle> ideal(local);
         auto triangles = local.cells();
-        pad<triangle>(triangles, ideal, layout<triangle>::step);
-        cell_stride = triangles.size();
+        cell_stride = padded(triangles.size(), layout<triangle>::step);
+        triangles.resize(cell_stride, triangles.back()); // copies of the last one, of measure 0, as in layout.hpp
+        ideal.inverse.resize(cell_stride, ideal.inverse.back());
+        ideal.measure.resize(cell_stride, 0.0);
         vertex_stride = padded(vertices, layout<triangle>::step);
         for (std::size_t k = 0; k < 3; ++k)
             for (const auto& t : triangles) corners.push_back(t[k]);
@@ -291,7 +293,7 @@ private:
         multigrid mg(queue_, types.vector, host.cycle);
         auto& A = mg.matrix();
         const block_assembly assembly(A, host.assembly);
-        const element_arrays<triangle> arrays(queue_, types.vector, *local, energy::weighting::measure);
+        const element_arrays<triangle> arrays(queue_, types.vector, *local, energy::weighting::measure, energy);
         std::vector<double> positions(2 * local->vertex_stride);
         for (std::size_t v = 0; v < levels.points().size(); ++v)
             for (int c = 0; c < 2; ++c)

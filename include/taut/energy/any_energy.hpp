@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <taut/energy/element.hpp>
 #include <taut/symbolic/glm.hpp>
@@ -28,6 +29,27 @@ public:
     {
     }
 
+    /// The same energy with numbers that it reads as e.parameter(k). They are arguments of its kernels: other values
+    /// take no other kernel.
+    any_energy with_parameters(std::vector<double> parameters) const
+    {
+        any_energy e = *this;
+        e.parameters_ = std::move(parameters);
+        return e;
+    }
+    /// With numbers that stand for e.attribute(k) where an element comes without its own, and whether elements come
+    /// with directions (cell_data).
+    any_energy with_data(std::vector<double> usual_attributes, bool directions) const
+    {
+        any_energy e = *this;
+        e.attributes_ = std::move(usual_attributes);
+        e.directions_ = directions;
+        return e;
+    }
+    const std::vector<double>& parameters() const { return parameters_; }
+    const std::vector<double>& attributes() const { return attributes_; }
+    bool directions() const { return directions_; }
+
     /// True if the energy is +infinity where det S <= 0.
     bool barrier() const { return model_->barrier(); }
 
@@ -36,7 +58,14 @@ public:
     template <class T, int D>
     T operator()(const element<T, D>& e) const
     {
-        return model_->at(e);
+        if (e.attributes.size() >= attributes_.size() && e.parameters.size() >= parameters_.size())
+            return model_->at(e);
+        const std::vector<T> attributes(attributes_.begin(), attributes_.end());
+        const std::vector<T> parameters(parameters_.begin(), parameters_.end());
+        element<T, D> full = e;
+        if (full.attributes.empty()) full.attributes = attributes;
+        if (full.parameters.empty()) full.parameters = parameters;
+        return model_->at(full);
     }
 
 private:
@@ -78,6 +107,8 @@ private:
     };
 
     std::shared_ptr<const interface> model_;
+    std::vector<double> attributes_, parameters_;
+    bool directions_ = false;
 };
 
 } // namespace taut

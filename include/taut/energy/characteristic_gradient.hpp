@@ -66,7 +66,8 @@ double characteristic_gradient(const layout<Element>& mesh_layout, const any_ene
     {
         const auto at = [&](std::size_t k) -> double&
         { return l[static_cast<std::size_t>(mesh_layout.corners[k * stride + c])]; };
-        const double w = uniform ? 1 : mesh_layout.measure[c];
+        double w = uniform ? 1 : mesh_layout.measure[c];
+        if (!mesh_layout.weight.empty()) w *= mesh_layout.weight[c];
         total += w;
         // Rows of W^-1 are the gradients of the basis functions of corners 1..D; corner 0 has minus their sum.
         vec<D> sum(0.0);

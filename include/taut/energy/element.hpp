@@ -2,7 +2,11 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
+#include <span>
+#include <string>
 
+#include <taut/core/error.hpp>
 #include <taut/core/linalg.hpp>
 #include <taut/core/select.hpp> // energies write it in place of `if`
 
@@ -15,10 +19,27 @@ struct element
 {
     /// Shape matrix A W^-1 from the ideal to the physical element (eq. 3); a rotation at rest. Its frame is the
     /// element's own (the first column is the image of the first edge), so an energy must not see turns of it:
-    /// E(S R) = E(S) for every rotation R.
+    /// E(S R) = E(S) for every rotation R; or it is given by cell_data::directions, whose image the first column then
+    /// is.
     glm::mat<D, D, T> S;
     T det;     ///< det S = signed mapped measure / rest measure
     T measure; ///< rest area or volume, in the units of the normalised mesh (total = number of elements)
+
+    std::span<const T> attributes = {}; ///< the user's numbers of this element (cell_data::attributes)
+    std::span<const T> parameters = {}; ///< the user's numbers for all elements (any_energy::with)
+
+    /// Number k of each. Throws parameter_error where there are fewer.
+    T attribute(std::size_t k) const { return pick(attributes, k, "attributes"); }
+    T parameter(std::size_t k) const { return pick(parameters, k, "parameters"); }
+
+private:
+    static T pick(std::span<const T> numbers, std::size_t k, const char* what)
+    {
+        if (k >= numbers.size())
+            throw parameter_error(what, "the energy reads number " + std::to_string(k) + ", and " +
+                                            std::to_string(numbers.size()) + " are given");
+        return numbers[k];
+    }
 };
 
 namespace energy

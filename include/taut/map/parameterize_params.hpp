@@ -9,6 +9,7 @@
 #include <taut/constrain/placement.hpp>
 #include <taut/energy/any_energy.hpp>
 #include <taut/energy/isometric.hpp>
+#include <taut/mesh/cell_data.hpp>
 #include <taut/objective/precision.hpp>
 #include <taut/solve/observer.hpp>
 #include <taut/solve/params.hpp>
@@ -42,6 +43,13 @@ struct parameterize_params
 
     /// Whether elements count by rest area, as is usual, or all the same, as in the paper.
     energy::weighting weights = energy::weighting::measure;
+
+    /// What energies see of single triangles beside their shape, in the order of the mesh: weights, attributes,
+    /// directions.
+    cell_data data = {};
+
+    /// Numbers that the energy reads as e.parameter(k): other values take no other kernel.
+    std::vector<double> parameters = {};
 
     boundary_mode boundary = boundary_mode::free;
 

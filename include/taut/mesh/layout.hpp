@@ -10,6 +10,7 @@
 
 #include <taut/core/padded.hpp>
 #include <taut/core/parallel.hpp>
+#include <taut/mesh/cell_data.hpp>
 #include <taut/mesh/ideal.hpp>
 #include <taut/mesh/incidence.hpp>
 #include <taut/mesh/order.hpp>
@@ -39,6 +40,12 @@ struct layout
     std::vector<double> measure; ///< cell_stride: rest measure in these units; 0 for padding
     csr vertex_corners;          ///< corners of each vertex, as corners * cell + k
 
+    std::vector<double> weight; ///< cell_stride or none: cell_data::weights
+    std::size_t attribute_count = 0;
+    std::vector<double> attributes; ///< attribute_count x cell_stride
+    std::vector<double>
+        frames; ///< D * D x cell_stride or none: by columns, the user's axes in the frame of the ideal cell
+
     /// Renumbers the mesh: free vertices first, otherwise for locality.
     /// `pinned`: one flag a vertex of the mesh, or empty. Throws mesh_error for degenerate cells.
     explicit layout(const mesh<Element>& m, const std::vector<bool>& pinned = {}) : layout(m, solution_order(m, pinned))
@@ -60,6 +67,29 @@ struct layout
         cell_stride = padded(local.cells().size(), step);
         vertex_stride = padded(local.points().size(), step);
         spread(local.cells(), ideal);
+    }
+
+    /// Takes what the user says of the cells, in the numbers of this layout; local: the mesh that it is of. Throws
+    /// parameter_error.
+    void attach(const cell_data& data, const mesh<Element>& local)
+    {
+        data.validate(local.cells().size());
+        const auto from = [&](std::size_t c) { return std::min(c, local.cells().size() - 1); };
+        attribute_count = data.attribute_count;
+        attributes.resize(attribute_count * cell_stride);
+        weight.resize(data.weights.empty() ? 0 : cell_stride);
+        frames.resize(data.directions.empty() ? 0 : D * D * cell_stride);
+        for (std::size_t c = 0; c < cell_stride; ++c)
+        {
+            if (!weight.empty()) weight[c] = data.weights[from(c)];
+            for (std::size_t k = 0; k < attribute_count; ++k)
+                attributes[k * cell_stride + c] = data.attributes[from(c) * attribute_count + k];
+            if (frames.empty()) continue;
+            const auto frame = Element::frame(local.rest(static_cast<idx>(from(c))), data.directions[from(c)]);
+            for (int column = 0; column < D; ++column)
+                for (int row = 0; row < D; ++row)
+                    frames[static_cast<std::size_t>(column * D + row) * cell_stride + c] = frame[column][row];
+        }
     }
 
     /// Coordinates here, D x vertex_stride, from the user's.

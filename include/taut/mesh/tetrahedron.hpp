@@ -52,6 +52,18 @@ struct tetrahedron
                     glm::dot(c, u), glm::dot(c, v), glm::dot(c, w));
     }
 
+    /// A direction in space as the first axis of a frame, in that of the ideal tetrahedron: the axes as columns. The
+    /// other two lie somewhere across it.
+    static mat3 frame(const rest_corners& x, const vec3& direction)
+    {
+        const vec3 u = glm::normalize(x[1] - x[0]), w = glm::normalize(glm::cross(x[1] - x[0], x[2] - x[0]));
+        const vec3 v = glm::cross(w, u), d = glm::normalize(direction);
+        const vec3 first(glm::dot(d, u), glm::dot(d, v), glm::dot(d, w));
+        const vec3 other = std::abs(first.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        const vec3 second = glm::normalize(glm::cross(glm::cross(first, other), first));
+        return mat3(first, second, glm::cross(first, second));
+    }
+
     /// True only for tetrahedra that are far from flat and not inverted, found without a root or a quotient.
     static bool is_thick(const rest_corners& x)
     {

@@ -74,6 +74,18 @@ struct triangle
         return 0.25 * std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));
     }
 
+    /// A direction in space, projected to the triangle, as the first axis of a frame, in that of the ideal triangle:
+    /// the axes as columns. The identity for a direction across the triangle.
+    static mat2 frame(const rest_corners& x, const vec3& direction)
+    {
+        const vec3 along = glm::normalize(x[1] - x[0]);
+        const vec3 across = glm::normalize(glm::cross(glm::cross(along, x[2] - x[0]), along));
+        const vec2 axis(glm::dot(direction, along), glm::dot(direction, across));
+        const double size = glm::length(axis);
+        if (!(size > 1e-6 * length(direction))) return mat2(1.0);
+        return mat2(axis.x / size, axis.y / size, -axis.y / size, axis.x / size);
+    }
+
     /// True only for triangles that are far from flat, found without a root or a quotient.
     static bool is_thick(const rest_corners& x)
     {

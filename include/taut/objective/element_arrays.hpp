@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <taut/compute/kernel.hpp>
-#include <taut/energy/element.hpp>
+#include <taut/energy/any_energy.hpp>
 #include <taut/mesh/layout.hpp>
 
 namespace taut
@@ -22,7 +24,12 @@ struct element_arrays
     real_buffer weight;  ///< w_c / sum of w_c over the cells
     idx cell_stride, vertex_stride;
 
-    element_arrays(queue& q, scalar_type type, const layout<Element>& mesh_layout, energy::weighting weights)
+    real_buffer attributes, frames; ///< cell_data, if the energy has any
+    std::vector<std::pair<std::string, double>> parameters;
+
+    /// Throws parameter_error where the energy expects other data of cells than the layout has.
+    element_arrays(queue& q, scalar_type type, const layout<Element>& mesh_layout, energy::weighting weights,
+                   const any_energy& energy)
         : corners(q, mesh_layout.corners),
           inverse(q, type, mesh_layout.inverse),
           measure(q, type, mesh_layout.measure),
@@ -30,6 +37,13 @@ struct element_arrays
           cell_stride(static_cast<idx>(mesh_layout.cell_stride)),
           vertex_stride(static_cast<idx>(mesh_layout.vertex_stride))
     {
+        if (energy.attributes().size() != mesh_layout.attribute_count ||
+            energy.directions() != !mesh_layout.frames.empty())
+            throw parameter_error("energy", "expects other data of cells than the layout has (any_energy::with_data)");
+        if (mesh_layout.attribute_count > 0) attributes = real_buffer(q, type, mesh_layout.attributes);
+        if (energy.directions()) frames = real_buffer(q, type, mesh_layout.frames);
+        for (const double p : energy.parameters())
+            parameters.emplace_back("parameter" + std::to_string(parameters.size()), p);
     }
 
     /// The arguments of a kernel that takes element_inputs: these arrays, the map x and what else it takes.
@@ -42,6 +56,9 @@ struct element_arrays
                                            {"x", x},
                                            {"cell_stride", cell_stride},
                                            {"vertex_stride", vertex_stride}};
+        if (!attributes.empty()) all.push_back({"attributes", attributes});
+        if (!frames.empty()) all.push_back({"frames", frames});
+        for (const auto& [name, value] : parameters) all.push_back({name.c_str(), value});
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -52,6 +69,7 @@ private:
         std::vector<double> w = mesh_layout.measure;
         const auto end = w.begin() + static_cast<std::ptrdiff_t>(mesh_layout.cell_count);
         if (weights == energy::weighting::uniform) std::fill(w.begin(), end, 1.0);
+        for (std::size_t c = 0; c < mesh_layout.weight.size(); ++c) w[c] *= mesh_layout.weight[c];
         const double total = std::accumulate(w.begin(), end, 0.0);
         for (auto& v : w) v /= total;
         return w;

@@ -77,7 +77,7 @@ struct element_hessian_kernels
     static kernel_text record(const any_energy& energy, definiteness sign, const real_types& types, kernel_form form)
     {
         recording r(types.vector);
-        const element_inputs in(r, types);
+        const element_inputs in(r, types, energy);
         auto hessian = r.out<double>("hessian", types.vector);
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.vector);
@@ -106,7 +106,7 @@ private:
                                                      scalar_type type)
     {
         const matrix S = e.shape_matrix();
-        const real weight = e.weight(), value = energy(element<real, D>{S, glm::determinant(S), e.measure()});
+        const real weight = e.weight(), value = e.density(energy, S);
         const auto psi = derivatives_by_invariants<D>(value, S);
         if constexpr (D == 2)
         {

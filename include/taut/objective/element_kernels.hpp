@@ -54,13 +54,13 @@ struct element_kernels
     static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
         return {record_value(energy, types, form), record_gradient(energy, types, form),
-                record_along(energy, types, form), record_first_flips(types, form)};
+                record_along(energy, types, form), record_first_flips(energy, types, form)};
     }
 
     static kernel_text record_value(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.position);
-        const element_inputs in(r, types);
+        const element_inputs in(r, types, energy);
         auto energies = r.out<double>("energy", types.vector);
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.position);
@@ -71,7 +71,7 @@ struct element_kernels
     static kernel_text record_gradient(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.position);
-        const element_inputs in(r, types);
+        const element_inputs in(r, types, energy);
         auto energies = r.out<double>("energy", types.vector);
         auto gradients = r.out<double>("corner_gradient", types.position);
         const auto cell = r.global_id();
@@ -89,7 +89,7 @@ struct element_kernels
     static kernel_text record_along(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.position);
-        const element_inputs in(r, types);
+        const element_inputs in(r, types, energy);
         auto d = r.in<double>("d", types.vector);
         auto unit = r.in<double>("unit", types.vector);
         auto energies = r.out<double>("energy", types.vector);
@@ -109,10 +109,11 @@ struct element_kernels
         return r.finish("element_along", form);
     }
 
-    static kernel_text record_first_flips(const real_types& types, kernel_form form)
+    /// energy: says which arguments it takes beside those that it needs.
+    static kernel_text record_first_flips(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.position);
-        const element_inputs in(r, types);
+        const element_inputs in(r, types, energy);
         auto d = r.in<double>("d", types.vector);
         auto first = r.out<double>("first", types.vector);
         const auto cell = r.global_id();

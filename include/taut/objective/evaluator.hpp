@@ -39,13 +39,14 @@ public:
     using points = std::span<const vec<D>>;
 
     /// Throws mesh_error for degenerate cells, parameter_error, device_error.
-    evaluator(queue q, const mesh<Element>& m, any_energy energy,
-              energy::weighting weights = energy::weighting::measure, precision how = precision::fp64)
+    evaluator(queue q, const mesh<Element>& m, const any_energy& energy,
+              energy::weighting weights = energy::weighting::measure, precision how = precision::fp64,
+              const cell_data& data = {})
         : queue_(std::move(q)),
-          energy_(std::move(energy)),
+          energy_(energy.with_data(data.mean_attributes(), !data.directions.empty())),
           weights_(weights),
           types_(types_of(how)),
-          layout_(std::make_shared<const layout<Element>>(m)),
+          layout_(with_data(m, data)),
           cells_(permute(m, layout_->order).cells()),
           objective_(queue_, layout_, energy_, weights, types_),
           x_(objective_.make_point()),
@@ -109,7 +110,7 @@ private:
         second_order(queue& q, const any_energy& energy, energy::weighting weights, const real_types& types,
                      const layout<Element>& l, const std::vector<typename mesh<Element>::cell>& cells)
             : kernels(q, energy, types),
-              arrays(q, types.vector, l, weights),
+              arrays(q, types.vector, l, weights, energy),
               elements(q, types.vector, hessian_slots<D>::count * l.cell_stride),
               matrix(q, types.vector,
                      pattern_of_cells(cells, static_cast<std::size_t>(l.vertex_count),
@@ -119,6 +120,14 @@ private:
         {
         }
     };
+
+    static std::shared_ptr<const layout<Element>> with_data(const mesh<Element>& m, const cell_data& data)
+    {
+        data.validate(m.cells().size());
+        auto l = std::make_shared<layout<Element>>(m);
+        l->attach(data.reordered(l->order.cells), permute(m, l->order));
+        return l;
+    }
 
     void require(std::size_t n, const char* what) const
     {

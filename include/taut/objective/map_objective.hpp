@@ -57,7 +57,7 @@ public:
           space_(queue_, types.vector, D * layout_->vertex_stride),
           reductions_(queue_),
           kernels_(std::move(traced)),
-          arrays_(std::make_shared<const element_arrays<Element>>(queue_, types.vector, *layout_, weights)),
+          arrays_(std::make_shared<const element_arrays<Element>>(queue_, types.vector, *layout_, weights, energy)),
           energies_(queue_, types.vector, kernels::trials * layout_->cell_stride),
           one_(queue_, types.vector, std::array{1.0}),
           limit_(queue_, types.vector, std::array{1.0}),

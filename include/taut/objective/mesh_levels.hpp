@@ -20,11 +20,15 @@ namespace taut
 class mesh_levels
 {
 public:
-    /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level. Throws mesh_error.
+    /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level. data: of the cells of m; coarser
+    /// levels have the means. Throws mesh_error, parameter_error.
     explicit mesh_levels(const mesh<triangle>& m, const std::vector<bool>& pinned = {},
-                         const hierarchy_params& params = {})
+                         const hierarchy_params& params = {}, const cell_data& data = {})
         : numbering_(m, pinned), finest_(permute(m, numbering_.order))
     {
+        data.validate(m.cells().size());
+        data_ = data.reordered(numbering_.order.cells);
+        coarse_data_ = averaged_cell_data(data_, finest_.cells(), finest_.points().size());
         std::vector<char> keep;
         if (!pinned.empty())
         {
@@ -60,7 +64,9 @@ public:
     std::shared_ptr<const layout<triangle>> make_layout(std::size_t l) const
     {
         const auto m = surface(l);
-        return std::make_shared<const layout<triangle>>(m, identity_order(m), free_[l]);
+        auto made = std::make_shared<layout<triangle>>(m, identity_order(m), free_[l]);
+        if (!data_.empty()) made->attach(l == 0 ? data_ : coarse_data_.at(m.cells(), hierarchy_.levels[l].vertices), m);
+        return made;
     }
 
     bool pinned() const { return free_[0] < static_cast<idx>(vertices(0)); }
@@ -87,6 +93,8 @@ public:
 private:
     solution_order numbering_;
     mesh<triangle> finest_;
+    cell_data data_;
+    averaged_cell_data coarse_data_;
     taut::hierarchy hierarchy_;
     std::vector<idx> free_;
     std::vector<std::vector<char>> fixed_;

@@ -84,27 +84,26 @@ struct relaxation_kernels
     static kernel_text record_densities(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.vector);
-        const element_inputs in(r, types);
+        const element_inputs in(r, types, energy);
         auto density = r.out<double>("minus_density", types.vector);
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.vector);
         const auto S = e.shape_matrix();
-        density[cell] = -traced::weighted(energy, S, e.measure(), 1.0);
+        density[cell] = -e.weighted(energy, S, 1.0);
         return r.finish("relaxation_densities", form);
     }
 
     static kernel_text record_terms(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.vector);
-        const element_inputs in(r, types);
+        const element_inputs in(r, types, energy);
         auto terms = r.out<double>("terms", types.vector);
         const colour_part part(r);
         const star_corner at(r.global_id(), in, part, types);
 
         const auto S =
             at.cell.shape_matrix(at.edges(in, [&](int i) { return in.x[at.vertex + i * in.vertex_stride]; }));
-        const real weight = at.cell.weight(), measure = at.cell.measure();
-        const real value = weight * energy(element<real, D>{S, glm::determinant(S), measure});
+        const real value = at.cell.weight() * at.cell.density(energy, S);
 
         // A move of the vertex by t changes S by t q', where q is the gradient of its basis function.
         std::vector<real> entries;
@@ -120,7 +119,7 @@ struct relaxation_kernels
         const auto gradient = differentiate(value, entries);
         int slot = 0;
         const auto put = [&](real term) { terms[at.entry + slot++ * part.stride] = term; };
-        put(traced::weighted(energy, S, measure, weight));
+        put(at.cell.weighted(energy, S));
         std::vector<real> g;
         for (int i = 0; i < D; ++i) put(g.emplace_back(along(gradient, i)));
         for (int j = 0; j < D; ++j)
@@ -155,7 +154,7 @@ struct relaxation_kernels
     static kernel_text record_tries(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.vector);
-        const element_inputs in(r, types);
+        const element_inputs in(r, types, energy);
         const auto steps = r.in<double>("steps", types.vector);
         auto values = r.out<double>("values", types.vector);
         const colour_part part(r);

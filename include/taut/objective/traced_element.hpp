@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <taut/energy/any_energy.hpp>
@@ -18,20 +20,29 @@ namespace taut
 /// (element_arrays::with).
 struct element_inputs
 {
-    element_inputs(recording& r, const real_types& types)
+    /// energy: says which data of cells and which parameters there are.
+    element_inputs(recording& r, const real_types& types, const any_energy& energy)
         : corners(r.in<idx>("corners")),
           inverse(r.in<double>("inverse", types.vector)),
           measure(r.in<double>("measure", types.vector)),
           weight(r.in<double>("weight", types.vector)),
           x(r.in<double>("x", types.position)),
           cell_stride(r.scalar<idx>("cell_stride")),
-          vertex_stride(r.scalar<idx>("vertex_stride"))
+          vertex_stride(r.scalar<idx>("vertex_stride")),
+          attribute_count(static_cast<int>(energy.attributes().size()))
     {
+        if (attribute_count > 0) attributes.emplace(r.in<double>("attributes", types.vector));
+        if (energy.directions()) frames.emplace(r.in<double>("frames", types.vector));
+        for (std::size_t k = 0; k < energy.parameters().size(); ++k)
+            parameters.push_back(r.scalar<double>("parameter" + std::to_string(k), types.vector));
     }
 
     in_array<idx> corners;
     in_array<double> inverse, measure, weight, x;
     sym<idx> cell_stride, vertex_stride;
+    int attribute_count;
+    std::optional<in_array<double>> attributes, frames;
+    std::vector<sym<double>> parameters;
 };
 
 /// One element while a kernel is being traced: what its work-item loads and how S comes from it. S is formed in the
@@ -50,6 +61,9 @@ public:
     {
         for (std::size_t k = 0; k < inverse_.size(); ++k)
             inverse_[k] = cast(formula, in.inverse[cell + static_cast<int>(k) * in.cell_stride]);
+        for (int k = 0; k < in.attribute_count; ++k)
+            attributes_.push_back(cast(formula, (*in.attributes)[cell + k * in.cell_stride]));
+        for (const real& p : in.parameters) parameters_.push_back(cast(formula, p));
     }
 
     real measure() const { return cast(formula_, in_.measure[cell_]); }
@@ -92,27 +106,36 @@ public:
     /// Of the map itself.
     matrix shape_matrix() const { return shape_matrix(edges(in_.x)); }
 
-    /// weight() * energy at S; +infinity where it has a barrier and is outside of its domain.
-    real weighted(const any_energy& energy, const matrix& S) const
+    /// The energy at S, which is in the frame of the ideal element; that of the user is its concern.
+    real density(const any_energy& energy, const matrix& S) const
     {
-        const real area = measure(), factor = weight(); // loaded in this order, so that every compiler gives one text
-        return weighted(energy, S, area, factor);
+        matrix seen = S;
+        if (in_.frames)
+        {
+            matrix axes;
+            for (int c = 0; c < D; ++c)
+                for (int r = 0; r < D; ++r)
+                    axes[c][r] = cast(formula_, (*in_.frames)[cell_ + (c * D + r) * in_.cell_stride]);
+            seen = S * axes;
+        }
+        return energy(element<real, D>{seen, glm::determinant(S), measure(), attributes_, parameters_});
     }
 
-    /// weight * energy(S); +infinity where a barrier energy is outside its domain.
-    static real weighted(const any_energy& energy, const matrix& S, real measure, real weight)
+    /// weight * density; +infinity where a barrier energy is outside its domain.
+    real weighted(const any_energy& energy, const matrix& S, const real& weight) const
     {
         const real det = glm::determinant(S);
-        const real value = weight * energy(element<real, D>{S, det, measure});
+        const real value = weight * density(energy, S);
         if (!energy.barrier()) return value;
         return select(det > 0.0, value, std::numeric_limits<double>::infinity());
     }
+    real weighted(const any_energy& energy, const matrix& S) const { return weighted(energy, S, weight()); }
 
     /// Gradient of weight * energy at S = A W^-1 with respect to the corners, corner 0 first; D entries a corner. An
     /// energy of S does not change under translation, so corner 0 takes minus the sum of the others.
     std::array<std::array<real, D>, D + 1> corner_gradients(const any_energy& energy, const matrix& S) const
     {
-        const real value = weight() * energy(element<real, D>{S, glm::determinant(S), measure()});
+        const real value = weight() * density(energy, S);
         std::vector<real> entries;
         for (int c = 0; c < D; ++c)
             for (int r = 0; r < D; ++r) entries.push_back(S[c][r]);
@@ -140,6 +163,7 @@ private:
     sym<idx> cell_;
     scalar_type position_, formula_;
     std::array<real, D*(D + 1) / 2> inverse_;
+    std::vector<real> attributes_, parameters_;
 };
 
 } // namespace taut

@@ -59,7 +59,7 @@ public:
     vertex_relaxation(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
                       energy::weighting weights, const real_types& types = {})
         : vertex_relaxation(q, mesh_layout, std::make_shared<const kernels>(q, energy, types),
-                            std::make_shared<const arrays>(q, types.vector, *mesh_layout, weights))
+                            std::make_shared<const arrays>(q, types.vector, *mesh_layout, weights, energy))
     {
     }
 

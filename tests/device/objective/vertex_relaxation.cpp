@@ -318,8 +318,8 @@ TEST_CASE("vertex relaxation: all pinned is legal, and meshes share kernels")
     for (const int n : {5, 11})
     {
         const fixture s(n, 6, 1e-2);
-        const auto arrays =
-            std::make_shared<const element_arrays<triangle>>(q, types.vector, *s.local, energy::weighting::measure);
+        const auto arrays = std::make_shared<const element_arrays<triangle>>(
+            q, types.vector, *s.local, energy::weighting::measure, energy::isometric{});
         auto x = s.point(q);
         const double before = s.value(x, energy::isometric{});
         vertex_relaxation<triangle> relax(q, s.local, shared, arrays);
@@ -330,9 +330,9 @@ TEST_CASE("vertex relaxation: all pinned is legal, and meshes share kernels")
             s.surface, std::vector<bool>(std::size_t(s.surface.vertex_count()), true));
         device_vector y(q, scalar_type::f64, still->to_local(s.start));
         const auto unmoved = y.download();
-        vertex_relaxation<triangle> none(
-            q, still, shared,
-            std::make_shared<const element_arrays<triangle>>(q, types.vector, *still, energy::weighting::measure));
+        vertex_relaxation<triangle> none(q, still, shared,
+                                         std::make_shared<const element_arrays<triangle>>(
+                                             q, types.vector, *still, energy::weighting::measure, energy::isometric{}));
         none.warm_up(y);
         const auto r = none(y);
         CHECK(r.elements > 0);

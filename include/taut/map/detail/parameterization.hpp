@@ -63,6 +63,8 @@ private:
     static parameterize_params validated(parameterize_params p)
     {
         p.validate();
+        if (!p.parameters.empty()) p.energy = p.energy.with_parameters(p.parameters);
+        p.energy = p.energy.with_data(p.data.mean_attributes(), !p.data.directions.empty());
         return p;
     }
 
@@ -74,7 +76,7 @@ private:
         if (params_.uses_levels())
         {
             levels_.emplace(in_.surface, in_.held.pinned(),
-                            hierarchy_params{.proceed = [this] { return limits_.proceed(); }});
+                            hierarchy_params{.proceed = [this] { return limits_.proceed(); }}, params_.data);
             report().seconds.hierarchy = limits_.lap();
             limits_.check();
         }
@@ -226,7 +228,9 @@ private:
     /// Without a hierarchy.
     bool solve_alone(const real_types& types)
     {
-        const auto local = std::make_shared<const layout<triangle>>(in_.surface, in_.held.pinned());
+        const auto local = std::make_shared<layout<triangle>>(in_.surface, in_.held.pinned());
+        if (!params_.data.empty())
+            local->attach(params_.data.reordered(local->order.cells), permute(in_.surface, local->order));
         map_objective<triangle> f(queue_, local, params_.energy, params_.weights, types, in_.held.beyond_pins(centre_));
         auto x = f.make_point();
         f.upload(centred(report().start.uv), x);

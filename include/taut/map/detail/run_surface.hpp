@@ -29,6 +29,7 @@ struct run_surface
           ideal(surface),
           held(surface, sides, params, unit)
     {
+        params.data.validate(m.cells().size());
     }
 
 private:
