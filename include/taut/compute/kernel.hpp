@@ -55,6 +55,7 @@ public:
             if (p.type == "double") detail::require_fp64(*state_, scalar_type::f64, "kernel " + name_);
         state_->ask_between_builds();
         kernel_ = state_->cache.find(source, name_, options);
+        count_ = kernel_.get_info<cl_uint>(CL_KERNEL_NUM_ARGS);
     }
 
     /// Throws parameter_error for an argument that is missing, unknown, there twice, or of another type.
@@ -84,10 +85,12 @@ public:
         return state_->launch(kernel_, name_, r);
     }
 
-    /// By position; OpenCL checks sizes only.
+    /// By position; OpenCL checks sizes only. Throws parameter_error for another number of arguments.
     event operator()(range r, std::span<const detail::argument> arguments) const
     {
         const auto use = state_->enter();
+        if (arguments.size() != count_)
+            refuse("it takes " + std::to_string(count_) + " arguments, not " + std::to_string(arguments.size()));
         cl_uint i = 0;
         for (const auto& a : arguments) a.set(*state_, kernel_.get(), name_, i++);
         return state_->launch(kernel_, name_, r);
@@ -106,10 +109,9 @@ public:
     /// Throws device_error if it takes another number of arguments.
     void require_arguments(std::size_t n) const
     {
-        const auto expected = kernel_.get_info<cl_uint>(CL_KERNEL_NUM_ARGS);
-        if (expected != n)
+        if (count_ != n)
             state_->fail("kernel " + name_,
-                         "it takes " + std::to_string(expected) + " arguments, not " + std::to_string(n));
+                         "it takes " + std::to_string(count_) + " arguments, not " + std::to_string(n));
     }
 
 private:
@@ -135,6 +137,7 @@ private:
     boost::compute::kernel kernel_;
     std::string name_;
     std::vector<detail::parameter> signature_;
+    std::size_t count_ = 0; ///< of its arguments
 };
 
 namespace detail

@@ -74,6 +74,13 @@ private:
 static_assert(std::is_trivially_copyable_v<sym<double>> && std::is_trivially_default_constructible_v<sym<double>>);
 static_assert(sizeof(sym<double>) == sizeof(node_id));
 
+/// A choice between two numbers of the host, which are constants of the kernel.
+template <std::floating_point T>
+sym<T> select(sym_bool cond, T a, T b)
+{
+    return select(cond, sym<T>(a), sym<T>(b));
+}
+
 /// The host scalar behind a traced one; a host scalar is its own.
 template <class T>
 struct value_type

@@ -227,3 +227,15 @@ TEST_CASE("kernel: a missing, unknown, repeated or wrongly typed argument is ref
     CHECK(q.counters().launches == 0);
     CHECK(y.download() == std::vector<float>(64, 1.0f));
 }
+
+TEST_CASE("kernel: another number of arguments is refused by position, too")
+{
+    taut::queue q;
+    const taut::kernel set(q, "__kernel void set(__global float* x, const float a) { x[get_global_id(0)] = a; }",
+                           "set");
+    taut::buffer<float> x(q, 64);
+    CHECK_NOTHROW(set(64, x, 2.0F));
+    CHECK_THROWS_AS(set(64, x), taut::parameter_error);
+    CHECK_THROWS_AS(set(64, x, 2.0F, 3.0F), taut::parameter_error);
+    CHECK(x.download().back() == 2.0F);
+}

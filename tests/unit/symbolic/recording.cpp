@@ -167,7 +167,7 @@ TEST_CASE("recording: a kernel in float is written with doubles, and mentions no
         const auto a = r.scalar<double>("a", type);
         const auto i = r.global_id();
         const sym<double> u = x[i], v = y[i];
-        const sym<double> chosen = select(u < 0.5 * v || v != 1, sym<double>(1.0), 0.0);
+        const sym<double> chosen = select(u < 0.5 * v || v != 1, 1.0, 0.0);
         const sym<double> roots = sqrt(u) + cbrt(u) + exp(u) + log(u) + sin(u) + cos(u) + tan(u) + atan(u);
         const sym<double> powers = pow(u, 3) + pow(u, 1.5) + pow(u, 4.0 / 3) + pow(u, v) + pow(2.0, u);
         const sym<double> parts = abs(u) + floor(u) + min(u, 0.25) + max(v, 3) + fabs(-v);
