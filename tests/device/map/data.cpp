@@ -16,7 +16,7 @@
 #include <taut/energy/isometric.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/mesh/ideal.hpp>
-#include <taut/objective/evaluator.hpp>
+#include <taut/objective/map_evaluator.hpp>
 
 namespace
 {
@@ -133,7 +133,7 @@ TEST_CASE("data: an energy reads attributes of its triangle, on the device as on
         total += e.measure;
     }
     CHECK(map.report.solve.value == doctest::Approx(sum / total).epsilon(1e-6));
-    evaluator<triangle> f(q, m, mixed{}, energy::weighting::measure, precision::fp64, data);
+    map_evaluator<triangle> f(q, m, mixed{}, energy::weighting::measure, precision::fp64, data);
     CHECK(f.value(map.uv) == doctest::Approx(sum / total).epsilon(1e-9));
 
     // An even attribute is a constant of the energy.

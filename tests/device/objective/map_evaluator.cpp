@@ -11,7 +11,7 @@
 #include <support/meshes.hpp>
 
 #include <taut/energy/isometric.hpp>
-#include <taut/objective/evaluator.hpp>
+#include <taut/objective/map_evaluator.hpp>
 
 namespace
 {
@@ -43,13 +43,13 @@ std::vector<vec<Element::dimension>> near_rest(const mesh<Element>& m, unsigned 
 
 } // namespace
 
-TEST_CASE_TEMPLATE("evaluator: the gradient is that of the values, and the Hessian that of the gradients", Element,
+TEST_CASE_TEMPLATE("map evaluator: the gradient is that of the values, and the Hessian that of the gradients", Element,
                    triangle, tetrahedron)
 {
     constexpr int D = Element::dimension;
     const auto m = sample<Element>();
     queue q;
-    evaluator<Element> f(q, m, energy::isometric{});
+    map_evaluator<Element> f(q, m, energy::isometric{});
     const auto x = near_rest<Element>(m, 1);
     const std::size_t n = x.size();
     std::vector<vec<D>> g(n), left(n), right(n);
@@ -89,11 +89,11 @@ TEST_CASE_TEMPLATE("evaluator: the gradient is that of the values, and the Hessi
     }
 }
 
-TEST_CASE("evaluator: steps up to max_step stay inside, and beyond it the value is infinite")
+TEST_CASE("map evaluator: steps up to max_step stay inside, and beyond it the value is infinite")
 {
     const auto m = sample<triangle>();
     queue q;
-    evaluator<triangle> f(q, m, energy::isometric{});
+    map_evaluator<triangle> f(q, m, energy::isometric{});
     auto x = near_rest<triangle>(m, 1);
     std::vector<vec2> d(x.size(), vec2(0));
     d[m.points().size() / 2] = {1, 0.3};
@@ -111,11 +111,11 @@ TEST_CASE("evaluator: steps up to max_step stay inside, and beyond it the value 
     CHECK_THROWS_AS(f.value_gradient(x, std::span<vec2>(d).first(3)), parameter_error);
 }
 
-TEST_CASE("evaluator: the projected Hessian is positive semi-definite where the other one is not")
+TEST_CASE("map evaluator: the projected Hessian is positive semi-definite where the other one is not")
 {
     const auto m = sample<triangle>();
     queue q;
-    evaluator<triangle> f(q, m, energy::isometric{});
+    map_evaluator<triangle> f(q, m, energy::isometric{});
     auto x = near_rest<triangle>(m, 1);
     for (vec2& p : x) p *= 3.0; // stretched: indefinite
     const auto lowest = [&](const block_rows<2>& H)

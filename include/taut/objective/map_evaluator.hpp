@@ -32,16 +32,16 @@ struct block_rows
 ///
 /// in the user's order and units, calculated on the device. Nothing is pinned. Not for use by two threads at once.
 template <class Element>
-class evaluator
+class map_evaluator
 {
 public:
     static constexpr int D = Element::dimension;
     using points = std::span<const vec<D>>;
 
     /// Throws mesh_error for degenerate cells, parameter_error, device_error.
-    evaluator(queue q, const mesh<Element>& m, const any_energy& energy,
-              energy::weighting weights = energy::weighting::measure, precision how = precision::fp64,
-              const cell_data& data = {})
+    map_evaluator(queue q, const mesh<Element>& m, const any_energy& energy,
+                  energy::weighting weights = energy::weighting::measure, precision how = precision::fp64,
+                  const cell_data& data = {})
         : queue_(std::move(q)),
           energy_(energy.with_data(data.mean_attributes(), !data.directions.empty())),
           weights_(weights),
