@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Not among the unit tests: Eigen aligns in another way under the address sanitizer, and the oracle is compiled without.
+// Not among the unit tests: Eigen aligns in another way under the address sanitizer, and the oracle is compiled
+// without.
 #include <cmath>
 #include <random>
 #include <utility>
