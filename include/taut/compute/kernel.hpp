@@ -39,7 +39,7 @@ public:
 
     /// real: what the source's macro REAL stands for. Throws build_error, or device_error where the kernel takes double
     /// and the device has none.
-    kernel(queue& q, const std::string& source, std::string name, const std::string& options = {},
+    kernel(queue& q, const std::string& source, const std::string& name, const std::string& options = {},
            scalar_type real = scalar_type::f32)
         : kernel(q, source, name, options, detail::signature_of(source, name, real))
     {

@@ -172,7 +172,7 @@ class recorded_kernel
 {
 public:
     recorded_kernel() = default;
-    recorded_kernel(queue& q, kernel_text text) : recorded_kernel(q, text, text.source) {}
+    recorded_kernel(queue& q, const kernel_text& text) : recorded_kernel(q, text, text.source) {}
     recorded_kernel(const traced_program& p, const std::string& name)
         : recorded_kernel(p.queue(), p.text(name), p.source())
     {

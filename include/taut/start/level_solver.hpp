@@ -23,7 +23,7 @@ public:
     using plan = newton_plan<triangle>;
 
     /// Refers to the levels.
-    level_solver(queue q, const mesh_levels& levels, const any_energy& energy, energy::weighting weights,
+    level_solver(const queue& q, const mesh_levels& levels, const any_energy& energy, energy::weighting weights,
                  const real_types& types)
         : queue_(q),
           levels_(levels),

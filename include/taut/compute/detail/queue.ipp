@@ -57,7 +57,7 @@ TAUT_INLINE queue::queue(const taut::device& device, queue_options options)
 
 TAUT_INLINE queue::queue(cl_context context, queue_options options)
 {
-    const auto adopted = detail::adopt([&] { return boost::compute::context(context); });
+    auto adopted = detail::adopt([&] { return boost::compute::context(context); });
     state_ = detail::open(taut::device(adopted.get_device().id()), options, [&] { return adopted; });
 }
 
