@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bodies of core/ and compute/ for the compiled form.
+// The bodies of core/, compute/ and energy/ for the compiled form.
 #include <taut/compute/detail/choose_device.ipp>
 #include <taut/compute/detail/device.ipp>
 #include <taut/compute/detail/queue.ipp>
 #include <taut/core/detail/parallel.ipp>
+#include <taut/energy/detail/default_energy.ipp>

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/config.hpp>
 #include <taut/energy/element.hpp>
 #include <taut/symbolic/glm.hpp>
 
@@ -111,4 +112,11 @@ private:
     bool directions_ = false;
 };
 
+/// What is minimised where nothing else is asked for: energy::isometric.
+any_energy default_energy();
+
 } // namespace taut
+
+#ifndef TAUT_COMPILED
+#include <taut/energy/detail/default_energy.ipp>
+#endif

@@ -8,7 +8,6 @@
 #include <taut/constrain/constraints.hpp>
 #include <taut/constrain/placement.hpp>
 #include <taut/energy/any_energy.hpp>
-#include <taut/energy/isometric.hpp>
 #include <taut/mesh/cell_data.hpp>
 #include <taut/objective/precision.hpp>
 #include <taut/solve/observer.hpp>
@@ -39,7 +38,7 @@ enum class start_method
 struct parameterize_params
 {
     /// What to minimise. A user's struct converts; so do sums and products of energies.
-    any_energy energy = energy::isometric{};
+    any_energy energy = default_energy();
 
     /// Whether elements count by rest area, as is usual, or all the same, as in the paper.
     energy::weighting weights = energy::weighting::measure;

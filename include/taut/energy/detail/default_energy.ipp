@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/energy/any_energy.hpp>
+#include <taut/energy/isometric.hpp>
+
+namespace taut
+{
+
+TAUT_INLINE any_energy default_energy()
+{
+    return energy::isometric{};
+}
+
+} // namespace taut
