@@ -17,7 +17,7 @@ namespace taut
 class device
 {
 public:
-    /// Wraps a device of the user's.
+    /// Wraps a device of the user's; a sub-device must outlive it.
     explicit device(cl_device_id id);
 
     const std::string& name() const noexcept { return name_; }

@@ -30,8 +30,8 @@ enum class start_method
 {
     automatic,   ///< `initial` if there is one; else coarse for Newton's method and barycentric for the others
     coarse,      ///< made and minimised on coarser levels of the mesh (start/nested.hpp)
-    barycentric, ///< on a convex polygon (barycentric_map.hpp)
-    conformal    ///< least squares conformal, or barycentric where that has flips (conformal_start.hpp)
+    barycentric, ///< on a convex polygon (start/barycentric_map.hpp)
+    conformal    ///< spectral conformal, or coarse_start() where that has flips (start/conformal.hpp)
 };
 
 /// How to parameterize. Every field has a sensible default.

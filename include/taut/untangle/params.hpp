@@ -22,7 +22,7 @@ struct untangle_params
     solve::observer observer = {};
 
     /// Names of the stages to run, in this order; empty: all that the dimension and the device allow
-    /// (untangle_stages.hpp).
+    /// (stages.hpp).
     std::vector<std::string> stages = {};
 
     /// The stages take turns, with so many iterations each in the first round and twice as many in each further one.

@@ -82,7 +82,7 @@ void run_stages(untangle_state<Element>& state, untangle_stages<Element>& stages
 } // namespace detail
 
 /// Moves what is not held until every element is positive, with stages that take turns (untangle_params::stages), each
-/// from where it is best at beginning (untangle_stages.hpp). The outcome is injective only with a certificate in exact
+/// from where it is best at beginning (stages.hpp). The outcome is injective only with a certificate in exact
 /// arithmetic, infeasible only with a proof; a map that was not found to be either comes with the reason and the
 /// inverted elements. Held coordinates are those of `problem.initial`, bit for bit, in all cases.
 /// Throws parameter_error for a problem or parameters that are not valid.
