@@ -33,31 +33,16 @@
 #define FOLD(s) ((((s).s0 + (s).s1) + ((s).s2 + (s).s3)) + (((s).s4 + (s).s5) + ((s).s6 + (s).s7)))
 #endif
 
-#define LOAD_ONE(p, i) ((SUM)(p)[i])
-
-/// Loops over a tile must vanish before arrays become registers.
-#define UNROLLED _Pragma("unroll") for
-
-/// sum[l * NR + r] += a[l][i] * b[r][i] for the whole tile: each vector is loaded once.
-#define ADD_PRODUCTS(TYPE, sum, load, i)                                                                               \
-    {                                                                                                                  \
-        TYPE x[NL], y[NR];                                                                                             \
-        UNROLLED (int l = 0; l < NL; ++l) x[l] = load(a[l], i);                                                        \
-        UNROLLED (int r = 0; r < NR; ++r) y[r] = load(b[r], i);                                                        \
-        UNROLLED (int l = 0; l < NL; ++l)                                                                              \
-            UNROLLED (int r = 0; r < NR; ++r) sum[l * NR + r] += x[l] * y[r];                                          \
-    }
-
-/// Joins the K values of each of the items of a group, column by column: one barrier, no loop around it.
+/// Joins `count` of at most K values of each of the items of a group, column by column: one barrier, no loop around it.
 #if L == 1
-#define JOIN(K, items, value, out)                                                                                     \
-    UNROLLED (int k = 0; k < (K); ++k) (out)[k * groups] = (value)[k];
+#define JOIN(K, count, items, value, out)                                                                              \
+    for (uint k = 0; k < (count); ++k) (out)[k * groups] = (value)[k];
 #else
-#define JOIN(K, items, value, out)                                                                                     \
+#define JOIN(K, count, items, value, out)                                                                              \
     __local SUM shared[(K) * (items)];                                                                                 \
-    UNROLLED (int k = 0; k < (K); ++k) shared[k * (items) + lid] = (value)[k];                                         \
+    for (uint k = 0; k < (count); ++k) shared[k * (items) + lid] = (value)[k];                                         \
     barrier(CLK_LOCAL_MEM_FENCE);                                                                                      \
-    if (lid < (K))                                                                                                     \
+    if (lid < (int)(count))                                                                                            \
     {                                                                                                                  \
         SUM s0 = 0, s1 = 0, s2 = 0, s3 = 0;                                                                            \
         for (int i = 0; i < (items); i += 4)                                                                           \
@@ -71,62 +56,55 @@
     }
 #endif
 
-/// The last n % V elements of a block; device vectors are padded and have none.
-#if V == 1
-#define ADD_LAST_PRODUCTS(sum, from, to)
-#else
-#define ADD_LAST_PRODUCTS(sum, from, to)                                                                               \
-    for (uint t = from; t < to; ++t) ADD_PRODUCTS(SUM, sum, LOAD_ONE, t)
+/// Elements of a block whose products with all others are summed before the next ones are loaded: they stay in the cache.
+#define CHUNK 1024
+/// Items of `dots`: 16 KB of local memory at most.
+#define TEAM (L > 128 ? 128 : L)
+
+/// partials[first + k * groups + group] = the group's share of the dot product k = l * right + r of vectors of n
+/// elements. block: elements a group, a multiple of V. Only the first `left` and `right` vectors are read; the others
+/// fill the signature.
+__kernel void dots(const uint n, const uint block, const uint groups, const uint first, const uint left,
+                   const uint right, __global SUM* partials, __global const REAL* a0, __global const REAL* a1,
+                   __global const REAL* a2, __global const REAL* a3, __global const REAL* b0, __global const REAL* b1,
+                   __global const REAL* b2, __global const REAL* b3)
+{
+    __global const REAL* const a[4] = {a0, a1, a2, a3};
+    __global const REAL* const b[4] = {b0, b1, b2, b3};
+    const uint group = get_group_id(0);
+    const int lid = (int)get_local_id(0);
+    const uint begin = min(group * block, n), end = min(begin + block, n);
+
+    SUM total[16];
+    for (int k = 0; k < 16; ++k) total[k] = 0;
+    for (uint from = begin; from < end; from += CHUNK)
+    {
+        const uint to = min(from + CHUNK, end), vend = to / V;
+        for (uint k = 0; k < left * right; ++k)
+        {
+            __global const REAL* x = a[k / right];
+            __global const REAL* y = b[k % right];
+            // Independent accumulators hide the latency of the additions.
+            SUMV s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+            uint i = from / V + (uint)lid;
+            for (; i + 3 * TEAM < vend; i += 4 * TEAM)
+            {
+                s0 += LOAD(x, i) * LOAD(y, i);
+                s1 += LOAD(x, i + TEAM) * LOAD(y, i + TEAM);
+                s2 += LOAD(x, i + 2 * TEAM) * LOAD(y, i + 2 * TEAM);
+                s3 += LOAD(x, i + 3 * TEAM) * LOAD(y, i + 3 * TEAM);
+            }
+            for (; i < vend; i += TEAM) s0 += LOAD(x, i) * LOAD(y, i);
+            s0 = (s0 + s1) + (s2 + s3);
+            SUM sum = FOLD(s0);
+#if V > 1
+            for (uint t = vend * V; t < to; ++t) sum += (SUM)x[t] * (SUM)y[t];
 #endif
-
-/// partials[first + k * groups + group] = the group's share of the dot product k = l * NR + r of vectors of n elements.
-/// block: elements a group, a multiple of V. Only the first NL and NR vectors are read; the others fill the signature.
-/// U: loads in flight an item: independent accumulators hide the latency of the additions. Large tiles have half as many
-/// items, for 16 KB of local memory at most.
-#define DOTS(LEFT, RIGHT, LOADS)                                                                                       \
-    __kernel void dots_##LEFT##x##RIGHT(                                                                               \
-        const uint n, const uint block, const uint groups, const uint first, __global SUM* partials,                   \
-        __global const REAL* a0, __global const REAL* a1, __global const REAL* a2, __global const REAL* a3,            \
-        __global const REAL* b0, __global const REAL* b1, __global const REAL* b2, __global const REAL* b3)            \
-    {                                                                                                                  \
-        enum { NL = LEFT, NR = RIGHT, U = LOADS, ITEMS = NL * NR > 8 && L > 128 ? 128 : L };                           \
-        __global const REAL* const a[4] = {a0, a1, a2, a3};                                                            \
-        __global const REAL* const b[4] = {b0, b1, b2, b3};                                                            \
-        const uint group = get_group_id(0);                                                                            \
-        const int lid = (int)get_local_id(0);                                                                          \
-        const uint begin = min(group * block, n), end = min(begin + block, n);                                         \
-        const uint vend = end / V;                                                                                     \
-                                                                                                                       \
-        SUMV s[U][NL * NR];                                                                                            \
-        UNROLLED (int u = 0; u < U; ++u)                                                                               \
-            UNROLLED (int k = 0; k < NL * NR; ++k) s[u][k] = 0;                                                        \
-                                                                                                                       \
-        uint i = begin / V + (uint)lid;                                                                                \
-        for (; i + (U - 1) * ITEMS < vend; i += U * ITEMS)                                                             \
-        {                                                                                                              \
-            UNROLLED (int u = 0; u < U; ++u) ADD_PRODUCTS(SUMV, s[u], LOAD, i + u * ITEMS)                             \
-        }                                                                                                              \
-        for (; i < vend; i += ITEMS) ADD_PRODUCTS(SUMV, s[0], LOAD, i)                                                 \
-                                                                                                                       \
-        SUM total[NL * NR];                                                                                            \
-        UNROLLED (int k = 0; k < NL * NR; ++k)                                                                         \
-        {                                                                                                              \
-            UNROLLED (int u = 1; u < U; ++u) s[0][k] += s[u][k];                                                       \
-            total[k] = FOLD(s[0][k]);                                                                                  \
-        }                                                                                                              \
-        ADD_LAST_PRODUCTS(total, vend * V, end)                                                                        \
-        JOIN(NL * NR, ITEMS, total, partials + first + group)                                                          \
+            total[k] += sum;
+        }
     }
-
-// Right tiles are full but for a single vector: a repeated one costs nothing beside a further kernel to compile.
-DOTS(1, 1, 4)
-DOTS(2, 1, 2)
-DOTS(3, 1, 2)
-DOTS(4, 1, 2)
-DOTS(1, 4, 2)
-DOTS(2, 4, 1)
-DOTS(3, 4, 1)
-DOTS(4, 4, 1)
+    JOIN(16, left * right, TEAM, total, partials + first + group)
+}
 
 /// Sums of segments of x: segment k is the n elements from start + k * stride. The launch has groups groups for each
 /// segment; partials[first + k * groups + g] is the share of block g.
@@ -154,7 +132,7 @@ __kernel void sums(const uint n, const uint block, const uint groups, const uint
 #if V > 1
     for (uint t = vend * V; t < end - begin; ++t) total[0] += from[t];
 #endif
-    JOIN(1, L, total, partials + first + segment * groups + group)
+    JOIN(1, 1, L, total, partials + first + segment * groups + group)
 }
 
 /// The smaller of two numbers; NaN if either is: fmin would hide it.

@@ -60,7 +60,7 @@ public:
         check(x, s.count == 0 ? 0 : s.start + (s.count - 1) * s.stride + s.length, "sum");
         const auto blocks = plan_.cut(s.length);
         const std::size_t first = reserve(s.count * blocks.count);
-        launch(x.real(), slot::sums, 1, 1, plan_.local, s.count * blocks.count,
+        launch(x.real(), slot::sums, plan_.local, s.count * blocks.count,
                {as_uint(s.length), as_uint(blocks.length), as_uint(blocks.count), as_uint(first), partials_.data(), x,
                 std::uint64_t{s.start}, std::uint64_t{s.stride}});
         return add(first, blocks.count, s.count, fold::sum);
@@ -73,7 +73,7 @@ public:
         check(x, start + n, "minimum");
         const auto blocks = plan_.cut(n);
         const std::size_t first = reserve(blocks.count);
-        launch(x.real(), slot::minima, 1, 1, plan_.local, blocks.count,
+        launch(x.real(), slot::minima, plan_.local, blocks.count,
                {as_uint(n), as_uint(blocks.length), as_uint(first), partials_.data(), x, std::uint64_t{start}});
         return add(first, blocks.count, 1, fold::minimum);
     }
@@ -84,7 +84,7 @@ public:
     {
         const job& j = jobs_[r.first];
         const auto number = [&](double x) { return detail::argument(x).as(spelling(partials_.data().type())); };
-        launch(out.real(), slot::limit, 1, 1, 1, 1,
+        launch(out.real(), slot::limit, 1, 1,
                {as_uint(j.first), as_uint(j.groups), partials_.data(), number(fraction), number(most), out});
     }
 
@@ -102,24 +102,22 @@ public:
         begin_round();
         const result all = {jobs_.size(), left.size() * right.size()};
         const auto blocks = plan_.cut(n);
-        // The tiles of kernels/reduce.cl.
-        const std::size_t nr = right.size() == 1 ? 1 : 4;
+        const std::size_t local = std::min<std::size_t>(plan_.local, 128); // as the kernel has it
         jobs_.resize(all.first + all.count);
         for (std::size_t l = 0; l < left.size(); l += 4)
         {
             const std::size_t nl = std::min<std::size_t>(4, left.size() - l);
-            for (std::size_t r = 0; r < right.size(); r += nr)
+            for (std::size_t r = 0; r < right.size(); r += 4)
             {
-                const auto a = [&](std::size_t k) { return left[std::min(l + k, left.size() - 1)]; };
-                const auto b = [&](std::size_t k) { return right[std::min(r + k, right.size() - 1)]; };
+                const std::size_t nr = std::min<std::size_t>(4, right.size() - r);
+                const auto a = [&](std::size_t k) { return left[l + std::min(k, nl - 1)]; };
+                const auto b = [&](std::size_t k) { return right[r + std::min(k, nr - 1)]; };
                 const std::size_t first = reserve(nl * nr * blocks.count);
-                // As the kernel has it: half as many items for the large tiles.
-                const std::size_t local = nl * nr > 8 && plan_.local > 128 ? 128 : plan_.local;
-                launch(a(0).real(), slot::dots, nl, nr, local, blocks.count,
-                       {as_uint(n), as_uint(blocks.length), as_uint(blocks.count), as_uint(first), partials_.data(),
-                        a(0), a(1), a(2), a(3), b(0), b(1), b(2), b(3)});
+                launch(a(0).real(), slot::dots, local, blocks.count,
+                       {as_uint(n), as_uint(blocks.length), as_uint(blocks.count), as_uint(first), as_uint(nl),
+                        as_uint(nr), partials_.data(), a(0), a(1), a(2), a(3), b(0), b(1), b(2), b(3)});
                 for (std::size_t i = 0; i < nl; ++i)
-                    for (std::size_t j = 0; j < std::min(nr, right.size() - r); ++j)
+                    for (std::size_t j = 0; j < nr; ++j)
                         jobs_[all.first + (l + i) * right.size() + r + j] = {first + (i * nr + j) * blocks.count,
                                                                              blocks.count, fold::sum};
             }
@@ -152,11 +150,11 @@ private:
     };
     enum class slot
     {
-        dots = 0,
-        sums = 8,
-        minima = 9,
-        limit = 10,
-        end = 11
+        dots,
+        sums,
+        minima,
+        limit,
+        end
     };
     struct job
     {
@@ -186,21 +184,17 @@ private:
         return r;
     }
 
-    void launch(scalar_type real, slot what, std::size_t nl, std::size_t nr, std::size_t local, std::size_t groups,
+    void launch(scalar_type real, slot what, std::size_t local, std::size_t groups,
                 std::initializer_list<detail::argument> arguments)
     {
         if (groups == 0) return;
-        const bool tile = what == slot::dots;
-        const std::size_t which = tile ? 2 * (nl - 1) + (nr == 4) : static_cast<std::size_t>(what);
+        const auto which = static_cast<std::size_t>(what);
         auto& known = kernels_[real == scalar_type::f64][which];
         if (!known)
         {
-            const std::string name = tile                   ? "dots_" + std::to_string(nl) + 'x' + std::to_string(nr)
-                                     : what == slot::sums   ? "sums"
-                                     : what == slot::minima ? "minima"
-                                                            : "limit";
-            known = kernel(queue_, detail::vector_program(), name, detail::vector_options(real, queue_.device(), plan_),
-                           real);
+            static constexpr const char* names[] = {"dots", "sums", "minima", "limit"};
+            known = kernel(queue_, detail::vector_program(), names[which],
+                           detail::vector_options(real, queue_.device(), plan_), real);
         }
         known({groups * local, local}, std::span(arguments.begin(), arguments.size()));
     }

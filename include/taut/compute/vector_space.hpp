@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -82,10 +83,10 @@ public:
     /// y = a x + b y. y is not read for b = 0.
     void axpby(double a, const vector& x, double b, vector& y) const
     {
-        if (b == 0)
-            shared_->get(shared_->scale, "scale")(all(), {{"a", a}, {"x", x.data()}, {"y", y.data()}});
-        else
-            shared_->get(shared_->axpby, "axpby")(all(), {{"a", a}, {"x", x.data()}, {"b", b}, {"y", y.data()}});
+        const double coefficients[] = {a, b};
+        const vector* const vectors[] = {&x, &y};
+        const std::size_t n = b == 0 ? 1 : 2;
+        combine(std::span(coefficients, n), std::span(vectors, n), y);
     }
 
     double dot(const vector& x, const vector& y) const
@@ -110,27 +111,17 @@ public:
     /// out = a[0] x[0] + a[1] x[1] + ..., up to eight vectors a launch. out must not be one of x.
     void linear_combination(std::span<const double> a, std::span<const vector* const> x, vector& out) const
     {
-        require_type(out);
-        for (const vector* v : x) require_type(*v);
-        std::size_t done = 0;
         if (x.empty()) out.data().fill(0);
-        while (done < x.size())
+        for (std::size_t done = 0; done < x.size();)
         {
-            std::vector<detail::argument> arguments{out.data()};
-            std::size_t n = 0;
-            const auto add = [&](double coefficient, const detail::argument& v)
-            {
-                arguments.push_back(detail::argument(coefficient).as(spelling(type())));
-                arguments.push_back(v);
-                ++n;
-            };
             // From the second launch on, the sum so far takes part.
-            if (done > 0) add(1, out.data());
-            for (; n < 8 && done < x.size(); ++done) add(a[done], x[done]->data());
-            const std::size_t used = n;
-            // A filler has coefficient 0 and repeats a vector that is in the sum, so that it cannot bring a new NaN.
-            while (n < 8) add(0, detail::argument(arguments[2]));
-            shared_->combination(used)(all(), std::span<const detail::argument>(arguments));
+            const std::size_t sum = done > 0 ? 1 : 0, n = std::min(x.size() - done, widest - sum);
+            std::array<double, widest> coefficients{1.0};
+            std::array<const vector*, widest> vectors{&out};
+            std::copy_n(a.begin() + std::ptrdiff_t(done), n, coefficients.begin() + std::ptrdiff_t(sum));
+            std::copy_n(x.begin() + std::ptrdiff_t(done), n, vectors.begin() + std::ptrdiff_t(sum));
+            combine(std::span(coefficients).first(sum + n), std::span(vectors).first(sum + n), out);
+            done += n;
         }
     }
 
@@ -140,12 +131,29 @@ public:
         const bool wide = x.data().type() == scalar_type::f64;
         auto& along = wide ? shared_->step_double : shared_->step_float;
         shared_->get(along, wide ? "step_along_double" : "step_along_float")(
-            all(), {{"x", x.data()}, {"a", a}, {"d", d.data()}, {"out", out.data()}});
+            {padded_, group}, {{"x", x.data()}, {"a", a}, {"d", d.data()}, {"out", out.data()}});
     }
 
 private:
     static constexpr std::size_t group = 256;
-    range all() const { return {padded_, group}; }
+    static constexpr std::size_t widest = 8; ///< vectors that one launch combines
+
+    /// out = a[0] x[0] + ..., up to `widest` vectors in one launch; out may be one of them.
+    void combine(std::span<const double> a, std::span<const vector* const> x, vector& out) const
+    {
+        require_type(out);
+        std::vector<detail::argument> arguments{detail::argument(static_cast<idx>(x.size())), out.data()};
+        for (std::size_t k = 0; k < widest; ++k)
+        {
+            const vector& v = *x[std::min(k, x.size() - 1)];
+            require_type(v);
+            arguments.push_back(detail::argument(k < a.size() ? a[k] : 0).as(spelling(type())));
+            arguments.push_back(v.data());
+        }
+        const std::size_t lanes = shared_->reductions.plan().width;
+        shared_->get(shared_->combine, "combine")({padded_ / lanes, group / lanes},
+                                                  std::span<const detail::argument>(arguments));
+    }
 
     void require_type(const vector& x) const
     {
@@ -174,18 +182,10 @@ private:
             return k;
         }
 
-        /// The narrowest one for n vectors.
-        const kernel& combination(std::size_t n)
-        {
-            const std::size_t width = n <= 2 ? 0 : n <= 4 ? 1 : 2;
-            static constexpr const char* names[] = {"combine_2", "combine_4", "combine_8"};
-            return get(combine[width], names[width]);
-        }
-
         taut::queue queue;
         scalar_type type;
         taut::reductions reductions;
-        kernel scale, axpby, combine[3], step_float, step_double;
+        kernel combine, step_float, step_double;
     };
 
     std::size_t size_;

@@ -118,10 +118,6 @@ public:
         linearize(x, true);
         hessian_product(v, w);
         precondition(v, w);
-        const vector* const all[5] = {&v, &v, &v, &v, &v};
-        double products[20];
-        for (std::size_t rows = 1; rows <= 4; ++rows) // of the tiles of all products of a block
-            this->space().multi_dot(std::span(all, rows), std::span(all), products);
     }
 
 private:

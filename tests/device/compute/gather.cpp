@@ -49,8 +49,6 @@ TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in ord
         const auto corners = static_cast<std::size_t>(D) + 1;
         const incidence meet(rows, 190, static_cast<taut::idx>(corners));
         const taut::gather sum(q, meet.offsets, meet.cells, meet.corners, {D, cells, vertices}, type, type);
-        CHECK(sum.width() == 8);
-        CHECK(sum.overfull() == 1);
 
         const auto d = static_cast<std::size_t>(D);
         const auto host = random_reals(type, corners * d * cells, 3);
@@ -97,8 +95,6 @@ TEST_CASE("gather: agrees with the host at every width that its kernels have")
             offsets.push_back(static_cast<taut::idx>(cell.size()));
         }
         const taut::gather sum(q, offsets, cell, corner, {3, cells, 64}, scalar_type::f64, scalar_type::f64);
-        if (valence <= 48) CHECK(sum.width() >= valence);
-        CHECK(sum.overfull() == (valence <= 48 ? 0 : rows));
         real_buffer out(q, scalar_type::f64, 3 * 64);
         sum(contributions, out);
         CHECK(out.download() == expected);
@@ -123,7 +119,6 @@ TEST_CASE("gather: sums are formed in the type of the terms, and stored in anoth
         for (const scalar_type sum : {scalar_type::f32, scalar_type::f64})
         {
             const taut::gather add(q, offsets, cell, corner, {2, cells, 64}, term, sum);
-            CHECK(add.overfull() == 1);
             const real_buffer contributions(q, term, host);
             real_buffer out(q, sum, 128);
             add(contributions, out);

@@ -17,74 +17,62 @@ R"cl(#line 1 "kernels/gather.cl"
 // Macros:
 //   REAL   float or double, of the sums
 //   FP64   1 where the device has double
+//   V      vertices an item, side by side: 8 for CPUs, 1 for GPUs
 //
-// check: -DREAL=double -DFP64=1
-// check: -DREAL=float -DFP64=0
+// check: -DREAL=double -DFP64=1 -DV=8
+// check: -DREAL=float -DFP64=1 -DV=8
+// check: -DREAL=float -DFP64=0 -DV=1
+
+#define CAT_(a, b) a##b
+#define CAT(a, b) CAT_(a, b)
 
 #if FP64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
 
-/// The first W slots of each vertex, in columns: slots[j * vertices + v], -1 for none. A fixed count without branches is
-/// what compilers vectorise; the slots of neighbouring vertices are neighbours.
-#define GATHER(TERM, D, W)                                                                                             \
-    __kernel void gather_##TERM##_##D##x##W(const int vertices, const int cells, __global const int* restrict slots,   \
-                                            __global const TERM* restrict contributions, __global REAL* restrict out)  \
+#if V == 1
+/// Vertices a slice: those of neighbouring items.
+#define ROWS 32
+#define SLOTS int
+#define PARTS(T) T
+#define LOAD_SLOTS(i) slots[i]
+#define PART_OF(T, MASK, at, none) ((none) ? (T)0 : contributions[at])
+#define STORE_SUM(sum, i) out[i] = (REAL)(sum)
+#else
+#define ROWS V
+#define SLOTS int8
+#define PARTS(T) CAT(T, 8)
+#define LOAD_SLOTS(i) vload8(0, slots + (i))
+#define PART_OF(T, MASK, at, none)                                                                                     \
+    select((PARTS(T))(contributions[(at).s0], contributions[(at).s1], contributions[(at).s2], contributions[(at).s3],  \
+                      contributions[(at).s4], contributions[(at).s5], contributions[(at).s6], contributions[(at).s7]), \
+           (PARTS(T))(0), CAT(convert_, CAT(MASK, 8))(none))
+#define STORE_SUM(sum, i) vstore8(CAT(convert_, CAT(REAL, 8))(sum), 0, out + (i))
+#endif
+
+/// Slots of vertices in slices of ROWS: slot j of vertex v at offsets[v / ROWS] + j * ROWS + v % ROWS, -1 for none. What
+/// stands behind -1 may be anything, also not a number.
+#define GATHER_CORNERS(TERM, MASK, D)                                                                                  \
+    __kernel void gather_##TERM##_##D(const int vertices, const int cells, __global const int* restrict offsets,       \
+                                      __global const int* restrict slots, __global const TERM* restrict contributions, \
+                                      __global REAL* restrict out)                                                     \
     {                                                                                                                  \
-        const int v = (int)get_global_id(0);                                                                           \
-        TERM sum[D];                                                                                                   \
-        _Pragma("unroll") for (int c = 0; c < D; ++c) sum[c] = 0;                                                      \
-        _Pragma("unroll") for (int j = 0; j < W; ++j)                                                                  \
+        const int first = (int)get_global_id(0) * V, slice = first / ROWS, end = offsets[slice + 1];                   \
+        PARTS(TERM) sum[D];                                                                                            \
+        for (int c = 0; c < D; ++c) sum[c] = 0;                                                                        \
+        for (int j = offsets[slice] + first % ROWS; j < end; j += ROWS)                                                \
         {                                                                                                              \
-            const int slot = slots[j * vertices + v];                                                                  \
-            const int place = max(slot, 0);                                                                            \
-            _Pragma("unroll") for (int c = 0; c < D; ++c)                                                              \
-            {                                                                                                          \
-                const TERM value = contributions[place + c * cells];                                                   \
-                sum[c] += slot < 0 ? (TERM)0 : value;                                                                  \
-            }                                                                                                          \
+            const SLOTS slot = LOAD_SLOTS(j), place = max(slot, 0);                                                    \
+            for (int c = 0; c < D; ++c) sum[c] += PART_OF(TERM, MASK, place + c * cells, slot < 0);                    \
         }                                                                                                              \
-        _Pragma("unroll") for (int c = 0; c < D; ++c) out[c * vertices + v] = (REAL)sum[c];                            \
+        for (int c = 0; c < D; ++c) STORE_SUM(sum[c], c * vertices + first);                                           \
     }
 
-/// The rest of the few vertices with more than W slots: rows of slots from offsets[i] to offsets[i + 1], added to what
-/// the first step left in the D components of vertex which[i].
-#define GATHER_REST(TERM)                                                                                              \
-    __kernel void gather_rest_##TERM(const int components, const int vertices, const int cells, const int rows,        \
-                                     __global const int* restrict which, __global const int* restrict offsets,         \
-                                     __global const int* restrict slots, __global const TERM* restrict contributions,  \
-                                     __global REAL* restrict out)                                                      \
-    {                                                                                                                  \
-        const int i = (int)get_global_id(0);                                                                           \
-        if (i >= rows) return;                                                                                         \
-        const int v = which[i];                                                                                        \
-        for (int c = 0; c < components; ++c)                                                                           \
-        {                                                                                                              \
-            TERM sum = out[c * vertices + v];                                                                          \
-            for (int k = offsets[i]; k < offsets[i + 1]; ++k) sum += contributions[slots[k] + c * cells];              \
-            out[c * vertices + v] = (REAL)sum;                                                                         \
-        }                                                                                                              \
-    }
-
-// The widths that gather.hpp chooses from.
-#define GATHERS(TERM, D)                                                                                               \
-    GATHER(TERM, D, 4)                                                                                                 \
-    GATHER(TERM, D, 6)                                                                                                 \
-    GATHER(TERM, D, 8)                                                                                                 \
-    GATHER(TERM, D, 10)                                                                                                \
-    GATHER(TERM, D, 12)                                                                                                \
-    GATHER(TERM, D, 16)                                                                                                \
-    GATHER(TERM, D, 24)                                                                                                \
-    GATHER(TERM, D, 32)                                                                                                \
-    GATHER(TERM, D, 48)
-
-GATHERS(float, 2)
-GATHERS(float, 3)
-GATHER_REST(float)
+GATHER_CORNERS(float, int, 2)
+GATHER_CORNERS(float, int, 3)
 #if FP64
-GATHERS(double, 2)
-GATHERS(double, 3)
-GATHER_REST(double)
+GATHER_CORNERS(double, long, 2)
+GATHER_CORNERS(double, long, 3)
 #endif
 )cl";
 // clang-format on
