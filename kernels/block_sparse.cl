@@ -83,24 +83,18 @@ inline void invert(const int i, const int stride, __global const REAL* inverse, 
     }
 }
 
-/// y = A x
+/// y = a A x + b z; z may be y, and is not read for b = 0.
 __kernel void product(const int stride, __global const int* offsets, __global const int* columns,
-                      __global const REAL* A, __global const REAL* x, __global REAL* y)
+                      __global const REAL* A, const REAL a, __global const REAL* x, const REAL b,
+                      __global const REAL* z, __global REAL* y)
 {
     const int slice = SLICE, lane = LANE, i = slice * C + lane;
     REALV sum[D];
     multiply(slice, lane, stride, offsets, columns, A, x, sum);
-    UNROLLED (int c = 0; c < D; ++c) STORE(sum[c], y, c * stride + i);
-}
-
-/// r = b - A x; r may be b.
-__kernel void residual(const int stride, __global const int* offsets, __global const int* columns,
-                       __global const REAL* A, __global const REAL* x, __global const REAL* b, __global REAL* r)
-{
-    const int slice = SLICE, lane = LANE, i = slice * C + lane;
-    REALV sum[D];
-    multiply(slice, lane, stride, offsets, columns, A, x, sum);
-    UNROLLED (int c = 0; c < D; ++c) STORE(LOAD(b, c * stride + i) - sum[c], r, c * stride + i);
+    if (b == 0)
+        UNROLLED (int c = 0; c < D; ++c) STORE(a * sum[c], y, c * stride + i);
+    else
+        UNROLLED (int c = 0; c < D; ++c) STORE(a * sum[c] + b * LOAD(z, c * stride + i), y, c * stride + i);
 }
 
 inline void smooth_rows(const int slice, const int lane, const int stride, __global const int* offsets,

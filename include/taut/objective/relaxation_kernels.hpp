@@ -49,7 +49,7 @@ struct relaxation_kernels
     /// "terms" -> "steps"; one work-item a row
     recorded_kernel steps;
 
-    /// element_inputs, "steps" -> "values" at each step length; one work-item an entry
+    /// element_inputs, "steps", "entries" -> "values"; one work-item an entry and step length
     recorded_kernel tries;
 
     /// "steps", "values", "x", "vertex_stride": a row's vertex goes to its best trial, if that is better than to stay;
@@ -157,17 +157,16 @@ struct relaxation_kernels
         const element_inputs in(r, types, energy);
         const auto steps = r.in<double>("steps", types.vector);
         auto values = r.out<double>("values", types.vector);
+        const auto entries = r.scalar<idx>("entries");
         const colour_part part(r);
-        const star_corner at(r.global_id(), in, part, types);
-        for (int t = 0; t < trials; ++t)
-        {
-            const auto moved = [&](int i) {
-                return moved_coordinate(in.x[at.vertex + i * in.vertex_stride], length(t),
-                                        steps[at.row + i * part.stride], types);
-            };
-            const auto S = at.cell.shape_matrix(at.edges(in, moved));
-            values[at.entry + t * part.stride] = at.cell.weighted(energy, S);
-        }
+        const auto item = r.global_id(), trial = item / entries;
+        const star_corner at(item % entries, in, part, types);
+        real a = length(trials - 1);
+        for (int t = trials - 2; t >= 0; --t) a = select(trial <= t, length(t), a);
+        const auto moved = [&](int i)
+        { return moved_coordinate(in.x[at.vertex + i * in.vertex_stride], a, steps[at.row + i * part.stride], types); };
+        const auto S = at.cell.shape_matrix(at.edges(in, moved));
+        values[at.entry + trial * part.stride] = at.cell.weighted(energy, S);
         return r.finish("relaxation_tries", form);
     }
 

@@ -168,7 +168,8 @@ private:
                 };
                 kernels_->terms(entries, of_elements({{"terms", numbers_}}));
                 kernels_->steps(rows, part({{"terms", numbers_}, {"steps", steps_}}));
-                kernels_->tries(entries, of_elements({{"steps", steps_}, {"values", numbers_}}));
+                kernels_->tries(kernels::trials * entries,
+                                of_elements({{"steps", steps_}, {"values", numbers_}, {"entries", c.entries}}));
                 kernels_->moves(rows, part({{"steps", steps_},
                                             {"values", numbers_},
                                             {"x", x.data()},

@@ -78,24 +78,13 @@ public:
     void multiply(const device_vector& x, device_vector& y) const
     {
         check(x, y);
-        shared_->product(items(), {{"stride", pitch()},
-                                   {"offsets", offsets()},
-                                   {"columns", columns()},
-                                   {"A", values_},
-                                   {"x", x.data()},
-                                   {"y", y.data()}});
+        product(1, x, 0, x, y);
     }
     /// r = b - A x; r may be b, not x.
     void residual(const device_vector& x, const device_vector& b, device_vector& r) const
     {
         check(x, b, r);
-        shared_->residual(items(), {{"stride", pitch()},
-                                    {"offsets", offsets()},
-                                    {"columns", columns()},
-                                    {"A", values_},
-                                    {"x", x.data()},
-                                    {"b", b.data()},
-                                    {"r", r.data()}});
+        product(-1, x, 1, b, r);
     }
     /// out = now x + past before + scale B^-1 (b - A x) with B the block diagonal; out may be before, not x.
     void smooth(const device_vector& b, const device_vector& x, const device_vector& before, double now, double past,
@@ -173,6 +162,20 @@ public:
     std::size_t bytes() const { return values_.bytes() + inverse_.bytes() + offsets().bytes() + columns().bytes(); }
 
 private:
+    /// y = a A x + b z
+    void product(double a, const device_vector& x, double b, const device_vector& z, device_vector& y) const
+    {
+        shared_->product(items(), {{"stride", pitch()},
+                                   {"offsets", offsets()},
+                                   {"columns", columns()},
+                                   {"A", values_},
+                                   {"a", a},
+                                   {"x", x.data()},
+                                   {"b", b},
+                                   {"z", z.data()},
+                                   {"y", y.data()}});
+    }
+
     /// What matrices of one pattern share.
     struct structure
     {
@@ -193,7 +196,6 @@ private:
             offsets = buffer<idx>(q, host.offsets);
             columns = buffer<idx>(q, host.columns);
             product = detail::block_kernel(q, "product", type, D, form);
-            residual = detail::block_kernel(q, "residual", type, D, form);
             smooth = detail::block_kernel(q, "smooth", type, D, form);
             jacobi = detail::block_kernel(q, "jacobi", type, D, form);
             invert = detail::block_kernel(q, "invert_blocks", type, D, form);
@@ -212,7 +214,7 @@ private:
         std::size_t rows, stride, places;
         block_pattern host;
         buffer<idx> offsets, columns;
-        kernel product, residual, smooth, jacobi, invert;
+        kernel product, smooth, jacobi, invert;
     };
 
     explicit block_matrix(std::shared_ptr<structure> shared)

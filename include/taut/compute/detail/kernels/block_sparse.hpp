@@ -93,24 +93,18 @@ inline void invert(const int i, const int stride, __global const REAL* inverse, 
     }
 }
 
-/// y = A x
+/// y = a A x + b z; z may be y, and is not read for b = 0.
 __kernel void product(const int stride, __global const int* offsets, __global const int* columns,
-                      __global const REAL* A, __global const REAL* x, __global REAL* y)
+                      __global const REAL* A, const REAL a, __global const REAL* x, const REAL b,
+                      __global const REAL* z, __global REAL* y)
 {
     const int slice = SLICE, lane = LANE, i = slice * C + lane;
     REALV sum[D];
     multiply(slice, lane, stride, offsets, columns, A, x, sum);
-    UNROLLED (int c = 0; c < D; ++c) STORE(sum[c], y, c * stride + i);
-}
-
-/// r = b - A x; r may be b.
-__kernel void residual(const int stride, __global const int* offsets, __global const int* columns,
-                       __global const REAL* A, __global const REAL* x, __global const REAL* b, __global REAL* r)
-{
-    const int slice = SLICE, lane = LANE, i = slice * C + lane;
-    REALV sum[D];
-    multiply(slice, lane, stride, offsets, columns, A, x, sum);
-    UNROLLED (int c = 0; c < D; ++c) STORE(LOAD(b, c * stride + i) - sum[c], r, c * stride + i);
+    if (b == 0)
+        UNROLLED (int c = 0; c < D; ++c) STORE(a * sum[c], y, c * stride + i);
+    else
+        UNROLLED (int c = 0; c < D; ++c) STORE(a * sum[c] + b * LOAD(z, c * stride + i), y, c * stride + i);
 }
 
 inline void smooth_rows(const int slice, const int lane, const int stride, __global const int* offsets,
@@ -249,13 +243,13 @@ inline void product_row(const int slice, const int lane, const int rows, const i
                         __global const int* transpose_offsets, __global const int* transpose,
                         __global const int* prolongation, __global const REAL* weights,
                         __global const int* fine_offsets, __global const int* fine_columns, __global const REAL* fine,
-)cl"
-R"cl(                        __global const int* offsets, __global const int* columns, __global REAL* coarse)
+                        __global const int* offsets, __global const int* columns, __global REAL* coarse)
 {
     const int start = offsets[slice], stop = offsets[slice + 1];
     __global REAL* row = coarse + start * D * D + lane;
     for (int j = 0; start + j * C < stop; ++j)
-        UNROLLED (int e = 0; e < D * D; ++e) row[j * C * D * D + e * C] = 0;
+)cl"
+R"cl(        UNROLLED (int e = 0; e < D * D; ++e) row[j * C * D * D + e * C] = 0;
     if (slice * C + lane >= rows) return;
     for (int t = transpose_offsets[slice] + lane; t < transpose_offsets[slice + 1]; t += C)
     {
@@ -488,15 +482,15 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
                            __global const int* numbers, __global REAL* work, __global REAL* X)
 {
     const int item = (int)get_local_id(0);
-)cl"
-R"cl(    __global REAL* scale = work + size * pitch;
+    __global REAL* scale = work + size * pitch;
     __global REAL* root = scale + pitch;
     for (int k = item * V; k < (size + 2) * pitch; k += TEAM * V) STORE((REALV)0, work, k);
     SYNC;
     for (int r = item; r < rows; r += TEAM)
     {
         if (numbers[r] < 0) continue;
-        const int first = offsets[r / C] + r % C;
+)cl"
+R"cl(        const int first = offsets[r / C] + r % C;
         for (int at = first; at < offsets[r / C + 1]; at += C)
         {
             if (columns[at] == r && at > first) break;
