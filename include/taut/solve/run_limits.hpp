@@ -11,11 +11,6 @@
 namespace taut::detail
 {
 
-/// Ends a run in the middle of a phase, where its limits say so; caught by the run itself.
-struct run_stopped
-{
-};
-
 /// The clock of a run of several phases, and what may end it: its time limit and the user's observer.
 class run_limits
 {
@@ -37,19 +32,17 @@ public:
     /// Who has once said no is not asked again, whatever the phase.
     bool ask(solve::progress p)
     {
+        p.seconds = total();
         p.usable = usable_;
         stopped_ = stopped_ || (observer_ && !observer_(p));
         return !stopped_;
     }
 
-    /// Between the steps of a phase that has no values to show.
-    bool proceed() { return in_time() && ask({.seconds = total(), .iterate = false}); }
+    /// The clock and the observer, between the steps of a phase: go on?
+    bool proceed(const solve::progress& p = {.iterate = false}) { return in_time() && ask(p); }
 
-    /// The same for who would not know how to go on: throws run_stopped.
-    void check()
-    {
-        if (!proceed()) throw run_stopped();
-    }
+    /// Whether they have said no.
+    bool over() const { return stopped_ || !in_time(); }
 
     /// Why the run does not go on.
     solve::stop reason() const { return stopped_ ? solve::stop::user : solve::stop::time; }

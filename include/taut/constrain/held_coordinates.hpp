@@ -5,41 +5,37 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <taut/constrain/point_constraints.hpp>
 #include <taut/constrain/untangle_problem.hpp>
-#include <taut/map/parameterize_params.hpp>
 #include <taut/measure/similarity.hpp>
 #include <taut/mesh/boundary.hpp>
 
-namespace taut::detail
+namespace taut
 {
 
-/// What does not move in a run of parameterize(): the boundary if it is fixed, and what the constraints hold.
-/// Inside, lengths are `unit` times the user's.
+/// What does not move while a map of a surface is made: a fixed boundary, and what the constraints hold. Maps are in
+/// lengths of `unit` times those of the constraints.
 class held_coordinates
 {
 public:
-    /// Throws parameter_error for constraints of another mesh.
-    held_coordinates(const mesh<triangle>& m, const facet_table& sides, const parameterize_params& params, double unit)
-        : wanted_(params.constraints), free_boundary_(params.boundary == boundary_mode::free), unit_(unit)
+    /// fixed: the vertices of a boundary that stays; none where it is free. Throws parameter_error for constraints of
+    /// another mesh.
+    held_coordinates(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
+        : wanted_(std::move(wanted)), free_boundary_(fixed.empty()), unit_(unit)
     {
-        const std::size_t n = m.points().size();
-        for (const auto& [v, pin] : wanted_.pins()) require(v, n);
-        for (const auto& s : wanted_.springs()) require(s.vertex, n);
+        for (const auto& [v, pin] : wanted_.pins()) require(v, vertices);
+        for (const auto& s : wanted_.springs()) require(s.vertex, vertices);
         if (free_boundary_ && wanted_.pins().empty()) return;
-        bits_.assign(n, 0);
-        if (!free_boundary_)
-        {
-            const auto loops = boundary_loops(m, sides);
-            for (const idx v : loops[longest_loop(m.points(), loops)]) bits_[static_cast<std::size_t>(v)] = all;
-        }
+        bits_.assign(vertices, 0);
+        for (const idx v : fixed) bits_[static_cast<std::size_t>(v)] = all;
         for (const auto& [v, pin] : wanted_.pins()) bits_[static_cast<std::size_t>(v)] |= pin.held;
-        pinned_.resize(n);
-        for (std::size_t v = 0; v < n; ++v) pinned_[v] = bits_[v] == all;
+        pinned_.resize(vertices);
+        for (std::size_t v = 0; v < vertices; ++v) pinned_[v] = bits_[v] == all;
     }
 
     bool constrained() const { return !wanted_.empty(); }
@@ -91,7 +87,6 @@ public:
             for (int k = 0; k < 2; ++k)
                 if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k] * unit;
     }
-    void impose(std::vector<vec2>& uv) const { impose(uv, unit_); }
 
     /// The points of a map at the vertices of constraints::pins(), in their order.
     std::vector<vec2> pinned_points(const std::vector<vec2>& uv) const
@@ -159,4 +154,4 @@ private:
     std::vector<bool> pinned_;
 };
 
-} // namespace taut::detail
+} // namespace taut
