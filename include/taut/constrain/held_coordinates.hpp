@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,25 +30,23 @@ public:
         for (const auto& [v, pin] : wanted_.pins()) require(v, vertices);
         for (const auto& s : wanted_.springs()) require(s.vertex, vertices);
         if (free_boundary_ && wanted_.pins().empty()) return;
-        bits_.assign(vertices, 0);
-        for (const idx v : fixed) bits_[static_cast<std::size_t>(v)] = all;
-        for (const auto& [v, pin] : wanted_.pins()) bits_[static_cast<std::size_t>(v)] |= pin.held;
-        pinned_.resize(vertices);
-        for (std::size_t v = 0; v < vertices; ++v) pinned_[v] = bits_[v] == all;
+        marks_ = held_marks<2>(vertices);
+        for (const idx v : fixed) marks_[static_cast<std::size_t>(v)] = marks_.every;
+        for (const auto& [v, pin] : wanted_.pins()) marks_[static_cast<std::size_t>(v)] |= pin.held;
     }
 
     bool constrained() const { return !wanted_.empty(); }
 
-    /// One flag a vertex: pinned in all coordinates; empty if nothing is held.
-    const std::vector<bool>& pinned() const { return pinned_; }
+    /// One a vertex; none if nothing is held.
+    const held_marks<2>& marks() const { return marks_; }
 
     /// True if the constraints pin every vertex of the boundary.
     bool outline_pinned(const mesh<triangle>& m, const facet_table& sides) const
     {
-        if (pinned_.empty()) return false;
+        if (marks_.empty()) return false;
         for (const auto& loop : boundary_loops(m, sides))
             for (const idx v : loop)
-                if (!pinned_[static_cast<std::size_t>(v)]) return false;
+                if (!marks_.all(static_cast<std::size_t>(v))) return false;
         return true;
     }
 
@@ -61,7 +58,7 @@ public:
         if (!free_boundary_ || obeys(uv)) return;
         std::vector<anchor> anchors;
         for (const auto& [v, p] : wanted_.pins())
-            if (p.held == all) anchors.push_back({uv[static_cast<std::size_t>(v)], p.value * unit_});
+            if (p.held == marks_.every) anchors.push_back({uv[static_cast<std::size_t>(v)], p.value * unit_});
         if (anchors.size() < 2)
         {
             double heaviest = 0;
@@ -99,27 +96,21 @@ public:
     /// Gives held coordinates the values that they have in another map, bit for bit.
     void restore(std::vector<vec2>& uv, const std::vector<vec2>& from) const
     {
-        for (std::size_t v = 0; v < bits_.size(); ++v)
+        for (std::size_t v = 0; v < marks_.size(); ++v)
             for (int k = 0; k < 2; ++k)
-                if ((bits_[v] >> k & 1u) != 0) uv[v][k] = from[v][k];
+                if (marks_.test(v, k)) uv[v][k] = from[v][k];
     }
 
     untangle_problem<triangle> problem(const mesh<triangle>& m, std::vector<vec2> uv) const
     {
-        auto held = bits_;
-        held.resize(m.points().size(), 0);
-        return {m, std::move(uv), std::move(held)};
+        return {m, std::move(uv), marks_.empty() ? held_marks<2>(m.points().size()) : marks_};
     }
 
     /// What is asked of vertices that are not pinned, for a map whose origin is `centre`.
     point_constraints<2> beyond_pins(const vec2& centre) const
     {
         point_constraints<2> r;
-        if (std::any_of(bits_.begin(), bits_.end(), [](auto b) { return b != 0 && b != all; }))
-        {
-            r.held = bits_;
-            std::replace(r.held.begin(), r.held.end(), all, std::uint8_t(0));
-        }
+        if (auto alone = marks_.without_pinned(); alone.any()) r.held = std::move(alone);
         r.springs = wanted_.springs();
         r = r.scaled(unit_);
         for (auto& s : r.springs) s.target -= centre;
@@ -137,8 +128,6 @@ private:
         return !wanted_.pins().empty();
     }
 
-    static constexpr std::uint8_t all = untangle_problem<triangle>::all;
-
     static void require(idx v, std::size_t vertices)
     {
         if (v >= 0 && static_cast<std::size_t>(v) < vertices) return;
@@ -150,8 +139,7 @@ private:
     constraints<triangle> wanted_;
     bool free_boundary_;
     double unit_;
-    std::vector<std::uint8_t> bits_; ///< one a vertex, bit k: coordinate k is held; empty if nothing is
-    std::vector<bool> pinned_;
+    held_marks<2> marks_;
 };
 
 } // namespace taut

@@ -114,7 +114,7 @@ private:
         map result = problem_.initial;
         for (std::size_t v = 0; v < result.size(); ++v)
             for (int k = 0; k < D; ++k)
-                if (!problem_.holds(v, k)) result[v][k] = x[v][k] / unit;
+                if (!problem_.held.test(v, k)) result[v][k] = x[v][k] / unit;
         return result;
     }
 

@@ -75,7 +75,7 @@ attempt attempt_on_mesh(const map_run<Element>& run, const run_start& start, pre
 {
     attempt a;
     a.precision = how;
-    const auto local = std::make_shared<layout<Element>>(run.in.surface, run.held.pinned());
+    const auto local = std::make_shared<layout<Element>>(run.in.surface, run.held.marks().pinned());
     const auto& data = run.params.data;
     if (!data.empty()) local->attach(data.reordered(local->order.cells), permute(run.in.surface, local->order));
     map_objective<Element> f(run.queue, local, run.params.energy, run.params.weights, types_of(how),

@@ -47,8 +47,8 @@ struct map_run
     {
         clock.spent(&map_seconds::setup);
         if (!clock.proceed() || !params.uses_levels()) return;
-        levels.emplace(in.surface, held.pinned(), hierarchy_params{.proceed = [this] { return clock.proceed(); }},
-                       params.data);
+        levels.emplace(in.surface, held.marks().pinned(),
+                       hierarchy_params{.proceed = [this] { return clock.proceed(); }}, params.data);
         clock.spent(&map_seconds::hierarchy);
         clock.proceed();
     }

@@ -180,7 +180,7 @@ private:
         for (std::size_t v = 0; v < x.size(); ++v)
             for (int c = 0; c < D; ++c)
             {
-                if (problem_.holds(v, c)) x[v][c] = problem_.initial[v][c];
+                if (problem_.held.test(v, c)) x[v][c] = problem_.initial[v][c];
                 if (!std::isfinite(x[v][c]))
                     throw parameter_error("start", "vertex " + std::to_string(v) + " is not finite");
             }
