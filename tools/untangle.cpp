@@ -156,7 +156,7 @@ private:
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         untangle_params params;
-        params.observer = [this](const solve::progress& p)
+        params.observer = [this](const taut::progress& p)
         {
             if (p.iterate)
                 progress_.update(

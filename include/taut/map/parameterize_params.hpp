@@ -7,10 +7,10 @@
 
 #include <taut/constrain/constraints.hpp>
 #include <taut/constrain/placement.hpp>
+#include <taut/core/observer.hpp>
 #include <taut/energy/any_energy.hpp>
 #include <taut/mesh/cell_data.hpp>
 #include <taut/objective/precision.hpp>
-#include <taut/solve/observer.hpp>
 #include <taut/solve/params.hpp>
 #include <taut/start/barycentric_params.hpp>
 #include <taut/untangle/params.hpp>
@@ -88,7 +88,7 @@ struct parameterize_params
 
     /// Asked at every iterate and trial step, between phases and between the steps of long ones, whether to go on.
     /// progress::usable: whether there is a map that would be returned.
-    solve::observer observer = {};
+    taut::observer observer = {};
 
     /// Throws parameter_error that names the field.
     void validate() const

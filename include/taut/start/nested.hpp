@@ -57,7 +57,7 @@ public:
     /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
     /// reason() then says how.
     /// plan: that of a level; asked for each level but the finest, coarse ones first.
-    std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer,
+    std::vector<vec2> run(const std::function<taut::observer(std::size_t level)>& observer,
                           const std::function<level_solver::plan(std::size_t level)>& plan)
     {
         const std::size_t first = params_.first_level(levels_);
@@ -89,7 +89,7 @@ public:
 
 private:
     std::vector<vec2> minimised(std::size_t l, level_solver::plan host, const std::vector<vec2>& uv, bool relax,
-                                const solve::observer& ask)
+                                const taut::observer& ask)
     {
         level_solver::level level(solver_, std::move(host), uv);
         if (relax && params_.stopping.max_iterations > 0) level.relax();

@@ -333,7 +333,7 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map once there i
         const auto until = [&](auto&& goes_on)
         {
             asked = 0;
-            return parameterize(q, m, {.solve = endless, .observer = [&](const solve::progress& p) {
+            return parameterize(q, m, {.solve = endless, .observer = [&](const taut::progress& p) {
                                            return goes_on(++asked, p.usable);
                                        }});
         };

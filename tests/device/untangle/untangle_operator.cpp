@@ -445,7 +445,7 @@ TEST_CASE("untangling operator: the observer and the time limit end a run with t
     SUBCASE("observer")
     {
         int asked = 0;
-        how.observer = [&](const solve::progress& now)
+        how.observer = [&](const taut::progress& now)
         {
             CHECK(now.value > 0);
             CHECK(now.step == doctest::Approx(0.01));

@@ -227,7 +227,7 @@ TEST_CASE("newton: limits, the observer and bad parameters end a run as in the o
     auto f = rosenbrock(2);
     auto x = functions::rosenbrock_start(2);
     CHECK(newton(f, x, {}, {.stopping = {.max_iterations = 3}}).stop == stop::iterations);
-    CHECK(newton(f, x, {}, {}, [](const progress& p) { return p.iteration < 2; }).stop == stop::user);
+    CHECK(newton(f, x, {}, {}, [](const taut::progress& p) { return p.iteration < 2; }).stop == stop::user);
     std::vector<double> bad{std::numeric_limits<double>::infinity(), 0.0};
     CHECK(newton(f, bad).stop == stop::not_finite_start);
     CHECK_THROWS_AS(newton(f, x, {.pcg = {.block = 9}}), taut::parameter_error);
@@ -241,7 +241,7 @@ TEST_CASE("newton: whatever ends a run, the report is of the point that it leave
         auto f = rosenbrock(4);
         std::vector<double> x(4, 0.5), g(4);
         int asked = 0;
-        const auto r = newton(f, x, {}, {}, [&](const progress&) { return ++asked < questions; });
+        const auto r = newton(f, x, {}, {}, [&](const taut::progress&) { return ++asked < questions; });
         CAPTURE(questions);
         CHECK((r.stop == stop::user || r.stop == stop::gradient));
         CHECK(asked <= questions);

@@ -158,7 +158,7 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     CHECK(late.reason.find("time limit") != std::string::npos);
 
     params = {};
-    params.observer = [](const solve::progress&) { return false; };
+    params.observer = [](const taut::progress&) { return false; };
     const auto cancelled = untangle(problem, params);
     check_typed(problem, cancelled);
     CHECK(cancelled.reason.find("cancelled") != std::string::npos);
@@ -166,7 +166,7 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     // The question comes within the first step, too, which is then not made.
     int asked = 0;
     params.stages = {"newton"};
-    params.observer = [&](const solve::progress&) { return ++asked < 3; };
+    params.observer = [&](const taut::progress&) { return ++asked < 3; };
     const auto within = untangle(problem, params);
     check_typed(problem, within);
     CHECK(asked == 3);

@@ -44,9 +44,9 @@ bool build_within(queue q, run_clock& clock, const Build& build)
 }
 
 /// The user's observer, told where it is; on coarser levels it also keeps the time.
-inline solve::observer observer_on(run_clock& clock, std::size_t level)
+inline taut::observer observer_on(run_clock& clock, std::size_t level)
 {
-    return [&clock, level](solve::progress p)
+    return [&clock, level](progress p)
     {
         p.level = static_cast<int>(level);
         return level == 0 ? clock.ask(p) : clock.proceed(p);

@@ -22,7 +22,7 @@ run_start untangled_start(const map_run<Element>& run, run_start start, std::vec
     run.clock.has_result(bound); // the best map, even with defects
     auto how = run.params.untangling;
     how.time_limit = run.clock.left();
-    how.observer = [&run](const solve::progress&) { return run.clock.ask({.iterate = false}); };
+    how.observer = [&run](const progress&) { return run.clock.ask({.iterate = false}); };
     auto problem = run.held.problem(run.in.surface, start.map.uv);
     if (!draft.empty() && certify<2>(run.in.surface.cells(), draft)) problem.draft = std::move(draft);
     auto found = untangle(run.queue, problem, how);

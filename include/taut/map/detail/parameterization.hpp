@@ -65,7 +65,7 @@ std::vector<vec2> free_draft(const map_run<Element>& run)
     params.constraints = {};
     params.solve.stopping.gradient_tolerance = std::max(1e-3, params.solve.stopping.gradient_tolerance);
     run_clock clock(run.clock.left(),
-                    [&run](solve::progress now)
+                    [&run](progress now)
                     {
                         now.level = std::max(now.level, 1); // it is not the map that was asked for
                         return run.clock.ask(now);

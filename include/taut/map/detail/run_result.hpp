@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <taut/map/detail/attempt.hpp>
+#include <taut/solve/monitor.hpp>
 
 namespace taut::detail
 {
@@ -59,7 +60,7 @@ map_result stopped_result(const map_run<Element>& run, const run_start& start, a
             a = certified(run.in, std::move(a));
         }
     }
-    a.solve.stop = run.clock.reason();
+    a.solve.stop = solve::stop_of(run.clock);
     const bool valid = a.certified;
     map_result r = run_result(run, start, std::move(a));
     if (valid)
@@ -69,8 +70,8 @@ map_result stopped_result(const map_run<Element>& run, const run_start& start, a
     }
     r.uv.clear();
     return refused(std::move(r), {outcome::stopped,
-                                  run.clock.reason() == solve::stop::time ? "the time limit came before there was a map"
-                                                                          : "stopped before there was a map",
+                                  run.clock.refused() ? "stopped before there was a map"
+                                                      : "the time limit came before there was a map",
                                   {}});
 }
 
