@@ -120,7 +120,7 @@ private:
     device_space space_;
 };
 
-static_assert(objective<device_objective> && has_max_step<device_objective> && has_values<device_objective>);
+static_assert(objective<device_objective> && full_objective<device_objective>::batches);
 
 } // namespace
 
