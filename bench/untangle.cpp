@@ -80,16 +80,13 @@ public:
         const auto r = untangle(queue_, problem, params_);
         const auto flips = certify<D>(problem.rest.cells(), std::span<const vec<D>>(r.map));
         bool held = true;
-        int pinned = 0;
+        const auto pinned = problem.held.count();
         for (std::size_t v = 0; v < problem.held.size(); ++v)
-        {
-            pinned += problem.pinned(v);
             for (int k = 0; k < D; ++k)
-                held = held &&
-                       (!problem.holds(v, k) || std::memcmp(&r.map[v][k], &problem.initial[v][k], sizeof(double)) == 0);
-        }
+                held = held && (!problem.held.test(v, k) ||
+                                std::memcmp(&r.map[v][k], &problem.initial[v][k], sizeof(double)) == 0);
         if (!held || (r && flips.flipped > 0)) throw std::runtime_error(name + ": a wrong answer");
-        std::printf("%-32s %7d %7d %6d %8zu  %-10s %-9s %8.2f %9.2g  %s", name.c_str(), problem.rest.vertex_count(),
+        std::printf("%-32s %7d %7d %6zu %8zu  %-10s %-9s %8.2f %9.2g  %s", name.c_str(), problem.rest.vertex_count(),
                     problem.rest.cell_count(), pinned, start.flipped, std::string(to_string(r.outcome)).c_str(),
                     r ? r.stage.c_str() : std::to_string(flips.flipped).c_str(), r.seconds, r.least_relative_det,
                     held ? "exact" : "MOVED");
@@ -154,7 +151,7 @@ private:
         constraints<triangle> pins(problem.rest);
         for (std::size_t v = 0; v < problem.held.size(); ++v)
             for (int k = 0; k < 2; ++k)
-                if (problem.holds(v, k)) pins.pin(static_cast<taut::idx>(v), k, problem.initial[v][k]);
+                if (problem.held.test(v, k)) pins.pin(static_cast<taut::idx>(v), k, problem.initial[v][k]);
         map_result r;
         const double seconds = bench::seconds(
             [&]
@@ -200,12 +197,12 @@ untangle_problem<triangle> collapsed_square(int n)
 {
     auto m = test::grid(n, n);
     std::vector<vec2> x;
-    std::vector<std::uint8_t> held;
+    held_marks<2> held(m.points().size());
     for (const vec3& p : m.points())
     {
         const bool rim = p.x == 0 || p.y == 0 || p.x == 1 || p.y == 1;
+        if (rim) held[x.size()] = held.every;
         x.push_back(rim ? vec2(p.x, p.y) : vec2(0.3, 0.4));
-        held.push_back(rim ? 3 : 0);
     }
     return {std::move(m), std::move(x), std::move(held)};
 }

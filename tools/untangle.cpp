@@ -54,7 +54,7 @@ io::layout_overlay overlay_of(const untangle_problem<triangle>& p, std::span<con
     for (const idx v : branch_points(p.rest.cells(), x))
         overlay.branch_points.push_back(x[static_cast<std::size_t>(v)]);
     for (std::size_t v = 0; v < x.size(); ++v)
-        if (p.held[v] != 0) overlay.pins.push_back({x[v], x[v], true, p.held[v]});
+        if (p.held.any(v)) overlay.pins.push_back({x[v], x[v], true, p.held[v]});
     return overlay;
 }
 
@@ -114,8 +114,7 @@ public:
         problem_.emplace(make_untangle_problem(std::move(file)));
         report_.vertices = problem_->initial.size();
         report_.elements = problem_->rest.cells().size();
-        report_.pinned =
-            static_cast<std::size_t>(std::count(problem_->held.begin(), problem_->held.end(), problem_->all));
+        report_.pinned = problem_->held.count();
         report_.before = certified(problem_->initial);
         if (!prove_infeasible()) solve();
         write();
@@ -157,7 +156,7 @@ private:
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         untangle_params params;
-        params.observer = [this](const solve::progress& p)
+        params.observer = [this](const taut::progress& p)
         {
             if (p.iterate)
                 progress_.update(
@@ -181,7 +180,7 @@ private:
         bool held = true;
         for (std::size_t v = 0; v < problem_->held.size(); ++v)
             for (int k = 0; k < D; ++k)
-                held = held && (!problem_->holds(v, k) || result.map[v][k] == problem_->initial[v][k]);
+                held = held && (!problem_->held.test(v, k) || result.map[v][k] == problem_->initial[v][k]);
         const bool valid = held && report_.after;
         report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
         report_.code = interrupted() ? interruption() : valid ? exit_code::valid : exit_code::no_valid_map;

@@ -103,7 +103,7 @@ private:
         auto params = to_params(options_);
         params.constraints = pins_;
         if (options_.start == start_kind::uv) params.initial = start_from_file();
-        params.observer = [this](const solve::progress& p)
+        params.observer = [this](const taut::progress& p)
         {
             keep(p.usable);
             if (p.iterate)

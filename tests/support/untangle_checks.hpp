@@ -19,7 +19,7 @@ bool holds(const untangle_problem<Element>& problem, const untangle_result<Eleme
 {
     for (std::size_t v = 0; v < problem.held.size(); ++v)
         for (int k = 0; k < Element::dimension; ++k)
-            if (problem.holds(v, k) && std::memcmp(&result.map[v][k], &problem.initial[v][k], sizeof(double)) != 0)
+            if (problem.held.test(v, k) && std::memcmp(&result.map[v][k], &problem.initial[v][k], sizeof(double)) != 0)
                 return false;
     return result.map.size() == problem.initial.size();
 }

@@ -14,6 +14,7 @@
 
 #include <taut/constrain/arc_length.hpp>
 #include <taut/constrain/constraint_error.hpp>
+#include <taut/core/held_marks.hpp>
 #include <taut/mesh/boundary.hpp>
 
 namespace taut
@@ -48,7 +49,7 @@ class constraints
 {
 public:
     static constexpr int D = Element::dimension;
-    static constexpr std::uint8_t all = (1u << D) - 1; ///< of held: every coordinate
+    static constexpr std::uint8_t all = held_marks<D>::every; ///< of held: every coordinate
     using point = vec<D>;
 
     constraints() = default; ///< none, of no mesh
@@ -172,11 +173,11 @@ public:
     }
 
     /// held(), one a vertex.
-    std::vector<std::uint8_t> held() const
+    held_marks<D> held() const
     {
-        std::vector<std::uint8_t> bits(count(), 0);
-        for (const auto& [v, p] : pins_) bits[static_cast<std::size_t>(v)] = p.held;
-        return bits;
+        held_marks<D> marks(count());
+        for (const auto& [v, p] : pins_) marks[static_cast<std::size_t>(v)] = p.held;
+        return marks;
     }
 
     /// Gives the held coordinates of a map (one position a vertex) their values.

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include <taut/constrain/constraints.hpp>
+#include <taut/core/held_marks.hpp>
 #include <taut/mesh/order.hpp>
 
 namespace taut
@@ -17,7 +17,7 @@ namespace taut
 template <int D>
 struct point_constraints
 {
-    std::vector<std::uint8_t> held; ///< one a vertex, or none; bit k: coordinate k does not move
+    held_marks<D> held;             ///< one a vertex, or none
     std::vector<spring<D>> springs; ///< each adds weight * |x - target|^2 to the energy's mean
 
     bool empty() const { return held.empty() && springs.empty(); }
@@ -26,7 +26,7 @@ struct point_constraints
     point_constraints renumbered(const permutation& p) const
     {
         point_constraints r;
-        if (!held.empty()) r.held = p.apply(held);
+        if (!held.empty()) r.held = held_marks<D>(p.apply(held.bits()));
         for (spring<D> s : springs)
         {
             s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];
@@ -51,7 +51,7 @@ struct point_constraints
     std::vector<bool> touched(std::size_t vertices) const
     {
         std::vector<bool> any(vertices, false);
-        for (std::size_t v = 0; v < held.size(); ++v) any[v] = held[v] != 0;
+        for (std::size_t v = 0; v < held.size(); ++v) any[v] = held.any(v);
         for (const auto& s : springs) any[static_cast<std::size_t>(s.vertex)] = true;
         return any;
     }

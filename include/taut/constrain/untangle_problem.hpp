@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <taut/core/error.hpp>
+#include <taut/core/held_marks.hpp>
 #include <taut/mesh/boundary.hpp>
 
 namespace taut
@@ -20,18 +20,12 @@ struct untangle_problem
 {
     static constexpr int D = Element::dimension;
 
-    mesh<Element> rest;             ///< the shape that the map distorts as little as possible; planar meshes have z = 0
-    std::vector<vec<D>> initial;    ///< one a vertex, in any state; a held coordinate is a hard constraint
-    std::vector<std::uint8_t> held; ///< one a vertex: bit k says that coordinate k is held
+    mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
+    std::vector<vec<D>> initial; ///< one a vertex, in any state; a held coordinate is a hard constraint
+    held_marks<D> held;          ///< one a vertex
     /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
     /// empty: none is known.
     std::vector<vec<D>> draft = {};
-
-    static constexpr std::uint8_t all = (1u << D) - 1; ///< of held: the vertex is pinned
-
-    /// True if coordinate k of vertex v is held.
-    bool holds(std::size_t v, int k) const { return (held[v] >> k & 1u) != 0; }
-    bool pinned(std::size_t v) const { return held[v] == all; }
 
     /// True if no vertex of the boundary can move.
     bool outline_pinned() const
@@ -40,7 +34,7 @@ struct untangle_problem
         return std::all_of(outline.begin(), outline.end(),
                            [this](const auto& facet) {
                                return std::all_of(facet.begin(), facet.end(),
-                                                  [this](idx v) { return pinned(static_cast<std::size_t>(v)); });
+                                                  [this](idx v) { return held.all(static_cast<std::size_t>(v)); });
                            });
     }
 
@@ -62,7 +56,7 @@ struct untangle_problem
             for (int k = 0; k < D; ++k)
                 if (!std::isfinite(initial[v][k]))
                     throw parameter_error("initial", "vertex " + std::to_string(v) + " is not finite");
-            if (held[v] > all)
+            if (held[v] > held.every)
                 throw parameter_error("held", "vertex " + std::to_string(v) + " has only " + std::to_string(D) +
                                                   " coordinates");
         }

@@ -30,8 +30,8 @@ untangle_problem<Element> make_untangle_problem(mesh<Element> rest, std::vector<
 template <class Element>
 untangle_problem<Element> make_untangle_problem(io::prob_file<Element> file)
 {
-    std::vector<std::uint8_t> held(file.rest.size(), 0);
-    for (const idx v : file.fixed) held[static_cast<std::size_t>(v)] = untangle_problem<Element>::all;
+    held_marks<Element::dimension> held(file.rest.size());
+    for (const idx v : file.fixed) held[static_cast<std::size_t>(v)] = held.every;
     return {mesh<Element>(std::move(file.rest), std::move(file.cells)), std::move(file.initial), std::move(held)};
 }
 

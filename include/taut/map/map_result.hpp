@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <taut/compute/queue_counters.hpp>
-#include <taut/measure/describe_defects.hpp>
 #include <taut/objective/level_report.hpp>
 #include <taut/objective/precision.hpp>
 #include <taut/start/start_map.hpp>
@@ -54,13 +53,6 @@ struct map_report
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run
-
-    /// There is no valid map, as `map` has defects.
-    void refuse(const std::string& map, const certificate& found)
-    {
-        ids = found.flipped > 0 ? found.ids : found.branch_ids;
-        reason = map + " has " + describe_defects<triangle>(found);
-    }
 };
 
 inline std::ostream& operator<<(std::ostream& out, const map_report& r)

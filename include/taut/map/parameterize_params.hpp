@@ -7,10 +7,10 @@
 
 #include <taut/constrain/constraints.hpp>
 #include <taut/constrain/placement.hpp>
+#include <taut/core/observer.hpp>
 #include <taut/energy/any_energy.hpp>
 #include <taut/mesh/cell_data.hpp>
 #include <taut/objective/precision.hpp>
-#include <taut/solve/observer.hpp>
 #include <taut/solve/params.hpp>
 #include <taut/start/barycentric_params.hpp>
 #include <taut/untangle/params.hpp>
@@ -80,7 +80,8 @@ struct parameterize_params
     /// How a start with flips is untangled. Its time limit and observer are overruled by those below.
     untangle_params untangling = {};
 
-    /// Method, line search, stopping. `solve.stopping.time_limit` is overruled by time_limit below.
+    /// Method, line search (not of Newton's method, which `automatic` is here), stopping. `solve.stopping.time_limit`
+    /// is overruled by time_limit below.
     solve::params solve = {};
 
     /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned, or none (`stopped`).
@@ -88,7 +89,7 @@ struct parameterize_params
 
     /// Asked at every iterate and trial step, between phases and between the steps of long ones, whether to go on.
     /// progress::usable: whether there is a map that would be returned.
-    solve::observer observer = {};
+    taut::observer observer = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
@@ -108,6 +109,7 @@ struct parameterize_params
             throw parameter_error("placement", "must be upright, unit_square or as_solved");
         untangling.validate();
         solve.validate();
+        if (solve.method == solve::method::automatic) solve.require_newton_search();
     }
 
     /// Whether the method works on a hierarchy of levels.

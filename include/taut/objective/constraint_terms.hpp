@@ -189,13 +189,13 @@ private:
 
     range count() const { return {count_}; }
 
-    void make_mask(const std::vector<std::uint8_t>& held)
+    void make_mask(const held_marks<D>& held)
     {
         const auto stride = static_cast<std::size_t>(vertex_stride_);
         std::vector<double> free(D * stride, 1);
         for (std::size_t v = 0; v < held.size(); ++v)
             for (std::size_t k = 0; k < D; ++k)
-                if ((held[v] >> k & 1u) != 0) free[k * stride + v] = 0;
+                if (held.test(v, static_cast<int>(k))) free[k * stride + v] = 0;
         mask_ = real_buffer(queue_, types_.vector, free);
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/solve/full_objective.hpp>
 #include <taut/solve/gram.hpp>
 #include <taut/solve/line/any_line.hpp>
 #include <taut/solve/line/objective_line.hpp>
@@ -58,7 +59,8 @@ public:
           rule_(std::move(rule)),
           params_(params),
           monitor_(ask, params.stopping.time_limit),
-          test_(params.stopping, rounding()),
+          rounding_(std::max(f_.rounding(), params.line_search.rounding)),
+          test_(params.stopping, rounding_),
           trial_(f.make_point()),
           d_(f.space().make()),
           g_(f.space().make()),
@@ -92,9 +94,7 @@ private:
         if (!std::isfinite(value_) || !std::isfinite(norm)) return solve::stop::not_finite_start;
         linearize();
 
-        scale_ = norm;
-        if constexpr (has_gradient_scale<Objective>) scale_ = f_.gradient_scale(x_);
-        scale_ = std::max(scale_, std::numeric_limits<double>::min());
+        scale_ = std::max(f_.gradient_scale(x_, norm), std::numeric_limits<double>::min());
         record({.step = 0, .value = value_}, false);
         if (const auto reason = test_.start(norm / scale_)) return reason;
         return monitor_.reason();
@@ -111,13 +111,13 @@ private:
         if (!(d.slope < 0) || !std::isfinite(d.slope) || !std::isfinite(d.length)) return restart();
 
         // The barrier is ahead at a positive distance, or x_k is on it.
-        const double bound = params_.line_search.barrier_fraction * max_step();
+        const double bound = params_.line_search.barrier_fraction * f_.max_step(x_, d_);
         if (!(bound > 0)) return restart();
         // The slope at a trial comes with all inner products of the pair that the trial would make.
         const auto slope = [&](double a) { return h_.propose(a, d_, g_, g_new_); };
         const line_search_params& p = params_.line_search;
         objective_line phi(f_, {x_, d_, trial_, g_new_}, slope, {0, value_, d.slope},
-                           {bound, lowest_, rounding() * std::abs(lowest_), p.batch}, monitor_);
+                           {bound, lowest_, rounding_ * std::abs(lowest_), p.batch}, monitor_);
         any_line line(phi);
         const search_result found = search(line, std::min(1.0, bound), p, h_.fresh());
 
@@ -136,8 +136,7 @@ private:
         ++report_.iterations;
         length_ = length;
         if (h_.fresh()) h_.forget(length_); // the first pair was left out: at least its length is known
-        if (has_hessian<Objective> && linearized_at_ - at.value > params_.linearize_after * std::abs(at.value))
-            linearize();
+        if (linearizes_ && linearized_at_ - at.value > params_.linearize_after * std::abs(at.value)) linearize();
         const double before = std::exchange(value_, at.value);
         lowest_ = std::min(lowest_, value_);
         record(at, capped);
@@ -154,29 +153,23 @@ private:
     /// Makes the preconditioner that of x_k. H0 must not change under pairs that know it, so they go.
     void linearize()
     {
-        if constexpr (has_hessian<Objective>)
-        {
-            f_.linearize(x_, false);
-            h_.forget(length_);
-            linearized_at_ = value_;
-        }
+        linearizes_ = f_.linearize(x_, false);
+        if (!linearizes_) return;
+        h_.forget(length_);
+        linearized_at_ = value_;
     }
 
     /// Lets the objective spread out what cuts every step short; whether that was worth while.
     bool relax()
     {
-        if constexpr (has_relax<Objective>)
-        {
-            if (!f_.relax(x_)) return false;
-            const double before = value_;
-            value_ = report_.value = f_.value_gradient(x_, g_);
-            lowest_ = std::min(lowest_, value_);
-            monitor_.count(1, 1);
-            h_.start(g_);
-            constexpr double least = 1e-6; // less, again and again, would take for ever
-            return before - value_ > least * std::abs(before);
-        }
-        return false;
+        if (!f_.relax(x_)) return false;
+        const double before = value_;
+        value_ = report_.value = f_.value_gradient(x_, g_);
+        lowest_ = std::min(lowest_, value_);
+        monitor_.count(1, 1);
+        h_.start(g_);
+        constexpr double least = 1e-6; // less, again and again, would take for ever
+        return before - value_ > least * std::abs(before);
     }
 
     /// Forget the pairs and go on with steepest descent, in the metric of a preconditioner; if that is what just
@@ -184,7 +177,7 @@ private:
     std::optional<solve::stop> restart()
     {
         if (monitor_.reason()) return monitor_.reason();
-        const auto stale = [this] { return has_hessian<Objective> && linearized_at_ != value_; };
+        const auto stale = [this] { return linearizes_ && linearized_at_ != value_; };
         if (h_.fresh() && !stale() && !relax()) return solve::stop::line_search;
         h_.forget(length_);
         if (stale()) linearize();
@@ -207,29 +200,19 @@ private:
                                    .seconds = monitor_.seconds()});
     }
 
-    double max_step()
-    {
-        if constexpr (has_max_step<Objective>) return f_.max_step(x_, d_);
-        return std::numeric_limits<double>::infinity();
-    }
-
-    double rounding()
-    {
-        if constexpr (has_rounding<Objective>) return std::max<double>(f_.rounding(), params_.line_search.rounding);
-        return params_.line_search.rounding;
-    }
-
-    Objective& f_;
+    full_objective<Objective> f_;
     point& x_;
     Hessian& h_;
     Rule rule_;
     descent_params params_;
     monitor monitor_;
+    double rounding_;
     stopping_test test_;
     point trial_;
     vector d_, g_, g_new_;
     double value_ = 0, lowest_ = 0; // f(x_k), and the lowest value so far: they differ by rounding at most
     double linearized_at_ = 0;      // the value then
+    bool linearizes_ = false;       // the objective has a Hessian
     double scale_ = 1;              // gradients are relative to it
     double length_ = 1;             // of the last step
     report report_;

@@ -21,7 +21,11 @@ report minimize(Objective& f, typename Objective::point& x, const params& p = {}
     {
     case method::automatic:
     case method::newton:
-        if constexpr (has_hessian<Objective>) return newton(f, x, p.newton, p.common(), ask);
+        if constexpr (has_hessian<Objective>)
+        {
+            p.require_newton_search();
+            return newton(f, x, p.newton, p.newton_common(), ask);
+        }
         if (p.method == method::newton) throw parameter_error("method", "newton needs an objective with a Hessian");
         break;
     case method::conjugate_gradient:

@@ -1,35 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/solve/observer.hpp>
+#include <taut/core/budget.hpp>
 #include <taut/solve/stop.hpp>
 
-#include <chrono>
-#include <limits>
 #include <optional>
 #include <utility>
 
 namespace taut::solve
 {
 
-/// The clock, the counters and the observer of one run. Everything that launches work on a device reports here right
-/// after it, so that a run can be cancelled within an iteration.
+/// Why a run ended whose budget is over.
+inline stop stop_of(const budget& limits)
+{
+    return limits.refused() ? stop::user : stop::time;
+}
+
+/// The budget of a minimisation and its counters. Everything that launches work on a device reports here right after
+/// it, so that a run can be cancelled within an iteration.
 class monitor
 {
 public:
-    using clock = std::chrono::steady_clock;
+    explicit monitor(observer ask, budget::seconds limit = budget::unlimited) : budget_(limit, std::move(ask)) {}
 
-    explicit monitor(observer ask, std::chrono::duration<double> limit = unlimited())
-        : ask_(std::move(ask)), limit_(limit.count())
-    {
-    }
-
-    static constexpr std::chrono::duration<double> unlimited()
-    {
-        return std::chrono::duration<double>(std::numeric_limits<double>::infinity());
-    }
-
-    double seconds() const { return std::chrono::duration<double>(clock::now() - start_).count(); }
+    double seconds() const { return budget_.total(); }
     int evaluations() const noexcept { return now_.evaluations; }
     int gradients() const noexcept { return gradients_; }
 
@@ -46,37 +40,28 @@ public:
         now_.value = value;
         now_.gradient = gradient;
         now_.step = step;
-        ask(true);
+        now_.iterate = true;
+        budget_.proceed(now_);
     }
 
-    /// Asks the clock and the observer in the middle of a line search; whether to go on.
+    /// Asks in the middle of a line search; whether to go on.
     bool proceed()
     {
-        ask(false);
-        return !reason_;
+        now_.iterate = false;
+        return budget_.proceed(now_);
     }
 
     /// stop::time or stop::user once either has spoken.
-    std::optional<stop> reason() const noexcept { return reason_; }
-
-private:
-    void ask(bool iterate)
+    std::optional<stop> reason() const
     {
-        if (reason_) return;
-        now_.seconds = seconds();
-        now_.iterate = iterate;
-        if (now_.seconds > limit_)
-            reason_ = stop::time;
-        else if (ask_ && !ask_(now_))
-            reason_ = stop::user;
+        if (!budget_.over()) return std::nullopt;
+        return stop_of(budget_);
     }
 
-    observer ask_;
-    double limit_;
-    clock::time_point start_ = clock::now();
+private:
+    budget budget_;
     progress now_;
     int gradients_ = 0;
-    std::optional<stop> reason_;
 };
 
 } // namespace taut::solve

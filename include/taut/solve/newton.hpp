@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/solve/full_objective.hpp>
 #include <taut/solve/monitor.hpp>
-#include <taut/solve/objective.hpp>
 #include <taut/solve/params.hpp>
 #include <taut/solve/pcg.hpp>
 #include <taut/solve/report.hpp>
@@ -44,12 +44,13 @@ public:
     using point = typename Objective::point;
     using vector = vector_of<Objective>;
 
-    newton_loop(Objective& f, point& x, const newton_params& params, const descent_params& common, const observer& ask)
+    newton_loop(Objective& f, point& x, const newton_params& params, const newton_common_params& common,
+                const observer& ask)
         : f_(f),
           x_(x),
           params_(params),
           common_(common),
-          rounding_(rounding(f, common)),
+          rounding_(std::max(f_.rounding(), common.search.rounding)),
           monitor_(ask, common.stopping.time_limit),
           test_(common.stopping, rounding_, patience),
           pcg_(f.space(), params.pcg),
@@ -58,7 +59,7 @@ public:
           g_(f.space().make()),
           d_(f.space().make()),
           full_gradient_(f.space().make()),
-          waits_(waits(f))
+          waits_(f_.waits())
     {
     }
 
@@ -69,40 +70,25 @@ public:
         // A run that was stopped by others between a step and its gradient's norm.
         if (pending_) settle(f_.space().dot(g_, g_));
         report_.stop = *reason;
-        if constexpr (has_capping<Objective>)
-            if (step_.capped) report_.capping = f_.capping(previous_, d_);
+        if (step_.capped) report_.capping = f_.capping(previous_, d_);
         report_.evaluations = monitor_.evaluations();
         report_.gradients = monitor_.gradients();
         report_.seconds = monitor_.seconds();
-        report_.waits = waits(f_) - waits_;
+        report_.waits = f_.waits() - waits_;
         return std::move(report_);
     }
 
 private:
     static constexpr int patience = 3; // gradients fall fast or not at all
 
-    static std::uint64_t waits(const Objective& f)
-    {
-        if constexpr (has_waits<Objective>) return f.waits();
-        return 0;
-    }
-
-    static double rounding(Objective& f, const descent_params& common)
-    {
-        if constexpr (has_rounding<Objective>) return std::max<double>(f.rounding(), common.line_search.rounding);
-        return common.line_search.rounding;
-    }
-
     std::optional<solve::stop> start()
     {
         double square;
-        value_ = report_.value_start = report_.value = value_gradient(square);
+        value_ = report_.value_start = report_.value = f_.value_gradient(x_, g_, square);
         monitor_.count(1, 1);
         const double norm = std::sqrt(square);
         if (!std::isfinite(value_) || !std::isfinite(norm)) return solve::stop::not_finite_start;
-        scale_ = norm;
-        if constexpr (has_gradient_scale<Objective>) scale_ = f_.gradient_scale(x_);
-        scale_ = std::max(scale_, std::numeric_limits<double>::min());
+        scale_ = std::max(f_.gradient_scale(x_, norm), std::numeric_limits<double>::min());
         step_.value_before = std::numeric_limits<double>::infinity();
         record(norm);
         if (const auto reason = test_.start(norm / scale_)) return reason;
@@ -151,7 +137,7 @@ private:
     std::optional<trial> search()
     {
         if (!(model_.slope < 0)) return std::nullopt;
-        constexpr double armijo = 1e-4;
+        const double armijo = common_.search.sufficient_decrease;
         constexpr int rounds = 8;
         const double noise = rounding_ * std::abs(value_);
         double unit = 1, longest = 1;
@@ -178,45 +164,29 @@ private:
     /// Values at unit * a; returns the unit.
     double first_values(std::span<const double> a, std::span<double> values)
     {
-        const double fraction = common_.line_search.barrier_fraction;
-        if constexpr (has_full_step<Objective>)
-            if (near_end_)
+        const double fraction = common_.search.barrier_fraction;
+        full_square_.reset();
+        if (near_end_)
+            if (const auto r = f_.capped_values(x_, d_, fraction, a, values, full_, full_gradient_))
             {
-                const auto [unit, square] = f_.capped_values(x_, d_, fraction, a, values, full_, full_gradient_);
                 monitor_.count(0, 1);
-                full_square_ = square;
-                return unit;
+                full_square_ = r->second;
+                return r->first;
             }
-        if constexpr (has_capped_values<Objective>)
-            return f_.capped_values(x_, d_, fraction, a, values);
-        else
-        {
-            double unit = 1;
-            if constexpr (has_max_step<Objective>) unit = std::min(1.0, fraction * f_.max_step(x_, d_));
-            later_values(unit, a, values);
-            return unit;
-        }
+        return f_.capped_values(x_, d_, fraction, a, values);
     }
 
     void later_values(double unit, std::span<const double> a, std::span<double> values)
     {
         std::vector<double> steps;
         for (const double s : a) steps.push_back(unit * s);
-        if constexpr (has_values<Objective>)
-            f_.values(x_, d_, steps, values);
-        else
-            for (std::size_t i = 0; i < steps.size(); ++i)
-            {
-                f_.copy(x_, previous_);
-                f_.step(x_, steps[i], d_, previous_);
-                values[i] = f_.value(previous_);
-            }
+        f_.values(x_, d_, steps, values);
     }
 
     /// x_k -> x_{k+1}.
     std::optional<solve::stop> accept(const trial& t)
     {
-        const bool full = std::exchange(near_end_, false) && has_full_step<Objective> && t.step == 1;
+        const bool full = full_square_ && t.step == 1;
         std::swap(x_, previous_);
         if (full)
             std::swap(x_, full_);
@@ -234,30 +204,19 @@ private:
         if (full)
         {
             std::swap(g_, full_gradient_);
-            return settle(full_square_);
+            return settle(*full_square_);
         }
-        bool relaxed = false;
-        if constexpr (has_relax<Objective>) relaxed = t.step < params_.relax_below && f_.relax(x_);
-        if constexpr (has_gradient<Objective>)
-            if (!relaxed && !near_end_)
-            {
-                f_.gradient(x_, g_);
-                monitor_.count(0, 1);
-                pending_ = true;
-                return monitor_.reason();
-            }
+        const bool relaxed = t.step < params_.relax_below && f_.relax(x_);
+        if (!relaxed && !near_end_ && f_.gradient(x_, g_))
+        {
+            monitor_.count(0, 1);
+            pending_ = true;
+            return monitor_.reason();
+        }
         double square;
-        value_ = step_.value = value_gradient(square);
+        value_ = step_.value = f_.value_gradient(x_, g_, square);
         monitor_.count(1, 1);
         return settle(square);
-    }
-
-    double value_gradient(double& square)
-    {
-        if constexpr (has_gradient_norm<Objective>) return f_.value_gradient(x_, g_, square);
-        const double value = f_.value_gradient(x_, g_);
-        square = f_.space().dot(g_, g_);
-        return value;
     }
 
     /// Books the last step, now that its gradient is known.
@@ -290,13 +249,13 @@ private:
                                    .capped = step_.capped,
                                    .evaluations = monitor_.evaluations(),
                                    .seconds = monitor_.seconds(),
-                                   .waits = waits(f_) - waits_});
+                                   .waits = f_.waits() - waits_});
     }
 
-    Objective& f_;
+    full_objective<Objective> f_;
     point& x_;
     newton_params params_;
-    descent_params common_;
+    newton_common_params common_;
     double rounding_;
     monitor monitor_;
     stopping_test test_;
@@ -306,10 +265,10 @@ private:
     pcg_result model_;
     step_record step_;
     double value_ = 0, scale_ = 1, taken_ = 0;
-    double full_square_ = 0;
-    bool near_end_ = true; // the norm of the next gradient will be wanted
-    bool pending_ = false; // the last step has no gradient norm yet
-    std::uint64_t waits_;  // before the start
+    std::optional<double> full_square_; // norm of full_gradient_ squared, if it came with the trial steps
+    bool near_end_ = true;              // the norm of the next gradient will be wanted
+    bool pending_ = false;              // the last step has no gradient norm yet
+    std::uint64_t waits_;               // before the start
     report report_;
 };
 
@@ -319,8 +278,8 @@ private:
 /// iterate whatever the reason to stop. Throws parameter_error, and nothing else but what f and the observer do.
 template <objective Objective>
     requires has_hessian<Objective> report newton(Objective& f, typename Objective::point& x,
-                                                  const newton_params& params = {}, const descent_params& common = {},
-                                                  const observer& ask = {})
+                                                  const newton_params& params = {},
+                                                  const newton_common_params& common = {}, const observer& ask = {})
     {
         params.validate();
         common.validate();

@@ -20,6 +20,8 @@ struct wolfe_params
     /// directions; 0.1 makes searches nearly exact, which plain conjugate gradients like.
     double curvature = 0.9;
 
+    friend bool operator==(const wolfe_params&, const wolfe_params&) = default;
+
     void validate() const
     {
         if (!(sufficient_decrease > 0 && sufficient_decrease < 0.5))
@@ -48,6 +50,8 @@ struct exact_params
     /// Passes of bracketing, each one evaluation, or one batch of them. Range >= 1.
     int bracket_passes = 30;
 
+    friend bool operator==(const exact_params&, const exact_params&) = default;
+
     void validate() const
     {
         if (!(tolerance > 0 && tolerance < 1)) throw parameter_error("exact.tolerance", "must be in (0, 1)");
@@ -67,6 +71,8 @@ enum class line_search_method
     backtracking  ///< Armijo only
 };
 
+/// Of the descent methods. Newton's method has a search of its own, which takes wolfe.sufficient_decrease,
+/// barrier_fraction and rounding alone (newton_search_params).
 struct line_search_params
 {
     /// hybrid where values are cheaper than gradients; strong_wolfe where they come together anyway.
@@ -93,6 +99,8 @@ struct line_search_params
     /// Relative rounding error of a value. A rise by less is no rise, and such small decreases are judged by slopes.
     /// Range [0, 1e-3). An objective that computes in float says so by its own rounding(), and the larger one holds.
     double rounding = 1e-14;
+
+    friend bool operator==(const line_search_params&, const line_search_params&) = default;
 
     void validate() const
     {
@@ -157,7 +165,7 @@ struct stopping_params
     }
 };
 
-/// What all methods share.
+/// What all descent methods share.
 struct descent_params
 {
     solve::line_search_params line_search = {};
@@ -285,6 +293,36 @@ struct newton_params
     }
 };
 
+/// How far Newton's method goes along a direction: the best of the full step and fractions of it. As in
+/// line_search_params.
+struct newton_search_params
+{
+    double sufficient_decrease = wolfe_params{}.sufficient_decrease;
+    double barrier_fraction = line_search_params{}.barrier_fraction;
+    double rounding = line_search_params{}.rounding;
+};
+
+/// What Newton's method has in common with the others.
+struct newton_common_params
+{
+    newton_search_params search = {};
+    stopping_params stopping = {};
+
+    void validate() const
+    {
+        line_search().validate();
+        stopping.validate();
+    }
+
+    /// A line search with the same numbers.
+    line_search_params line_search() const
+    {
+        return {.wolfe = {.sufficient_decrease = search.sufficient_decrease},
+                .barrier_fraction = search.barrier_fraction,
+                .rounding = search.rounding};
+    }
+};
+
 enum class method
 {
     automatic,          ///< newton where the objective has a Hessian, else lbfgs
@@ -316,6 +354,27 @@ struct params
         lbfgs.validate();
         conjugate_gradient.validate();
         common().validate();
+        if (method == solve::method::newton) require_newton_search();
+    }
+
+    /// Throws parameter_error where something is set that Newton's method has no use for.
+    void require_newton_search() const
+    {
+        const descent_params unset;
+        if (line_search == newton_common().line_search() && first_length == unset.first_length &&
+            linearize_after == unset.linearize_after)
+            return;
+        throw parameter_error("line_search", "Newton's method takes wolfe.sufficient_decrease, barrier_fraction and "
+                                             "rounding alone; leave the rest, first_length and linearize_after as "
+                                             "they are, or choose another method");
+    }
+
+    newton_common_params newton_common() const
+    {
+        return {.search = {.sufficient_decrease = line_search.wolfe.sufficient_decrease,
+                           .barrier_fraction = line_search.barrier_fraction,
+                           .rounding = line_search.rounding},
+                .stopping = stopping};
     }
 
     descent_params common() const

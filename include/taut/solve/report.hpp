@@ -24,7 +24,7 @@ struct history_entry
     bool capped = false;     ///< the barrier cut the step
     int evaluations = 0;     ///< values computed so far
     double seconds = 0;      ///< since the start of the run
-    std::uint64_t waits = 0; ///< of the host for a device, since the start of the run (has_waits)
+    std::uint64_t waits = 0; ///< of the host for a device, since the start of the run
 };
 
 /// What a minimisation did. Values in the history never rise by more than the rounding error of a value.
@@ -41,8 +41,8 @@ struct report
     double value = 0;         ///< f at the end
     double gradient_norm = 0; ///< relative norm of the gradient at the end
     double seconds = 0;       ///< of the whole run
-    std::uint64_t waits = 0;  ///< of the host for a device (Newton's method, has_waits)
-    std::vector<int> capping; ///< what the last step of Newton's method met first, if a barrier cut it (has_capping)
+    std::uint64_t waits = 0;  ///< of the host for a device (Newton's method)
+    std::vector<int> capping; ///< what the last step of Newton's method met first, if a barrier cut it
     std::vector<history_entry> history;
 };
 

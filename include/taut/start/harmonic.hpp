@@ -19,7 +19,7 @@ std::vector<char> anchored(const untangle_problem<Element>& problem, const csr& 
     std::vector<char> reached(problem.held.size(), 0);
     std::vector<idx> front;
     for (std::size_t v = 0; v < reached.size(); ++v)
-        if (problem.holds(v, k))
+        if (problem.held.test(v, k))
         {
             reached[v] = 1;
             front.push_back(static_cast<idx>(v));
@@ -49,7 +49,7 @@ std::vector<vec<Element::dimension>> harmonic_start(const untangle_problem<Eleme
         barycentric_system system;
         std::vector<idx> place(reached.size(), -1);
         for (std::size_t v = 0; v < reached.size(); ++v)
-            if (reached[v] && !problem.holds(v, k))
+            if (reached[v] && !problem.held.test(v, k))
             {
                 place[v] = static_cast<idx>(system.unknown.size());
                 system.unknown.push_back(static_cast<idx>(v));

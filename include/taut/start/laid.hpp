@@ -47,7 +47,7 @@ inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triang
     if (!laid) return std::nullopt;
     std::vector<anchor> anchors;
     for (std::size_t v = 0; v < x.size(); ++v)
-        if (problem.pinned(v)) anchors.push_back({(*laid)[v], x[v]});
+        if (problem.held.all(v)) anchors.push_back({(*laid)[v], x[v]});
     similarity map = anchors.empty() ? similarity{.turn = 0} : fit_similarity(anchors).map;
     if (!(std::abs(map.turn) > 0))
     {

@@ -62,7 +62,7 @@ public:
         /// Spreads out what caps the first step: meant for maps that come from a coarser level.
         void relax() { objective_.relax(x_); }
 
-        solve::report minimize(const solve::params& how, const solve::observer& ask = {})
+        solve::report minimize(const solve::params& how, const observer& ask = {})
         {
             return solve::minimize(objective_, x_, how, ask);
         }

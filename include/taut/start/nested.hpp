@@ -57,7 +57,7 @@ public:
     /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
     /// reason() then says how.
     /// plan: that of a level; asked for each level but the finest, coarse ones first.
-    std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer,
+    std::vector<vec2> run(const std::function<observer(std::size_t level)>& ask,
                           const std::function<level_solver::plan(std::size_t level)>& plan)
     {
         const std::size_t first = params_.first_level(levels_);
@@ -69,7 +69,7 @@ public:
         for (std::size_t l = first; l > 0; --l)
         {
             if (stopped()) return fail("it was stopped");
-            uv = minimised(l, plan(l), uv, l < first, observer(l));
+            uv = minimised(l, plan(l), uv, l < first, ask(l));
             if (stopped()) return fail("it was stopped");
             if (reports_.back().solve.stop == solve::stop::not_finite_start)
                 return fail("the energy is not finite on level " + std::to_string(l));
@@ -89,7 +89,7 @@ public:
 
 private:
     std::vector<vec2> minimised(std::size_t l, level_solver::plan host, const std::vector<vec2>& uv, bool relax,
-                                const solve::observer& ask)
+                                const observer& ask)
     {
         level_solver::level level(solver_, std::move(host), uv);
         if (relax && params_.stopping.max_iterations > 0) level.relax();

@@ -45,7 +45,7 @@ double expected_measure(const untangle_problem<Element>& problem, const std::vec
         vec<D> low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
         for (std::size_t v = 0; v < x.size(); ++v)
             for (int k = 0; k < D; ++k)
-                if (all || problem.holds(v, k))
+                if (all || problem.held.test(v, k))
                 {
                     low[k] = std::min(low[k], x[v][k]);
                     high[k] = std::max(high[k], x[v][k]);

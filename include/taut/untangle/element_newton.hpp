@@ -5,13 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include <taut/core/held_marks.hpp>
 #include <taut/core/parallel.hpp>
 #include <taut/energy/regularized_triangle.hpp>
 #include <taut/mesh/first_flip.hpp>
@@ -32,8 +32,8 @@ public:
         vec2 target, stiffness; ///< pulls with sum of stiffness (x - target)^2, a coordinate each
     };
 
-    /// held: one set of coordinates a vertex, these are not moved. Cells and held are referred to.
-    triangle_newton(std::span<const std::array<idx, 3>> cells, std::span<const std::uint8_t> held)
+    /// held: one a vertex, these coordinates are not moved. Cells and held are referred to.
+    triangle_newton(std::span<const std::array<idx, 3>> cells, const held_marks<2>& held)
         : cells_(cells),
           held_(held),
           solver_(cells, pinned(held)),
@@ -149,10 +149,10 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    static std::vector<char> pinned(std::span<const std::uint8_t> held)
+    static std::vector<char> pinned(const held_marks<2>& held)
     {
         std::vector<char> flags(held.size());
-        for (std::size_t v = 0; v < held.size(); ++v) flags[v] = held[v] == 3;
+        for (std::size_t v = 0; v < held.size(); ++v) flags[v] = held.all(v);
         return flags;
     }
 
@@ -189,7 +189,7 @@ private:
     {
         for (std::size_t c = 0; c < cells_.size(); ++c)
             for (std::size_t i = 0; i < 6; ++i)
-                if (held_[u(cells_[c][i / 2])] >> (i % 2) & 1u)
+                if (held_.test(u(cells_[c][i / 2]), static_cast<int>(i % 2)))
                 {
                     for (std::size_t j = 0; j < 6; ++j) blocks_[c][i][j] = blocks_[c][j][i] = 0;
                     blocks_[c][i][i] = 1;
@@ -198,7 +198,7 @@ private:
     }
 
     std::span<const std::array<idx, 3>> cells_;
-    std::span<const std::uint8_t> held_;
+    const held_marks<2>& held_;
     front_cholesky solver_;
     std::vector<front_cholesky::block> blocks_;
     std::vector<std::array<vec2, 3>> forces_;

@@ -77,7 +77,7 @@ private:
             return false;
         for (std::size_t v = 0; v < x_.size(); ++v)
             for (int k = 0; k < 2; ++k)
-                if (problem.holds(v, k)) x_[v][k] = state.initial()[v][k];
+                if (problem.held.test(v, k)) x_[v][k] = state.initial()[v][k];
         newton_ = std::make_unique<detail::triangle_newton>(state.cells(), problem.held);
         newton_->area_weight = params_.area_weight;
         newton_->proceed = [&state] { return state.proceed(0); };

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <taut/core/error.hpp>
-#include <taut/solve/observer.hpp>
+#include <taut/core/observer.hpp>
 
 namespace taut
 {
@@ -19,7 +19,7 @@ struct untangle_params
     std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()};
 
     /// Asked after every iteration: go on? iteration, value (fewest inverted elements so far) and seconds are set.
-    solve::observer observer = {};
+    taut::observer observer = {};
 
     /// Names of the stages to run, in this order; empty: all that the dimension and the device allow
     /// (stages.hpp).

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -85,8 +84,10 @@ private:
             newton_->shapes = detail::rest_shapes(mesh<triangle>(std::move(points), state.cells()), measure);
         }
         for (std::size_t v = 0; v < held_.size(); ++v)
-            if (const std::uint8_t pulled = problem.held[v] & static_cast<std::uint8_t>(~held_[v]))
-                newton_->springs.push_back({v, state.initial()[v], vec2(pulled & 1u, pulled >> 1 & 1u)});
+        {
+            const auto pulled = [&](int k) { return problem.held.test(v, k) && !held_.test(v, k); };
+            if (pulled(0) || pulled(1)) newton_->springs.push_back({v, state.initial()[v], vec2(pulled(0), pulled(1))});
+        }
         for (auto& s : newton_->springs) s.stiffness /= static_cast<double>(newton_->springs.size());
         vec2 low = x_.front(), high = low;
         for (const vec2& p : x_)
@@ -105,13 +106,9 @@ private:
         std::vector<char> on_boundary(rim.held.size(), 0);
         for (const auto& edge : boundary_facets(rim.rest))
             for (const idx v : edge) on_boundary[static_cast<std::size_t>(v)] = 1;
-        bool any = false;
         for (std::size_t v = 0; v < rim.held.size(); ++v)
-        {
             if (!on_boundary[v]) rim.held[v] = 0;
-            any = any || rim.held[v] != 0;
-        }
-        if (!any) return false;
+        if (!rim.held.any()) return false;
         x_ = detail::harmonic_start(rim, state.initial());
         held_ = std::move(rim.held);
         return injective(rim.rest);
@@ -122,7 +119,7 @@ private:
         auto laid = detail::laid_start(state.problem(), state.initial(), state.draft());
         if (!laid) return false;
         x_ = std::move(*laid);
-        held_.assign(x_.size(), 0);
+        held_ = held_marks<2>(x_.size());
         return injective(state.problem().rest);
     }
 
@@ -154,7 +151,7 @@ private:
 
     pull_stage_params params_;
     std::unique_ptr<detail::triangle_newton> newton_;
-    std::vector<std::uint8_t> held_; // by newton_
+    held_marks<2> held_; // by newton_
     std::vector<vec2> x_;
     std::mt19937 random_{1};
     int standing_ = 0;  // steps in a row that could not be made

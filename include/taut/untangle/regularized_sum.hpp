@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include <taut/core/held_marks.hpp>
 #include <taut/core/linalg.hpp>
 #include <taut/core/parallel.hpp>
 #include <taut/energy/regularized_triangle.hpp>
@@ -29,7 +30,7 @@ public:
     static constexpr int D = Element::dimension;
 
     /// Both are referred to.
-    regularized_sum(const mesh<Element>& m, std::span<const std::uint8_t> held)
+    regularized_sum(const mesh<Element>& m, const held_marks<D>& held)
         : mesh_(m),
           held_(held),
           around_(vertex_corners(m)),
@@ -59,7 +60,7 @@ public:
             vec<D> total(0.0);
             for (const idx corner : around_.row(v)) total += forces_[u(corner)];
             for (int k = 0; k < D; ++k)
-                gradient[D * u(v) + static_cast<std::size_t>(k)] = held_[u(v)] >> k & 1u ? 0.0 : total[k];
+                gradient[D * u(v) + static_cast<std::size_t>(k)] = held_.test(u(v), k) ? 0.0 : total[k];
         }
         return sum;
     }
@@ -112,7 +113,7 @@ private:
     }
 
     const mesh<Element>& mesh_;
-    std::span<const std::uint8_t> held_;
+    const held_marks<D>& held_;
     csr around_;
     std::vector<vec<D>> forces_; // of a corner
     std::vector<double> values_; // of an element

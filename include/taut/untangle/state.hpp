@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -10,7 +9,7 @@
 #include <vector>
 
 #include <taut/constrain/untangle_problem.hpp>
-#include <taut/core/stopwatch.hpp>
+#include <taut/core/budget.hpp>
 #include <taut/exact/certify.hpp>
 #include <taut/untangle/params.hpp>
 
@@ -28,9 +27,12 @@ public:
     static constexpr int D = Element::dimension;
     using map = std::vector<vec<D>>;
 
-    /// Both are referred to.
+    /// The problem is referred to.
     untangle_state(const untangle_problem<Element>& problem, const untangle_params& params)
-        : problem_(problem), params_(params), best_(problem.initial), flips_(certified(best_))
+        : problem_(problem),
+          budget_(params.time_limit, params.observer),
+          best_(problem.initial),
+          flips_(certified(best_))
     {
         double largest = 0;
         for (const auto& p : problem.initial)
@@ -72,23 +74,13 @@ public:
     bool proceed(int iterations = 1)
     {
         iterations_ += iterations;
-        if (stopped()) return false;
-        solve::progress now;
-        now.iteration = iterations_;
-        now.value = static_cast<double>(flips_.defects());
-        now.seconds = seconds();
-        if (now.seconds > params_.time_limit.count())
-            timed_out_ = true;
-        else if (params_.observer && !params_.observer(now))
-            cancelled_ = true;
-        return !stopped();
+        return budget_.proceed({.iteration = iterations_, .value = static_cast<double>(flips_.defects())});
     }
 
-    bool timed_out() const { return timed_out_; }
-    bool cancelled() const { return cancelled_; }
-    bool stopped() const { return timed_out_ || cancelled_; }
-    double seconds() const { return clock_.total(); }
-    double seconds_left() const { return std::max(0.0, params_.time_limit.count() - seconds()); }
+    bool cancelled() const { return budget_.refused(); }
+    bool stopped() const { return budget_.over(); }
+    double seconds() const { return budget_.total(); }
+    double seconds_left() const { return budget_.left().count(); }
 
 private:
     certificate keep(map trial)
@@ -114,7 +106,7 @@ private:
         map result = problem_.initial;
         for (std::size_t v = 0; v < result.size(); ++v)
             for (int k = 0; k < D; ++k)
-                if (!problem_.holds(v, k)) result[v][k] = x[v][k] / unit;
+                if (!problem_.held.test(v, k)) result[v][k] = x[v][k] / unit;
         return result;
     }
 
@@ -124,13 +116,11 @@ private:
     }
 
     const untangle_problem<Element>& problem_;
-    const untangle_params& params_;
-    detail::stopwatch clock_;
+    budget budget_;
     double unit_ = 1;
     map initial_, draft_, best_;
     certificate flips_;
     int iterations_ = 0;
-    bool timed_out_ = false, cancelled_ = false;
 };
 
 } // namespace taut

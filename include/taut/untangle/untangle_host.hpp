@@ -119,10 +119,10 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
     {
         result.ids = result.flips.flipped > 0 ? result.flips.ids : result.flips.branch_ids;
         const std::string left = describe_defects<Element>(result.flips);
-        result.reason = state.cancelled()   ? "cancelled: " + left
-                        : state.timed_out() ? "time limit: " + left
-                                            : "no stage makes progress: " + left +
-                                                  "; a certificate that there is no solution was not found either";
+        result.reason = state.cancelled() ? "cancelled: " + left
+                        : state.stopped() ? "time limit: " + left
+                                          : "no stage makes progress: " + left +
+                                                "; a certificate that there is no solution was not found either";
     }
     result.least_relative_det = detail::least_relative_det(problem, result.map);
     result.seconds = state.seconds();

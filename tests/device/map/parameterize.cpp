@@ -318,6 +318,7 @@ TEST_CASE("parameterize: parameters outside their domain are named")
     CHECK(field_of({.start = static_cast<start_method>(9)}) == "start");
     CHECK(field_of({.start = start_method::barycentric, .barycentric = {.stretch_rounds = -1}}) == "stretch_rounds");
     CHECK(field_of({.solve = {.newton = {.relax_below = 2}}}) == "newton.relax_below");
+    CHECK(field_of({.solve = {.line_search = {.shrink = 0.4}}}) == "line_search");
 }
 
 TEST_CASE("parameterize: stopping for any reason leaves a valid map once there is one")
@@ -333,7 +334,7 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map once there i
         const auto until = [&](auto&& goes_on)
         {
             asked = 0;
-            return parameterize(q, m, {.solve = endless, .observer = [&](const solve::progress& p) {
+            return parameterize(q, m, {.solve = endless, .observer = [&](const taut::progress& p) {
                                            return goes_on(++asked, p.usable);
                                        }});
         };

@@ -89,6 +89,27 @@ TEST_CASE("pins: none is met by the free map's turned, scaled or shifted image, 
     CHECK(worst < 1e-2);
 }
 
+TEST_CASE("pins: a stop once there is a start leaves it, with its pins in place")
+{
+    queue q;
+    const auto m = hills();
+    const auto free = parameterize(q, m);
+    REQUIRE(free);
+    auto pins = taut::constraints(m);
+    for (const idx v : {0, 5, 11}) pins.pin(v, free.uv[static_cast<std::size_t>(v)] + vec2(40, 3)); // not at the origin
+    for (const int questions : {0, 1, 2, 5, 20})
+    {
+        CAPTURE(questions);
+        int usable = 0;
+        const auto r = parameterize(
+            q, m, {.constraints = pins, .observer = [&](const auto& p) { return !p.usable || usable++ < questions; }});
+        CHECK(usable == questions + 1);
+        CHECK(r.report.solve.stop == solve::stop::user);
+        CHECK(certified(m, r));
+        if (r) check_pins(pins, r);
+    }
+}
+
 TEST_CASE("pins: a boundary that is pinned to a polygon that is not convex, and a vertex inside")
 {
     queue q;

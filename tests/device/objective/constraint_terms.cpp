@@ -31,7 +31,7 @@ struct setting
     setting()
     {
         const auto n = start.size();
-        wanted.held.assign(n, 0);
+        wanted.held = held_marks<2>(n);
         wanted.held[n / 2] = 1;
         wanted.held[n / 3] = 2;
         wanted.springs = {{static_cast<taut::idx>(n / 4), vec2(0.4, -0.1), 3.0},
@@ -104,7 +104,7 @@ TEST_CASE("point constraints: the gradient is the derivative of the value, and 0
     // The held coordinates of the direction are not the gradient's matter.
     const auto values = g.download();
     const auto layout = s.levels.make_layout(0);
-    const auto local = layout->order.vertices.apply(s.wanted.held);
+    const auto local = layout->order.vertices.apply(s.wanted.held.bits());
     auto free = direction;
     for (std::size_t v = 0; v < local.size(); ++v)
         for (std::size_t k = 0; k < 2; ++k)
@@ -161,7 +161,7 @@ TEST_CASE("point constraints: Newton's method converges, held coordinates stay a
     const auto end = f.download(x);
     for (std::size_t v = 0; v < end.size(); ++v)
         for (int k = 0; k < 2; ++k)
-            if ((s.wanted.held[v] >> k & 1u) != 0) CHECK(end[v][k] == s.start[v][k]);
+            if (s.wanted.held.test(v, k)) CHECK(end[v][k] == s.start[v][k]);
     CHECK(s.spring_energy(end) < 0.2 * s.spring_energy(s.start));
     CHECK(certify<2>(s.finest.cells(), std::span<const vec2>(end)).flipped == 0);
 }

@@ -142,7 +142,7 @@ TEST_CASE("nested: the report tells of every level")
     const auto m = test::bumpy(test::sized(96, 5), 0.25, 2);
     std::set<int> seen;
     const auto r = parameterize(q, m,
-                                {.observer = [&](const solve::progress& p)
+                                {.observer = [&](const taut::progress& p)
                                  {
                                      if (p.iterate) seen.insert(p.level);
                                      return true;
@@ -331,7 +331,7 @@ TEST_CASE("nested: a caller who stops a run gets a certified map from the finest
             CAPTURE(steps);
             int refused = 0;
             const auto r = parameterize(q, m,
-                                        {.observer = [&](const solve::progress& p)
+                                        {.observer = [&](const taut::progress& p)
                                          {
                                              if (p.level != level || p.evaluations == 0 || p.iteration < steps)
                                                  return true;
@@ -358,14 +358,14 @@ TEST_CASE("nested: a stop in any phase leaves a certified map or none")
     queue q;
     const auto m = test::bumpy(test::sized(50, 5), 0.5, 3);
     int asked = 0, last = 0;
-    const auto count = [&](const solve::progress&) { return ++asked, true; };
+    const auto count = [&](const taut::progress&) { return ++asked, true; };
     REQUIRE(parameterize(q, m, {.observer = count}));
     for (int k = 0; k <= 10; ++k)
     {
         last = 1 + k * (asked - 2) / 10; // not the last one, which need not be minded
         bool usable = false;
         int now = 0;
-        const auto stop = [&](const solve::progress& p) { return usable = p.usable, ++now < last; };
+        const auto stop = [&](const taut::progress& p) { return usable = p.usable, ++now < last; };
         const auto r = parameterize(q, m, {.observer = stop});
         if (usable) CHECK(r);
         CHECK(r.report.outcome == (r ? outcome::valid : outcome::stopped));

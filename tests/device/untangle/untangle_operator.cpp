@@ -41,12 +41,10 @@ untangle_problem<Element> boxed(mesh<Element> m)
 {
     untangle_problem<Element> p{std::move(m), {}, {}};
     p.initial = identity(p.rest);
-    for (const auto& x : p.initial)
-    {
-        bool rim = false;
-        for (int c = 0; c < Element::dimension; ++c) rim = rim || x[c] == 0 || x[c] == 1;
-        p.held.push_back(rim ? p.all : std::uint8_t{0});
-    }
+    p.held = held_marks<Element::dimension>(p.initial.size());
+    for (std::size_t v = 0; v < p.initial.size(); ++v)
+        for (int c = 0; c < Element::dimension; ++c)
+            if (p.initial[v][c] == 0 || p.initial[v][c] == 1) p.held[v] = p.held.every;
     return p;
 }
 
@@ -58,7 +56,7 @@ void jitter(untangle_problem<Element>& p, double size, unsigned seed)
     std::uniform_real_distribution<double> draw(-size, size);
     for (std::size_t v = 0; v < p.held.size(); ++v)
         for (int c = 0; c < Element::dimension; ++c)
-            if (!p.holds(v, c)) p.initial[v][c] += draw(generator);
+            if (!p.held.test(v, c)) p.initial[v][c] += draw(generator);
 }
 
 /// Whether every held coordinate of x is that of the problem, bit for bit.
@@ -67,7 +65,7 @@ bool holds(const untangle_problem<Element>& p, const std::vector<vec<Element::di
 {
     bool all = x.size() == p.initial.size();
     for (std::size_t v = 0; all && v < x.size(); ++v)
-        for (int c = 0; c < Element::dimension; ++c) all = all && (!p.holds(v, c) || x[v][c] == p.initial[v][c]);
+        for (int c = 0; c < Element::dimension; ++c) all = all && (!p.held.test(v, c) || x[v][c] == p.initial[v][c]);
     return all;
 }
 
@@ -97,7 +95,7 @@ untangle_problem<triangle> with_pinned_fold(int n)
     const auto at = [&](int i, int j) { return static_cast<std::size_t>(j * (n + 1) + i); };
     const int i = n / 2;
     std::swap(p.initial[at(i, i)], p.initial[at(i + 1, i)]);
-    for (const std::size_t v : {at(i, i), at(i + 1, i), at(i, i + 1), at(i + 1, i + 1)}) p.held[v] = p.all;
+    for (const std::size_t v : {at(i, i), at(i + 1, i), at(i, i + 1), at(i + 1, i + 1)}) p.held[v] = p.held.every;
     return p;
 }
 
@@ -198,7 +196,7 @@ TEST_CASE("untangling operator: a collapsed interior unfolds")
     const int n = test::sized(16, 4);
     auto p = boxed(test::grid(n, n));
     for (std::size_t v = 0; v < p.held.size(); ++v)
-        if (!p.pinned(v)) p.initial[v] = vec2(0.4, 0.55);
+        if (!p.held.all(v)) p.initial[v] = vec2(0.4, 0.55);
     const auto r = untangle_operator<triangle>(q, p).run(p.initial);
     CHECK(bool(r));
     CHECK(holds(p, r.map));
@@ -447,7 +445,7 @@ TEST_CASE("untangling operator: the observer and the time limit end a run with t
     SUBCASE("observer")
     {
         int asked = 0;
-        how.observer = [&](const solve::progress& now)
+        how.observer = [&](const taut::progress& now)
         {
             CHECK(now.value > 0);
             CHECK(now.step == doctest::Approx(0.01));
@@ -498,7 +496,7 @@ TEST_CASE("untangling operator: extreme starts are answered, too")
     }
     SUBCASE("everything is held")
     {
-        std::fill(p.held.begin(), p.held.end(), p.all);
+        for (std::size_t v = 0; v < p.held.size(); ++v) p.held[v] = p.held.every;
         std::swap(p.initial[0], p.initial[5]);
         const auto r = untangle_operator<triangle>(q, p).run(p.initial, how);
         CHECK_FALSE(bool(r));
@@ -551,6 +549,6 @@ TEST_CASE("untangling operator: bad input is refused by name")
     CHECK_THROWS_AS(untangle.run(start), parameter_error);
     start.pop_back();
     CHECK_THROWS_AS(untangle.run(start), parameter_error);
-    p.held.pop_back();
+    p.held = held_marks<2>(p.held.size() - 1);
     CHECK_THROWS_AS(untangle_operator<triangle>(q, p), parameter_error);
 }

@@ -166,7 +166,7 @@ TEST_CASE("constraints: a problem holds the pins bit for bit, whatever the map h
     CHECK_NOTHROW(p.validate());
     CHECK(p.initial[0] == vec2(0.1, 0.2));
     CHECK(p.initial[8] == vec2(7, 1.0 / 3));
-    CHECK(p.held == std::vector<std::uint8_t>{3, 0, 0, 0, 0, 0, 0, 0, 2});
+    CHECK(p.held.bits() == std::vector<std::uint8_t>{3, 0, 0, 0, 0, 0, 0, 0, 2});
     check_refused([&] { make_untangle_problem(m, std::vector<vec2>(8), c); }, constraint_fault::wrong_count, {});
 }
 

@@ -93,12 +93,13 @@ TEST_CASE("untangle: random pins on random disks end honestly, and those of a va
         untangle_problem<triangle> problem{m, valid.uv, {}};
         const double freedom = chance(random), noise = 10 * chance(random) * chance(random);
         const bool pins_fit = chance(random) < 0.6;
-        for (vec2& p : problem.initial)
+        problem.held = held_marks<2>(problem.initial.size());
+        for (std::size_t v = 0; v < problem.initial.size(); ++v)
         {
             const auto held = chance(random) < freedom ? 0u : std::uniform_int_distribution<unsigned>(1, 3)(random);
-            problem.held.push_back(static_cast<std::uint8_t>(held));
+            problem.held[v] = static_cast<std::uint8_t>(held);
             for (int k = 0; k < 2; ++k)
-                if (!pins_fit || (held >> k & 1u) == 0) p[k] += noise * any(random);
+                if (!pins_fit || !problem.held.test(v, k)) problem.initial[v][k] += noise * any(random);
         }
         if (number % 50 == 0) std::fill(problem.initial.begin(), problem.initial.end(), vec2(0.0));
         untangle_params params; // a fraction of the effort that is usual

@@ -69,7 +69,7 @@ private:
     host_space space_;
 };
 
-static_assert(has_values<reciprocal<true>> && !has_values<reciprocal<false>>);
+static_assert(full_objective<reciprocal<true>>::batches && !full_objective<reciprocal<false>>::batches);
 
 } // namespace
 

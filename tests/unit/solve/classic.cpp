@@ -123,7 +123,6 @@ TEST_CASE("minimize: noise in values is tolerated where the objective states its
         void step(const point& x, double a, const point& d, point& out) { chain.step(x, a, d, out); }
         double rounding() const { return 1e-7; }
     };
-    static_assert(has_rounding<rounded>);
 
     for (const auto search : {line_search_method::hybrid, line_search_method::strong_wolfe})
     {

@@ -120,7 +120,7 @@ private:
     device_space space_;
 };
 
-static_assert(objective<device_objective> && has_max_step<device_objective> && has_values<device_objective>);
+static_assert(objective<device_objective> && full_objective<device_objective>::batches);
 
 } // namespace
 
@@ -152,7 +152,7 @@ TEST_CASE("device model: an iteration whose full step is accepted makes the host
         *x.data = functions::noise(80);
         int waits = 0, evaluations = 0, full = 0, iteration = 0;
         minimize(f, x, {.method = which},
-                 [&](const progress& p)
+                 [&](const taut::progress& p)
                  {
                      if (!p.iterate) return true;
                      if (p.iteration > 0 && p.step == 1 && p.evaluations == evaluations + 1)

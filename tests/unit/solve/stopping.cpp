@@ -68,7 +68,7 @@ TEST_CASE("stopping: the observer sees every iterate and ends the run within one
         std::vector<double> x(10, 0.3);
         int asked = 0, iterates = 0;
         const auto r = minimize(f, x, {},
-                                [&](const progress& p)
+                                [&](const taut::progress& p)
                                 {
                                     iterates += p.iterate;
                                     return asked++ < limit;
@@ -85,7 +85,7 @@ TEST_CASE("stopping: the observer sees every iterate and ends the run within one
     std::vector<double> x(10, 0.3);
     std::vector<double> values;
     const auto r = minimize(f, x, {},
-                            [&](const progress& p)
+                            [&](const taut::progress& p)
                             {
                                 if (p.iterate) values.push_back(p.value);
                                 return true;
@@ -100,7 +100,7 @@ TEST_CASE("stopping: an exception of the observer passes through and leaves the 
     std::vector<double> x(4, 0.3);
     double value = 0;
     CHECK_THROWS_AS(minimize(f, x, {},
-                             [&](const progress& p) -> bool
+                             [&](const taut::progress& p) -> bool
                              {
                                  value = p.value;
                                  if (p.iteration == 3) throw std::runtime_error("enough");
@@ -112,7 +112,7 @@ TEST_CASE("stopping: an exception of the observer passes through and leaves the 
 
 TEST_CASE("stopping: the time limit ends the run in the middle of a line search")
 {
-    using clock = monitor::clock;
+    using clock = taut::budget::clock;
     constexpr auto limit = std::chrono::milliseconds(20);
     int calls = 0, late = 0;
     clock::time_point first;

@@ -22,9 +22,9 @@ using kind = infeasibility_kind;
 template <class Element, class Pinned>
 untangle_problem<Element> problem(const mesh<Element>& m, std::vector<vec<Element::dimension>> x, const Pinned& pinned)
 {
-    std::vector<std::uint8_t> held(x.size(), 0);
+    held_marks<Element::dimension> held(x.size());
     for (std::size_t v = 0; v < held.size(); ++v)
-        if (pinned(static_cast<taut::idx>(v))) held[v] = untangle_problem<Element>::all;
+        if (pinned(static_cast<taut::idx>(v))) held[v] = held.every;
     return {m, std::move(x), std::move(held)};
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("infeasible: an element with all vertices pinned, flipped or flat, is 
     for (taut::idx c = 0; c < m.cell_count(); ++c)
     {
         const auto t = cell(c);
-        if (std::all_of(t.begin(), t.end(), [&](taut::idx v) { return p.pinned(std::size_t(v)); })) pinned = c;
+        if (std::all_of(t.begin(), t.end(), [&](taut::idx v) { return p.held.all(std::size_t(v)); })) pinned = c;
     }
     REQUIRE(pinned >= 0);
     p.initial[10] = (p.initial[5] + p.initial[6]) / 2.0; // on the edge: flat
@@ -131,7 +131,7 @@ TEST_CASE("infeasible: a mirrored or empty pinned boundary is proved by its area
 
     // One free boundary vertex, and nothing is known.
     auto p = boundary_problem(m, [](const vec2& q) { return vec2(-q.x, q.y); });
-    p.held.back() = 0;
+    p.held[p.held.size() - 1] = 0;
     CHECK(!proves(find_infeasibility(p), kind::outline_measure));
 
     // A hole is run around the other way: only the sum of the areas counts.
@@ -291,10 +291,11 @@ TEST_CASE("infeasible: pins of a valid map are never refused")
         if (valid.flipped > 0) continue;
         const double density = uniform();
         auto p = problem(m, x, [&](taut::idx) { return uniform() < density; });
-        for (auto& bits : p.held) bits = uniform() < 0.1 ? std::uint8_t(rng() % 4) : bits;
+        for (std::size_t v = 0; v < p.held.size(); ++v)
+            if (uniform() < 0.1) p.held[v] = std::uint8_t(rng() % 4);
         for (std::size_t v = 0; v < x.size(); ++v)
             for (int k = 0; k < 2; ++k)
-                if (!p.holds(v, k)) p.initial[v][k] = 10 * uniform(); // what is free says nothing
+                if (!p.held.test(v, k)) p.initial[v][k] = 10 * uniform(); // what is free says nothing
         INFO(round);
         const auto found = find_infeasibility(p);
         if (valid) CHECK(!found);

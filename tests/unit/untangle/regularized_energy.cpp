@@ -112,7 +112,7 @@ TEST_CASE_TEMPLATE("regularized energy: the sum over a mesh has the gradient of 
     else
         cells = {{0, 1, 2, 3}};
     const mesh<Element> m(points, cells);
-    const std::vector<std::uint8_t> held{1, 0, 0, 0};
+    const held_marks<D> held(std::vector<std::uint8_t>{1, 0, 0, 0});
     detail::regularized_sum<Element> f(m, held);
     f.eps = 0.2;
     f.shapes = detail::rest_shapes(m, 1.0);

@@ -27,7 +27,7 @@ untangle_problem<triangle> pinned_boundary(mesh<triangle> m, Place place)
 {
     std::vector<vec2> x;
     for (const vec3& p : m.points()) x.push_back(place(vec2(p.x, p.y)));
-    std::vector<std::uint8_t> held(x.size(), 0);
+    held_marks<2> held(x.size());
     for (const auto& e : boundary_facets(m))
         for (const taut::idx v : e) held[static_cast<std::size_t>(v)] = 3;
     return {std::move(m), std::move(x), std::move(held)};
@@ -124,7 +124,7 @@ TEST_CASE("untangle: a few pins, or none, are enough where everything else is fr
     {
         CAPTURE(pins);
         auto problem = square(5);
-        problem.held.assign(problem.held.size(), 0);
+        problem.held = held_marks<2>(problem.held.size());
         scramble(problem, 7, 1.0);
         if (pins > 0) problem.held[0] = 3;
         if (pins > 1) problem.held[35] = 3;
@@ -158,7 +158,7 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     CHECK(late.reason.find("time limit") != std::string::npos);
 
     params = {};
-    params.observer = [](const solve::progress&) { return false; };
+    params.observer = [](const taut::progress&) { return false; };
     const auto cancelled = untangle(problem, params);
     check_typed(problem, cancelled);
     CHECK(cancelled.reason.find("cancelled") != std::string::npos);
@@ -166,7 +166,7 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     // The question comes within the first step, too, which is then not made.
     int asked = 0;
     params.stages = {"newton"};
-    params.observer = [&](const solve::progress&) { return ++asked < 3; };
+    params.observer = [&](const taut::progress&) { return ++asked < 3; };
     const auto within = untangle(problem, params);
     check_typed(problem, within);
     CHECK(asked == 3);
@@ -235,7 +235,7 @@ TEST_CASE("untangle: random pins on a free boundary give maps that wind once aro
         CAPTURE(k);
         const auto m = test::bumpy(10, 0.4, static_cast<std::uint32_t>(k));
         const auto free = barycentric_map(m);
-        untangle_problem<triangle> problem{m, free.uv, std::vector<std::uint8_t>(free.uv.size(), 0)};
+        untangle_problem<triangle> problem{m, free.uv, held_marks<2>(free.uv.size())};
         if (k % 2 == 0) problem.draft = free.uv;
         const int pins = 1 + static_cast<int>(uniform(0, 6));
         const double most = uniform(0.05, 0.5);
@@ -243,7 +243,7 @@ TEST_CASE("untangle: random pins on a free boundary give maps that wind once aro
         {
             const std::size_t v = random() % free.uv.size();
             if (problem.held[v] != 0) continue;
-            problem.held[v] = problem.all;
+            problem.held[v] = problem.held.every;
             problem.initial[v] += vec2(uniform(-most, most), uniform(-most, most));
         }
         untangle_params params;
@@ -261,20 +261,20 @@ TEST_CASE("untangle: a map that winds twice is not injective, and gets another o
 {
     const int n = 12;
     const auto m = test::fan(n, true);
-    untangle_problem<triangle> problem{m, {vec2(0.0)}, std::vector<std::uint8_t>(n + 1, 0)};
+    untangle_problem<triangle> problem{m, {vec2(0.0)}, held_marks<2>(n + 1)};
     for (int k = 0; k < n; ++k)
     {
         const double angle = 4 * std::numbers::pi * k / n;
         problem.initial.emplace_back(std::cos(angle), std::sin(angle));
     }
-    problem.held[0] = problem.held[1] = problem.all;
+    problem.held[0] = problem.held[1] = problem.held.every;
     const auto freed = untangle(problem);
     CHECK(static_cast<bool>(freed));
     CHECK(freed.stage != "initial");
     test::check_typed(problem, freed);
 
     // Held where it is, it can only be refused.
-    std::fill(problem.held.begin(), problem.held.end(), problem.all);
+    for (std::size_t v = 0; v < problem.held.size(); ++v) problem.held[v] = problem.held.every;
     const auto held = untangle(problem);
     CHECK(held.outcome == untangle_outcome::infeasible);
     CHECK(held.ids == std::vector<taut::idx>{0});

@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/map/detail/held_coordinates.hpp>
+#include <taut/map/parameterize_params.hpp>
 #include <taut/mesh/ideal.hpp>
 #include <taut/mesh/validate.hpp>
+#include <taut/start/outline.hpp>
 
 namespace taut::detail
 {
@@ -19,17 +20,20 @@ struct run_surface
     mesh<triangle> surface;
     facet_table sides;
     ideal_elements<triangle> ideal;
-    held_coordinates held;
 
-    /// Throws mesh_error, and parameter_error for constraints of another mesh.
+    /// Throws mesh_error, and parameter_error for data of another mesh.
     run_surface(const mesh<triangle>& m, const parameterize_params& params)
-        : unit(unit_scale(m)),
-          surface(scaled(m, unit)),
-          sides(checked(surface, !params.holes)),
-          ideal(surface),
-          held(surface, sides, params, unit)
+        : unit(unit_scale(m)), surface(scaled(m, unit)), sides(checked(surface, !params.holes)), ideal(surface)
     {
         params.data.validate(m.cells().size());
+    }
+
+    /// The vertices that stay where the start has them.
+    std::vector<idx> fixed_boundary(boundary_mode mode) const
+    {
+        if (mode == boundary_mode::free) return {};
+        auto loops = boundary_loops(surface, sides);
+        return std::move(loops[longest_loop(surface.points(), loops)]);
     }
 
 private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/solve/full_objective.hpp>
 #include <taut/solve/line/line_function.hpp>
 #include <taut/solve/monitor.hpp>
-#include <taut/solve/objective.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ public:
     double bound() const noexcept { return limits_.bound; }
     double noise() const noexcept { return limits_.noise; }
     double ceiling() const noexcept { return limits_.lowest + limits_.noise; }
-    int batch() const noexcept { return has_values<Objective> ? limits_.batch : 1; }
+    int batch() const noexcept { return Objective::batches ? limits_.batch : 1; }
     const line_point& best() const noexcept { return best_; }
     bool interrupted() const noexcept { return monitor_.reason().has_value(); }
 
@@ -70,7 +70,7 @@ public:
     {
         if (interrupted())
             std::fill(out.begin(), out.end(), infinite);
-        else if constexpr (has_values<Objective>)
+        else if (Objective::batches)
         {
             f_.values(where_.x, where_.d, a, out);
             monitor_.count(int(a.size()), 0);

@@ -38,9 +38,7 @@ struct operator_arrays
     operator_arrays(queue& q, const untangle_problem<Element>& p, lane_form lanes) : form(lanes)
     {
         const std::size_t n = p.held.size();
-        std::vector<bool> pinned(n);
-        for (std::size_t v = 0; v < n; ++v) pinned[v] = p.pinned(v);
-        solution_order s(p.rest, pinned);
+        solution_order s(p.rest, p.held.pinned());
         order = std::move(s.order);
         moving = static_cast<std::size_t>(s.free_count);
         const auto local = permute(p.rest, order);
@@ -49,7 +47,7 @@ struct operator_arrays
         if (cell_stride > static_cast<std::size_t>(std::numeric_limits<idx>::max() / ((D + 1) * D)))
             throw size_error("rest", "more elements than 32-bit places of their corners; split the mesh");
 
-        std::vector<idx> flat((D + 1) * cell_stride, 0), bits(vertex_stride, untangle_problem<Element>::all);
+        std::vector<idx> flat((D + 1) * cell_stride, 0), bits(vertex_stride, p.held.every);
         for (std::size_t c = 0; c < local.cells().size(); ++c)
             for (std::size_t k = 0; k <= D; ++k) flat[k * cell_stride + c] = local.cells()[c][k];
         for (std::size_t v = 0; v < n; ++v) bits[v] = p.held[old_vertex(v)];

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include <taut/core/error.hpp>
-#include <taut/solve/observer.hpp>
+#include <taut/core/observer.hpp>
 
 namespace taut
 {
@@ -53,7 +53,7 @@ struct operator_params
 
     /// Asked after each batch: go on? iteration, value (sum of |det| over the inverted elements, in units of the mean),
     /// step (delta) and seconds are set.
-    solve::observer observer;
+    taut::observer observer;
 
     /// Throws parameter_error.
     void validate() const

@@ -29,7 +29,7 @@ public:
         operator_params params;
         params.iterations = iterations * moves;
         params.time_limit = std::chrono::duration<double>(state.seconds_left());
-        params.observer = [&state](const solve::progress&) { return state.proceed(0); };
+        params.observer = [&state](const progress&) { return state.proceed(0); };
         if (rounds_++ > 0)
         {
             params.schedule = operator_schedule::constant;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include <taut/core/held_marks.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut
@@ -32,9 +33,9 @@ struct operator_step
     double shear = 1;
     double margin = 0;
 
-    /// The map after the move; held as in untangle_problem.
+    /// The map after the move.
     std::vector<vec<D>> operator()(const mesh<Element>& m, const std::vector<vec<D>>& x,
-                                   const std::vector<std::uint8_t>& held) const
+                                   const held_marks<D>& held) const
     {
         std::vector<vec<D>> sum(x.size(), vec<D>(0.0));
         for (const auto& cell : m.cells())
@@ -49,7 +50,7 @@ struct operator_step
         std::vector<vec<D>> moved = x;
         for (std::size_t v = 0; v < x.size(); ++v)
             for (int c = 0; c < D; ++c)
-                if ((held[v] >> c & 1u) == 0) moved[v][c] += delta * sum[v][c];
+                if (!held.test(v, c)) moved[v][c] += delta * sum[v][c];
         return moved;
     }
 

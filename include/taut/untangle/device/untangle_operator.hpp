@@ -15,7 +15,7 @@
 
 #include <taut/compute/detail/kernels/untangle.hpp>
 #include <taut/compute/kernel.hpp>
-#include <taut/core/stopwatch.hpp>
+#include <taut/core/budget.hpp>
 #include <taut/exact/certify.hpp>
 #include <taut/untangle/device/operator_arrays.hpp>
 #include <taut/untangle/device/operator_frame.hpp>
@@ -88,7 +88,7 @@ public:
     operator_result<D> run(const std::vector<vec<D>>& start, const operator_params& params = {})
     {
         params.validate();
-        const detail::stopwatch clock;
+        budget limits(params.time_limit, params.observer);
         operator_result<D> r;
         r.map = with_held(start);
         r.after = exact(r.map);
@@ -97,7 +97,7 @@ public:
         if (r.after && params.margin == 0)
         {
             r.why = operator_stop::untangled;
-            r.seconds = clock.total();
+            r.seconds = limits.total();
             return r;
         }
 
@@ -114,7 +114,7 @@ public:
             state[state_stop] = running;
             state[state_best_inverted] = state[state_best_below] = std::numeric_limits<idx>::max();
             state_.upload(state);
-            r.why = iterate(params, goal + frame.rounding(), goal, clock, state);
+            r.why = iterate(params, goal + frame.rounding(), goal, limits, state);
             auto candidate = to_user(from, first, frame);
             const certificate c = exact(candidate);
             if (r.after.flipped > c.flipped || (!c.flipped && r.why == operator_stop::untangled))
@@ -134,7 +134,7 @@ public:
         }
         r.iterations = std::min(state[state_iteration], params.iterations);
         r.delta = static_cast<double>(std::bit_cast<float>(state[state_delta]));
-        r.seconds = clock.total();
+        r.seconds = limits.total();
         return r;
     }
 
@@ -180,7 +180,7 @@ private:
         for (std::size_t v = 0; v < x.size(); ++v)
             for (int c = 0; c < D; ++c)
             {
-                if (problem_.holds(v, c)) x[v][c] = problem_.initial[v][c];
+                if (problem_.held.test(v, c)) x[v][c] = problem_.initial[v][c];
                 if (!std::isfinite(x[v][c]))
                     throw parameter_error("start", "vertex " + std::to_string(v) + " is not finite");
             }
@@ -214,7 +214,7 @@ private:
     }
 
     /// Iterates until the device says why it stops, or a limit or the observer does.
-    operator_stop iterate(const operator_params& params, double margin, double goal, const detail::stopwatch& clock,
+    operator_stop iterate(const operator_params& params, double margin, double goal, budget& limits,
                           std::array<idx, state_size>& state)
     {
         int batch = std::min(params.batch, 8);
@@ -222,7 +222,7 @@ private:
         {
             // The state after the last move is looked at, too.
             const std::int64_t left = std::int64_t{params.iterations} - state[state_iteration] + 1;
-            const double before = clock.total();
+            const double before = limits.total();
             enqueue(std::min<std::int64_t>(batch, left), params, static_cast<float>(margin), static_cast<float>(goal));
             state_.download(state);
             switch (state[state_stop])
@@ -237,9 +237,8 @@ private:
                 break;
             }
             if (batch >= left) return operator_stop::iterations;
-            if (params.observer && !params.observer(where(state, clock))) return operator_stop::user;
-            if (clock.total() > params.time_limit.count()) return operator_stop::time;
-            const bool slow = clock.total() - before > 0.1;
+            if (!limits.proceed(where(state))) return limits.refused() ? operator_stop::user : operator_stop::time;
+            const bool slow = limits.total() - before > 0.1;
             batch = slow ? std::max(batch / 2, 1) : std::min(2 * batch, params.batch);
         }
     }
@@ -279,14 +278,13 @@ private:
         }
     }
 
-    static solve::progress where(const std::array<idx, state_size>& state, const detail::stopwatch& clock)
+    static progress where(const std::array<idx, state_size>& state)
     {
-        solve::progress p;
+        progress p;
         p.iteration = state[state_iteration];
         p.evaluations = p.iteration;
         p.value = static_cast<double>(std::bit_cast<float>(state[state_value]));
         p.step = static_cast<double>(std::bit_cast<float>(state[state_delta]));
-        p.seconds = clock.total();
         return p;
     }
 

@@ -21,10 +21,10 @@ bool held_flat(const untangle_problem<Element>& p, const typename mesh<Element>:
 {
     constexpr int D = Element::dimension;
     const auto x = [&](idx v) -> const vec<D>& { return p.initial[static_cast<std::size_t>(v)]; };
-    const auto pinned = [&](idx v) { return p.pinned(static_cast<std::size_t>(v)); };
+    const auto pinned = [&](idx v) { return p.held.all(static_cast<std::size_t>(v)); };
     for (int k = 0; k < D; ++k)
         if (std::all_of(cell.begin(), cell.end(),
-                        [&](idx v) { return p.holds(static_cast<std::size_t>(v), k) && x(v)[k] == x(cell[0])[k]; }))
+                        [&](idx v) { return p.held.test(static_cast<std::size_t>(v), k) && x(v)[k] == x(cell[0])[k]; }))
             return true;
     for (std::size_t i = 0; i < cell.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
@@ -55,7 +55,7 @@ void judge_elements(const untangle_problem<Element>& p, infeasibility& found)
     {
         const auto& cell = p.rest.cells()[static_cast<std::size_t>(c)];
         std::size_t pinned = 0;
-        for (const idx v : cell) pinned += p.pinned(static_cast<std::size_t>(v)) ? 1 : 0;
+        for (const idx v : cell) pinned += p.held.all(static_cast<std::size_t>(v)) ? 1 : 0;
         if (pinned < cell.size())
         {
             if (held_flat(p, cell)) flat.push_back(c);

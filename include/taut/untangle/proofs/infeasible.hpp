@@ -30,13 +30,13 @@ inline void judge_stars(const untangle_problem<triangle>& p, infeasibility& foun
     std::vector<idx> cells;
     for (idx v = 0; v < p.rest.vertex_count(); ++v)
     {
-        if (p.pinned(static_cast<std::size_t>(v))) continue;
+        if (p.held.all(static_cast<std::size_t>(v))) continue;
         planes.clear();
         cells.clear();
         for (const idx corner : around.row(v))
         {
             const auto [a, b] = side_vertices(p.rest, corner); // the edge opposite this corner
-            if (!p.pinned(static_cast<std::size_t>(a)) || !p.pinned(static_cast<std::size_t>(b))) continue;
+            if (!p.held.all(static_cast<std::size_t>(a)) || !p.held.all(static_cast<std::size_t>(b))) continue;
             planes.push_back({p.initial[static_cast<std::size_t>(a)], p.initial[static_cast<std::size_t>(b)]});
             cells.push_back(corner / 3);
         }
@@ -64,7 +64,7 @@ inline void judge_winding(const untangle_problem<triangle>& p, infeasibility& fo
     if (ids.empty()) return;
     std::vector<char> movable(p.held.size(), 0); // the vertex, or one beside it
     for (const auto& t : p.rest.cells())
-        if (!std::all_of(t.begin(), t.end(), [&](idx v) { return p.pinned(static_cast<std::size_t>(v)); }))
+        if (!std::all_of(t.begin(), t.end(), [&](idx v) { return p.held.all(static_cast<std::size_t>(v)); }))
             for (const idx v : t) movable[static_cast<std::size_t>(v)] = 1;
     std::erase_if(ids, [&](idx v) { return movable[static_cast<std::size_t>(v)] != 0; });
     found.prove(infeasibility_kind::wound_star, std::move(ids),
@@ -91,7 +91,7 @@ inline void judge_places(const untangle_problem<triangle>& p, const facet_table&
     for (idx side = 0; side < 3 * p.rest.cell_count(); ++side)
     {
         const auto [a, b] = side_vertices(p.rest, side);
-        if (p.pinned(static_cast<std::size_t>(a)) && p.pinned(static_cast<std::size_t>(b)))
+        if (p.held.all(static_cast<std::size_t>(a)) && p.held.all(static_cast<std::size_t>(b)))
             edges.push_back({std::min(a, b), std::max(a, b)});
     }
     std::sort(edges.begin(), edges.end());

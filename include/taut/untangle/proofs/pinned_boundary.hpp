@@ -63,7 +63,7 @@ inline pinned_boundaries find_pinned_boundaries(const untangle_problem<triangle>
         for (std::size_t k = 0; k < loop.size(); ++k)
         {
             c.edges.push_back({loop[k], loop[(k + 1) % loop.size()]});
-            c.pinned = c.pinned && p.pinned(at(loop[k]));
+            c.pinned = c.pinned && p.held.all(at(loop[k]));
             c.simple = c.simple && !b.on_boundary[at(loop[k])];
             b.on_boundary[at(loop[k])] = 1;
         }
@@ -87,7 +87,7 @@ inline std::vector<idx> vertices_outside(const untangle_problem<triangle>& p, co
     std::size_t budget = 50'000'000; // edges looked at
     for (std::size_t v = 0; v < p.initial.size(); ++v)
     {
-        if (b.of_vertex[v] < 0 || b.on_boundary[v] || !p.pinned(v)) continue;
+        if (b.of_vertex[v] < 0 || b.on_boundary[v] || !p.held.all(v)) continue;
         const auto& c = b.components[static_cast<std::size_t>(b.of_vertex[v])];
         if (budget < c.edges.size()) break;
         budget -= c.edges.size();

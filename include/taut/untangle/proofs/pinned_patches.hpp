@@ -32,7 +32,7 @@ facet_table cut_at_pins(const untangle_problem<Element>& p, facet_table f)
     {
         const auto v = side_vertices(p.rest, static_cast<idx>(s));
         const bool pinned =
-            std::all_of(v.begin(), v.end(), [&](idx i) { return p.pinned(static_cast<std::size_t>(i)); });
+            std::all_of(v.begin(), v.end(), [&](idx i) { return p.held.all(static_cast<std::size_t>(i)); });
         if (pinned || f.twin[s] < 0) cut(s);
     }
     for (const auto& sides : f.clash)
@@ -83,7 +83,7 @@ std::vector<pinned_patch> pinned_patches(const untangle_problem<Element>& p, con
         if (cut.twin[s] >= 0) continue;
         idx& patch = number[at(sets.find(static_cast<idx>(s) / corners))];
         const auto v = side_vertices(p.rest, static_cast<idx>(s));
-        const bool pinned = std::all_of(v.begin(), v.end(), [&](idx i) { return p.pinned(at(i)); });
+        const bool pinned = std::all_of(v.begin(), v.end(), [&](idx i) { return p.held.all(at(i)); });
         if (!pinned)
         {
             if (patch > 0) by_cell[at(patch)] = {};

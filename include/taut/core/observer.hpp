@@ -3,7 +3,7 @@
 
 #include <functional>
 
-namespace taut::solve
+namespace taut
 {
 
 /// Where a run stands.
@@ -22,7 +22,7 @@ struct progress
 };
 
 /// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with
-/// stop::user and the best iterate so far. It runs on the thread of the solver; an exception passes through.
+/// the best iterate so far (solve::stop::user). It runs on the thread of the solver; an exception passes through.
 using observer = std::function<bool(const progress&)>;
 
-} // namespace taut::solve
+} // namespace taut

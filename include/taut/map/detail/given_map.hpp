@@ -8,16 +8,15 @@
 #include <taut/map/map_result.hpp>
 #include <taut/map/parameterize_params.hpp>
 #include <taut/measure/planar_size.hpp>
-#include <taut/start/conformal.hpp>
 
 namespace taut::detail
 {
 
-/// The user's coordinates as a start: brought to the surface's size where the boundary is free and nothing is
+/// The user's coordinates as a map of m: brought to the surface's size where the boundary is free and nothing is
 /// constrained, turned over where they are mirrored as a whole. unit: from the user's lengths to those of m. Throws
 /// parameter_error for a wrong number.
-inline start_map given_start(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
-                             const parameterize_params& params, double unit, std::vector<std::string>& notes)
+inline start_map given_map(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
+                           const parameterize_params& params, double unit, std::vector<std::string>& notes)
 {
     if (params.initial.size() != m.points().size())
         throw parameter_error("initial", std::to_string(params.initial.size()) + " coordinates for " +
@@ -36,18 +35,6 @@ inline start_map given_start(const mesh<triangle>& m, const ideal_elements<trian
         notes.push_back("the start was mirrored as a whole; u was negated");
     }
     return start;
-}
-
-/// The start map of a run of parameterize() on the mesh itself. sides: facets(m). unit: from the user's lengths to
-/// those of m.
-inline start_map parameterization_start(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
-                                        const facet_table& sides, const parameterize_params& params, double unit,
-                                        std::vector<std::string>& notes)
-{
-    if (!params.initial.empty()) return given_start(m, ideal, params, unit, notes);
-    if (params.start == start_method::conformal && params.boundary == boundary_mode::free)
-        return conformal_start(m, sides);
-    return barycentric_map(m, sides, params.barycentric);
 }
 
 } // namespace taut::detail

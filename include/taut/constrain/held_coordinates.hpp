@@ -4,56 +4,49 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <taut/constrain/point_constraints.hpp>
 #include <taut/constrain/untangle_problem.hpp>
-#include <taut/map/parameterize_params.hpp>
 #include <taut/measure/similarity.hpp>
 #include <taut/mesh/boundary.hpp>
 
-namespace taut::detail
+namespace taut
 {
 
-/// What does not move in a run of parameterize(): the boundary if it is fixed, and what the constraints hold.
-/// Inside, lengths are `unit` times the user's.
+/// What does not move while a map of a surface is made: a fixed boundary, and what the constraints hold. Maps are in
+/// lengths of `unit` times those of the constraints.
 class held_coordinates
 {
 public:
-    /// Throws parameter_error for constraints of another mesh.
-    held_coordinates(const mesh<triangle>& m, const facet_table& sides, const parameterize_params& params, double unit)
-        : wanted_(params.constraints), free_boundary_(params.boundary == boundary_mode::free), unit_(unit)
+    /// fixed: the vertices of a boundary that stays; none where it is free. Throws parameter_error for constraints of
+    /// another mesh.
+    held_coordinates(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
+        : wanted_(std::move(wanted)), free_boundary_(fixed.empty()), unit_(unit)
     {
-        const std::size_t n = m.points().size();
-        for (const auto& [v, pin] : wanted_.pins()) require(v, n);
-        for (const auto& s : wanted_.springs()) require(s.vertex, n);
+        for (const auto& [v, pin] : wanted_.pins()) require(v, vertices);
+        for (const auto& s : wanted_.springs()) require(s.vertex, vertices);
         if (free_boundary_ && wanted_.pins().empty()) return;
-        bits_.assign(n, 0);
-        if (!free_boundary_)
-        {
-            const auto loops = boundary_loops(m, sides);
-            for (const idx v : loops[longest_loop(m.points(), loops)]) bits_[static_cast<std::size_t>(v)] = all;
-        }
-        for (const auto& [v, pin] : wanted_.pins()) bits_[static_cast<std::size_t>(v)] |= pin.held;
-        pinned_.resize(n);
-        for (std::size_t v = 0; v < n; ++v) pinned_[v] = bits_[v] == all;
+        marks_ = held_marks<2>(vertices);
+        for (const idx v : fixed) marks_[static_cast<std::size_t>(v)] = marks_.every;
+        for (const auto& [v, pin] : wanted_.pins()) marks_[static_cast<std::size_t>(v)] |= pin.held;
     }
 
     bool constrained() const { return !wanted_.empty(); }
 
-    /// One flag a vertex: pinned in all coordinates; empty if nothing is held.
-    const std::vector<bool>& pinned() const { return pinned_; }
+    /// One a vertex; none if nothing is held.
+    const held_marks<2>& marks() const { return marks_; }
 
     /// True if the constraints pin every vertex of the boundary.
     bool outline_pinned(const mesh<triangle>& m, const facet_table& sides) const
     {
-        if (pinned_.empty()) return false;
+        if (marks_.empty()) return false;
         for (const auto& loop : boundary_loops(m, sides))
             for (const idx v : loop)
-                if (!pinned_[static_cast<std::size_t>(v)]) return false;
+                if (!marks_.all(static_cast<std::size_t>(v))) return false;
         return true;
     }
 
@@ -65,7 +58,7 @@ public:
         if (!free_boundary_ || obeys(uv)) return;
         std::vector<anchor> anchors;
         for (const auto& [v, p] : wanted_.pins())
-            if (p.held == all) anchors.push_back({uv[static_cast<std::size_t>(v)], p.value * unit_});
+            if (p.held == marks_.every) anchors.push_back({uv[static_cast<std::size_t>(v)], p.value * unit_});
         if (anchors.size() < 2)
         {
             double heaviest = 0;
@@ -91,7 +84,6 @@ public:
             for (int k = 0; k < 2; ++k)
                 if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k] * unit;
     }
-    void impose(std::vector<vec2>& uv) const { impose(uv, unit_); }
 
     /// The points of a map at the vertices of constraints::pins(), in their order.
     std::vector<vec2> pinned_points(const std::vector<vec2>& uv) const
@@ -104,27 +96,21 @@ public:
     /// Gives held coordinates the values that they have in another map, bit for bit.
     void restore(std::vector<vec2>& uv, const std::vector<vec2>& from) const
     {
-        for (std::size_t v = 0; v < bits_.size(); ++v)
+        for (std::size_t v = 0; v < marks_.size(); ++v)
             for (int k = 0; k < 2; ++k)
-                if ((bits_[v] >> k & 1u) != 0) uv[v][k] = from[v][k];
+                if (marks_.test(v, k)) uv[v][k] = from[v][k];
     }
 
     untangle_problem<triangle> problem(const mesh<triangle>& m, std::vector<vec2> uv) const
     {
-        auto held = bits_;
-        held.resize(m.points().size(), 0);
-        return {m, std::move(uv), std::move(held)};
+        return {m, std::move(uv), marks_.empty() ? held_marks<2>(m.points().size()) : marks_};
     }
 
     /// What is asked of vertices that are not pinned, for a map whose origin is `centre`.
     point_constraints<2> beyond_pins(const vec2& centre) const
     {
         point_constraints<2> r;
-        if (std::any_of(bits_.begin(), bits_.end(), [](auto b) { return b != 0 && b != all; }))
-        {
-            r.held = bits_;
-            std::replace(r.held.begin(), r.held.end(), all, std::uint8_t(0));
-        }
+        if (auto alone = marks_.without_pinned(); alone.any()) r.held = std::move(alone);
         r.springs = wanted_.springs();
         r = r.scaled(unit_);
         for (auto& s : r.springs) s.target -= centre;
@@ -142,8 +128,6 @@ private:
         return !wanted_.pins().empty();
     }
 
-    static constexpr std::uint8_t all = untangle_problem<triangle>::all;
-
     static void require(idx v, std::size_t vertices)
     {
         if (v >= 0 && static_cast<std::size_t>(v) < vertices) return;
@@ -155,8 +139,7 @@ private:
     constraints<triangle> wanted_;
     bool free_boundary_;
     double unit_;
-    std::vector<std::uint8_t> bits_; ///< one a vertex, bit k: coordinate k is held; empty if nothing is
-    std::vector<bool> pinned_;
+    held_marks<2> marks_;
 };
 
-} // namespace taut::detail
+} // namespace taut

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <taut/core/detail/made_ahead.hpp>
+#include <taut/map/detail/attempt_on_mesh.hpp>
+#include <taut/start/nested.hpp>
+
+namespace taut::detail
+{
+
+/// How a start is made and minimised on coarser levels.
+template <class Element>
+nested_params descent_of(const map_run<Element>& run)
+{
+    nested_params p;
+    if (!run.iterates()) p.stopping.max_iterations = 0;
+    p.start.boundary = run.params.barycentric.boundary;
+    p.start.fixed_boundary = run.params.boundary == boundary_mode::fixed;
+    p.start.proceed = [&run] { return run.clock.proceed(); };
+    return p;
+}
+
+/// An attempt with a hierarchy. from: as attempt::arrival, where it begins; none: at the start.
+template <class Element>
+attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, precision how, int max_iterations,
+                          std::vector<vec2> from)
+{
+    const mesh_levels& levels = *run.levels;
+    const auto& numbers = levels.order().vertices;
+    attempt a;
+    a.precision = how;
+    a.arrival = std::move(from);
+    if (a.arrival.empty() && !start.coarse) a.arrival = numbers.apply(centred(start.map.uv, start.centre));
+    const bool descends = a.arrival.empty();
+    const nested_params descent = descent_of(run);
+    const std::size_t first = descends ? descent.first_level(levels) : 0;
+    // Plans are made while the driver compiles, and while coarser levels are solved.
+    using plan = level_solver::plan;
+    const auto form = lane_form::for_device(run.queue.device());
+    made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels, first - k, form); });
+    const auto take = [&](std::size_t l) { return plans.take(first - l); };
+
+    std::optional<level_solver> solver;
+    const bool built =
+        build_within(run.queue, run.clock,
+                     [&]
+                     {
+                         solver.emplace(run.queue, levels, run.params.energy, run.params.weights, types_of(how));
+                         solver->warm_up();
+                     });
+    if (built) run.clock.spent(&map_seconds::device);
+    a.stopped = !built || !run.clock.proceed();
+    if (a.stopped) return a;
+    if (descends)
+    {
+        nested_iteration nested(levels, *solver, descent);
+        a.arrival = nested.run([&run](std::size_t l) { return observer_on(run.clock, l); }, take);
+        a.descent = {nested.start(), nested.reports(),
+                     a.arrival.empty() ? nested.reason() : "the map that came of it could not be certified"};
+        run.clock.spent(&map_seconds::start);
+        if (!a.arrival.empty()) run.clock.has_result(true);
+        a.stopped = a.arrival.empty() ? run.clock.over() : !run.clock.proceed();
+        if (a.stopped || a.arrival.empty()) return a;
+    }
+    level_solver::level finest(*solver, take(0), a.arrival, run.held.beyond_pins(start.centre).renumbered(numbers));
+    run.clock.spent(&map_seconds::setup);
+    a.stopped = !run.clock.proceed();
+    if (a.stopped) return a;
+    if (start.coarse && run.iterates()) finest.relax();
+    a.solve = finest.minimize(limited(run, max_iterations), observer_on(run.clock, 0));
+    for (int& c : a.solve.capping) c = levels.order().cells.new_to_old[static_cast<std::size_t>(c)];
+    const auto begin = start.coarse ? numbers.undo(a.arrival) : start.map.uv;
+    a.arrival = finest.download();
+    a.uv = restored(run, numbers.undo(a.arrival), start.centre, begin);
+    run.clock.spent(&map_seconds::solve);
+    return certified(run.in, std::move(a));
+}
+
+} // namespace taut::detail

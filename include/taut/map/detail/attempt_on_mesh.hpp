@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <taut/map/detail/attempt.hpp>
+#include <taut/objective/map_objective.hpp>
+#include <taut/solve/minimize.hpp>
+
+namespace taut::detail
+{
+
+/// Calls build, in which drivers compile for seconds, and asks the limits between the kernels; false if they ended it.
+template <class Build>
+bool build_within(queue q, run_clock& clock, const Build& build)
+{
+    struct stopped
+    {
+    };
+    struct question
+    {
+        queue_state& state;
+        ~question() { state.between_builds = nullptr; }
+    };
+    const question asked{*q.state()};
+    asked.state.between_builds = [&clock]
+    {
+        if (!clock.proceed()) throw stopped();
+    };
+    try
+    {
+        build();
+    }
+    catch (const stopped&)
+    {
+        return false;
+    }
+    return true;
+}
+
+/// The user's observer, told where it is; on coarser levels it also keeps the time.
+inline taut::observer observer_on(run_clock& clock, std::size_t level)
+{
+    return [&clock, level](progress p)
+    {
+        p.level = static_cast<int>(level);
+        return level == 0 ? clock.ask(p) : clock.proceed(p);
+    };
+}
+
+/// How the mesh itself is solved in what is left of the time.
+template <class Element>
+solve::params limited(const map_run<Element>& run, int max_iterations)
+{
+    auto p = run.params.solve;
+    p.stopping.max_iterations = max_iterations;
+    p.stopping.time_limit = std::max(run.clock.left(), std::chrono::duration<double>(1e-9));
+    return p;
+}
+
+inline std::vector<vec2> centred(std::vector<vec2> uv, const vec2& centre)
+{
+    for (vec2& p : uv) p -= centre;
+    return uv;
+}
+
+/// An attempt without a hierarchy.
+template <class Element>
+attempt attempt_on_mesh(const map_run<Element>& run, const run_start& start, precision how, int max_iterations)
+{
+    attempt a;
+    a.precision = how;
+    const auto local = std::make_shared<layout<Element>>(run.in.surface, run.held.marks().pinned());
+    const auto& data = run.params.data;
+    if (!data.empty()) local->attach(data.reordered(local->order.cells), permute(run.in.surface, local->order));
+    map_objective<Element> f(run.queue, local, run.params.energy, run.params.weights, types_of(how),
+                             run.held.beyond_pins(start.centre));
+    auto x = f.make_point();
+    f.upload(centred(start.map.uv, start.centre), x);
+    run.clock.spent(&map_seconds::setup);
+    a.stopped = !build_within(run.queue, run.clock, [&] { f.warm_up(x); });
+    if (a.stopped) return a;
+    run.clock.spent(&map_seconds::device);
+    a.solve = solve::minimize(f, x, limited(run, max_iterations), observer_on(run.clock, 0));
+    a.uv = restored(run, f.download(x), start.centre, start.map.uv);
+    run.clock.spent(&map_seconds::solve);
+    return certified(run.in, std::move(a));
+}
+
+} // namespace taut::detail

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <taut/map/detail/fitted_start.hpp>
+#include <taut/map/detail/given_map.hpp>
+#include <taut/start/conformal.hpp>
+
+namespace taut::detail
+{
+
+/// A start that the method asked for makes on the mesh itself.
+template <class Element>
+run_start made_start(const map_run<Element>& run)
+{
+    run_start start;
+    if (!run.clock.proceed())
+    {
+        start.stopped = true;
+        return start;
+    }
+    if (run.params.start == start_method::conformal && run.params.boundary == boundary_mode::free)
+        start.map = conformal_start(run.in.surface, run.in.sides);
+    else
+    {
+        auto how = run.params.barycentric;
+        how.proceed = [&run] { return run.clock.proceed(); };
+        start.map = barycentric_map(run.in.surface, run.in.sides, how);
+    }
+    return fitted_start(run, std::move(start), false);
+}
+
+/// A start from the user's coordinates. Throws parameter_error for a wrong number.
+template <class Element>
+run_start given_start(const map_run<Element>& run)
+{
+    run_start start;
+    start.stopped = !run.clock.proceed();
+    if (start.stopped) return start;
+    start.map = given_map(run.in.surface, run.in.ideal, run.params, run.in.unit, start.notes);
+    return fitted_start(run, std::move(start), true);
+}
+
+/// The start of a run: from the draft if there is one, else from the user's coordinates, unless another one is better,
+/// else made on coarser levels or on the mesh itself.
+template <class Element>
+run_start choose_start(const map_run<Element>& run, std::vector<vec2> draft)
+{
+    run_start start;
+    if (run.clock.over())
+    {
+        start.stopped = true;
+        return start;
+    }
+    if (!draft.empty())
+    {
+        start.map.uv = std::move(draft);
+        return fitted_start(run, std::move(start), false);
+    }
+    if (!run.params.initial.empty())
+    {
+        start = given_start(run);
+        if (!start.useless) return start;
+        start.useless = false;
+        start.stopped = !run.clock.proceed();
+        if (start.stopped) return start;
+    }
+    run_start made;
+    if (run.starts_coarse())
+        made.coarse = true;
+    else
+        made = made_start(run);
+    made.notes.insert(made.notes.begin(), start.notes.begin(), start.notes.end());
+    if (made.untangling.empty()) made.untangling = std::move(start.untangling);
+    return made;
+}
+
+} // namespace taut::detail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <taut/compute/queue.hpp>
+#include <taut/constrain/held_coordinates.hpp>
+#include <taut/map/detail/run_clock.hpp>
+#include <taut/map/detail/run_surface.hpp>
+#include <taut/objective/mesh_levels.hpp>
+
+namespace taut::detail
+{
+
+/// The parameters with the energy that the data and parameters make of the user's. Throws parameter_error.
+inline parameterize_params validated(parameterize_params p)
+{
+    p.validate();
+    if (!p.parameters.empty()) p.energy = p.energy.with_parameters(p.parameters);
+    p.energy = p.energy.with_data(p.data.mean_attributes(), !p.data.directions.empty());
+    return p;
+}
+
+/// A run of parameterize() once it is prepared: what all its phases read. A template, as they are, so that only files
+/// that call it compile them.
+template <class Element>
+struct map_run
+{
+    static_assert(std::is_same_v<Element, triangle>, "surfaces only");
+
+    taut::queue queue;
+    const parameterize_params& params; ///< validated
+    const run_surface& in;
+    run_clock& clock;
+    held_coordinates held;
+    std::optional<mesh_levels> levels; ///< none where the method needs none, or the limits leave no time for them
+
+    /// Refers to its arguments but the queue. Throws parameter_error for constraints of another mesh.
+    map_run(taut::queue q, const run_surface& surface, const parameterize_params& p, run_clock& limits)
+        : queue(std::move(q)),
+          params(p),
+          in(surface),
+          clock(limits),
+          held(p.constraints, in.surface.points().size(), in.fixed_boundary(p.boundary), in.unit)
+    {
+        clock.spent(&map_seconds::setup);
+        if (!clock.proceed() || !params.uses_levels()) return;
+        levels.emplace(in.surface, held.marks().pinned(),
+                       hierarchy_params{.proceed = [this] { return clock.proceed(); }}, params.data);
+        clock.spent(&map_seconds::hierarchy);
+        clock.proceed();
+    }
+    map_run(const map_run&) = delete;
+    map_run& operator=(const map_run&) = delete;
+
+    /// Whether nothing holds the map.
+    bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
+
+    /// Without iterations the start is returned as it is.
+    bool iterates() const { return params.solve.stopping.max_iterations > 0; }
+
+    /// Whether a start that is not given is made on coarser levels.
+    bool starts_coarse() const
+    {
+        return levels && !held.constrained() &&
+               (params.start == start_method::coarse || params.start == start_method::automatic);
+    }
+};
+
+} // namespace taut::detail

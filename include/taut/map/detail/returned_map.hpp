@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <taut/compute/queue_counters.hpp>
+#include <taut/constrain/place_map.hpp>
+#include <taut/map/detail/map_run.hpp>
+#include <taut/map/detail/run_result.hpp>
+
+namespace taut::detail
+{
+
+/// A free map brought to its place, or left where it is if rounding would flip a triangle on the way.
+template <class Element>
+map_result placed(const map_run<Element>& run, map_result r)
+{
+    if (!r || !run.is_free() || run.params.placement == placement::as_solved) return r;
+    const double side = run.params.placement == placement::unit_square ? run.in.unit : 0;
+    for (const bool turned : {true, false})
+    {
+        auto map = in_corner(turned ? turned_up(run.in.surface, r.uv) : r.uv, side);
+        const auto flips = certify<2>(run.in.surface.cells(), map.uv, run.in.ideal.measure);
+        if (!flips) continue;
+        r.uv = std::move(map.uv);
+        r.report.scale = map.scale;
+        r.report.flips = flips;
+        return r;
+    }
+    r.report.notes.push_back("rounding would flip triangles of the map in its place; it stays where it was solved");
+    return r;
+}
+
+/// A map in lengths of the user, pins bit for bit; the division is inexact at the ends of the range of double, so what
+/// is valid is certified again.
+template <class Element>
+map_result in_user_units(const map_run<Element>& run, map_result r)
+{
+    for (auto* points : {&r.uv, &r.report.start.uv, &r.report.pin_origins})
+        for (vec2& p : *points) p /= run.in.unit;
+    if (!r.uv.empty()) run.held.impose(r.uv, 1);
+    if (!r) return r;
+    r.report.flips.take_defects(certify<2>(run.in.surface.cells(), r.uv));
+    if (r.report.flips) return r;
+    const auto why = refuse(outcome::gave_up,
+                            "the map in the units of the surface, which are too large or small for double "
+                            "precision,",
+                            r.report.flips);
+    return refused(std::move(r), why);
+}
+
+/// What a queue counted since `before`.
+inline queue_counters counted_since(const queue_counters& before, queue_counters now)
+{
+    now.launches -= before.launches;
+    now.waits -= before.waits;
+    now.bytes_read -= before.bytes_read;
+    now.bytes_written -= before.bytes_written;
+    now.builds -= before.builds;
+    now.build_seconds -= before.build_seconds;
+    return now;
+}
+
+} // namespace taut::detail

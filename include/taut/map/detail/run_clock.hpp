@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/map/map_result.hpp>
+#include <utility>
+
+#include <taut/core/budget.hpp>
+
+namespace taut::detail
+{
+
+/// The limits of a run of parameterize(), and where its time went.
+struct run_clock : budget
+{
+    map_seconds seconds = {};
+
+    run_clock(budget::seconds limit, observer ask) : budget(limit, std::move(ask)) { has_result(false); }
+
+    /// Books the time since the last call on a phase.
+    void spent(double map_seconds::*phase) { seconds.*phase += lap(); }
+};
+
+} // namespace taut::detail
