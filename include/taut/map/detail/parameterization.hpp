@@ -255,7 +255,7 @@ private:
         const auto how = descent();
         const std::size_t first = arrival_ ? 0 : how.first_level(*levels_);
         // Plans are made while the driver compiles, and while coarser levels are solved.
-        using plan = level_solver::plan;
+        using plan = level_solver<triangle>::plan;
         const auto form = lane_form::for_device(queue_.device());
         made_ahead<plan> plans(first + 1, [&, this](std::size_t k) { return plan(*levels_, first - k, form); });
         const auto take = [&](std::size_t l) { return plans.take(first - l); };
@@ -272,7 +272,8 @@ private:
             auto uv = nested.run([this](std::size_t l) { return observer_on(l); }, take);
             if (!arrive(nested, std::move(uv))) return false;
         }
-        level_solver::level finest(solver, take(0), *arrival_, in_.held.beyond_pins(centre_).renumbered(numbers));
+        level_solver<triangle>::level finest(solver, take(0), *arrival_,
+                                             in_.held.beyond_pins(centre_).renumbered(numbers));
         report().seconds.setup += limits_.lap();
         limits_.check();
         if (coarse_ && iterates()) finest.relax();
@@ -406,7 +407,7 @@ private:
     queue_counters counters_;
     run_limits limits_;
     run_surface in_;
-    std::optional<mesh_levels> levels_;
+    std::optional<mesh_levels<triangle>> levels_;
     bool certified_ = false;
     bool coarse_ = false;                      ///< the start comes from coarser levels
     std::string coarse_reason_;                ///< why it does not, or no more
