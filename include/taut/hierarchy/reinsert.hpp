@@ -183,12 +183,9 @@ inline double isometric_scale(const hierarchy<triangle>& h, std::size_t level, s
             rest[k] = points[static_cast<std::size_t>(numbers[static_cast<std::size_t>(t[k])])];
         const mat2 W = triangle::ideal(rest);
         if (!(W[1][1] > 0)) return; // flat at rest: no area
-        const vec2 x = uv[static_cast<std::size_t>(t[0])];
-        const vec2 first = (uv[static_cast<std::size_t>(t[1])] - x) / W[0][0];
-        const vec2 second = (uv[static_cast<std::size_t>(t[2])] - x - W[1][0] * first) / W[1][1];
-        const double area = 0.5 * W[0][0] * W[1][1];
-        const double det = detail::cross(first, second);
-        const double n = area * (glm::dot(first, first) + glm::dot(second, second));
+        const mat2 S = shape_matrix<2>(t, uv, detail::invert_upper(W));
+        const double det = glm::determinant(S);
+        const double n = 0.5 * W[0][0] * W[1][1] * norm2(S);
         sum.plain += n;
         sum.inverse += n / (det * det);
     };
