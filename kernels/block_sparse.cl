@@ -7,15 +7,15 @@
 // Missing nonzeros have value 0 and name their own row.
 // Vectors: component c of vertex v at [c * stride + v]; stride is a multiple of 256 and its padding zero.
 //
-// Macros: REAL float or double; D block size; C rows a slice; V rows an item; TEAM items of the group of invert_dense;
-// GROUP, on CPUs, the most rows an item of galerkin.
+// Macros: REAL float or double; D block size; K weights a row of an interpolation; C rows a slice; V rows an item; TEAM
+// items of the group of invert_dense; GROUP, on CPUs, the most rows an item of galerkin.
 // (C, V) = (16, 16): CPUs, where explicit vectors keep the arithmetic wide although the gathers are not; (32, 1): GPUs,
 // where a slice is a warp.
 //
-// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=2 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DEPSILON=1e-12
-// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=3 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DEPSILON=2e-6f
-// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=2 -DC=32 -DV=1 -DTEAM=64 -DGROUP=1 -DEPSILON=2e-6f
-// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DC=32 -DV=1 -DTEAM=64 -DGROUP=1 -DEPSILON=1e-12
+// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=2 -DK=3 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DEPSILON=1e-12
+// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=3 -DK=4 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DEPSILON=2e-6f
+// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=2 -DK=3 -DC=32 -DV=1 -DTEAM=64 -DGROUP=1 -DEPSILON=2e-6f
+// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DK=4 -DC=32 -DV=1 -DTEAM=64 -DGROUP=1 -DEPSILON=1e-12
 
 #if REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -245,7 +245,9 @@ inline void product_row(const int slice, const int lane, const int rows, const i
         const int term = transpose[t];
         if (term < 0) break;
         const REAL left = weights[term];
-        const int i = term - ((term >= fine_stride) + (term >= 2 * fine_stride)) * fine_stride, fine_lane = i % C;
+        int i = term;
+        UNROLLED (int k = 1; k < K; ++k) i -= term >= k * fine_stride ? fine_stride : 0;
+        const int fine_lane = i % C;
         const int first = fine_offsets[i / C], end = fine_offsets[i / C + 1];
         for (int at = first; at < end; at += C)
         {
@@ -253,10 +255,15 @@ inline void product_row(const int slice, const int lane, const int rows, const i
             if (j == i && at > first) break;
             REAL block[D * D];
             UNROLLED (int e = 0; e < D * D; ++e) block[e] = left * fine[at * D * D + e * C + fine_lane];
-            REAL right[3];
-            UNROLLED (int l = 0; l < 3; ++l) right[l] = weights[l * fine_stride + j];
-            if (right[0] == 0 && right[1] == 0 && right[2] == 0) continue;
-            UNROLLED (int l = 0; l < 3; ++l)
+            REAL right[K];
+            bool none = true;
+            UNROLLED (int l = 0; l < K; ++l)
+            {
+                right[l] = weights[l * fine_stride + j];
+                none = none && right[l] == 0;
+            }
+            if (none) continue;
+            UNROLLED (int l = 0; l < K; ++l)
             {
                 const int J = prolongation[l * fine_stride + j];
                 int number = 0;
@@ -333,7 +340,7 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
                 const int lane = lanes[n], j = fine_columns[at + lane], code = codes[j];
                 const REAL* block = (const REAL*)blocks + lane * D * D;
                 REAL* product = (REAL*)(products + lane * parts);
-                UNROLLED (int l = 0; l < 3; ++l)
+                UNROLLED (int l = 0; l < K; ++l)
                 {
                     REAL* to = product + (code >> 8 * l & 255) * (D * D);
                     const REAL right = weights[l * fine_stride + j];
@@ -345,9 +352,9 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
         {
             const int i = slice * C + lanes[n];
             // What goes to rows elsewhere is added, times 0, to a row that nobody reads.
-            REALV *from = products + lanes[n] * parts, *to[3];
-            REAL left[3];
-            UNROLLED (int k = 0; k < 3; ++k)
+            REALV *from = products + lanes[n] * parts, *to[K];
+            REAL left[K];
+            UNROLLED (int k = 0; k < K; ++k)
             {
                 const int r = prolongation[k * fine_stride + i] - begin;
                 const bool here = (uint)r < (uint)size;
@@ -358,7 +365,7 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
             {
                 const REALV part = from[p];
                 from[p] = 0;
-                UNROLLED (int k = 0; k < 3; ++k) to[k][p] += left[k] * part;
+                UNROLLED (int k = 0; k < K; ++k) to[k][p] += left[k] * part;
             }
         }
     }
@@ -396,9 +403,8 @@ __kernel void restrict_residual(const int fine_stride, const int stride, __globa
     {
         const INTV term = LOAD_INT(transpose, at + lane), none = term < 0, place = WHERE_INT(none, (INTV)0, term);
         const REALV w = entries(weights, place, none);
-        const INTV second = WHERE_INT(place >= fine_stride, (INTV)fine_stride, (INTV)0);
-        const INTV third = WHERE_INT(place >= 2 * fine_stride, (INTV)fine_stride, (INTV)0);
-        const INTV row = place - second - third;
+        INTV row = place;
+        UNROLLED (int k = 1; k < K; ++k) row -= WHERE_INT(place >= k * fine_stride, (INTV)fine_stride, (INTV)0);
         UNROLLED (int c = 0; c < D; ++c) sum[c] += w * GATHER(r + c * fine_stride, row);
     }
     invert(i, stride, inverse, sum, d);
@@ -414,7 +420,7 @@ inline void prolong_rows(const int i, const int stride, const int coarse_stride,
 {
     REALV sum[D];
     UNROLLED (int c = 0; c < D; ++c) sum[c] = LOAD(x, c * stride + i);
-    UNROLLED (int k = 0; k < 3; ++k)
+    UNROLLED (int k = 0; k < K; ++k)
     {
         const INTV j = LOAD_INT(columns, k * stride + i);
         const REALV w = LOAD(weights, k * stride + i);
@@ -423,7 +429,7 @@ inline void prolong_rows(const int i, const int stride, const int coarse_stride,
     UNROLLED (int c = 0; c < D; ++c) STORE(sum[c], x, c * stride + i);
 }
 
-/// x += P coarse, three weights a row: columns and weights at [k * stride + row].
+/// x += P coarse: columns and weights at [k * stride + row].
 __kernel void prolong(const int stride, const int coarse_stride, __global const int* columns,
                       __global const REAL* weights, __global const REAL* coarse, __global REAL* x)
 {
@@ -554,7 +560,7 @@ __kernel void small_cycle(const int rows, const int stride, const int coarse_str
         multiply(i / C, 0, stride, offsets, columns, A, x, sum);
         UNROLLED (int c = 0; c < D; ++c) r[c] = LOAD(b, c * stride + i) - sum[c];
         for (int v = 0; v < V && i + v < rows; ++v)
-            for (int l = 0; l < 3; ++l)
+            for (int l = 0; l < K; ++l)
             {
                 const int place = l * stride + i + v;
                 UNROLLED (int c = 0; c < D; ++c)

@@ -21,11 +21,7 @@ element<double, Element::dimension> mapped_element(const mesh<Element>& m, const
                                                    std::span<const vec<Element::dimension>> x, std::size_t c)
 {
     constexpr int D = Element::dimension;
-    const auto& cell = m.cells()[c];
-    const auto at = [&](std::size_t corner) { return x[static_cast<std::size_t>(cell[corner])]; };
-    mat<D> A;
-    for (int k = 0; k < D; ++k) A[k] = at(static_cast<std::size_t>(k) + 1) - at(0);
-    const mat<D> S = A * ideal.inverse[c];
+    const mat<D> S = shape_matrix<D>(m.cells()[c], x, ideal.inverse[c]);
     return {S, glm::determinant(S), ideal.measure[c]};
 }
 

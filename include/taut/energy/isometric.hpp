@@ -2,6 +2,7 @@
 #pragma once
 
 #include <taut/energy/area.hpp>
+#include <taut/energy/invariants.hpp>
 #include <taut/energy/shape.hpp>
 
 namespace taut::energy
@@ -22,6 +23,13 @@ struct isometric
             return norm2(e.S) * (T(1) + T(1) / (e.det * e.det));
         else
             return shape{}(e)*area{}(e);
+    }
+
+    /// In the plane, by the invariants I = |S|^2 and d = det S: for loops of the host, where nothing is traced.
+    static invariant_derivatives<double> derivatives(double I, double d)
+    {
+        const double r = 1 / d, r2 = r * r;
+        return {I, d, 1 + r2, -2 * I * r2 * r, 0, -2 * r2 * r, 6 * I * r2 * r2};
     }
 };
 

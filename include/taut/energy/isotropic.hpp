@@ -6,19 +6,11 @@
 #include <vector>
 
 #include <taut/energy/any_energy.hpp>
+#include <taut/energy/invariants.hpp>
 #include <taut/symbolic/differentiate.hpp>
 
 namespace taut
 {
-
-/// First and second derivatives of an energy E = psi(I, d) by the invariants I = |S|^2 and d = det S.
-template <class Real>
-struct invariant_derivatives
-{
-    Real I, d;
-    Real by_I, by_d;
-    Real by_II, by_Id, by_dd;
-};
 
 /// The derivatives by the invariants if the recording of E(S) shows that S enters through norm2(S) and det S alone;
 /// nothing otherwise.

@@ -7,8 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include <taut/core/select.hpp>
 #include <taut/energy/eigenvalue_clamp.hpp>
-#include <taut/energy/isotropic.hpp>
+#include <taut/energy/invariants.hpp>
 #include <taut/energy/symmetric_matrix.hpp>
 
 namespace taut

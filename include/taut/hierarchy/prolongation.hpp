@@ -12,46 +12,51 @@
 namespace taut
 {
 
-/// Linear interpolation from a coarse level to the next finer one: row i has at most three columns (vertices of the
-/// coarse level) with weights >= 0 that sum to 1. Unused places have weight 0 and repeat a used column. The row of a
-/// vertex without triangles is 0.
+/// Linear interpolation from a coarse level to the next finer one: row i has at most K columns (vertices of the coarse
+/// level, corners of a cell) with weights >= 0 that sum to 1. Unused places have weight 0 and repeat a used column. The
+/// row of a vertex without cells is 0.
+template <std::size_t K>
 struct prolongation
 {
-    std::vector<std::array<idx, 3>> columns;
-    std::vector<std::array<double, 3>> weights;
+    std::vector<std::array<idx, K>> columns;
+    std::vector<std::array<double, K>> weights;
 
-    /// Of each coarse vertex: the places 3 * row + k with a weight > 0, ascending; what restriction gathers.
+    /// Of each coarse vertex: the places 4 * row + k with a weight > 0, ascending; what restriction gathers. 4 for any
+    /// K, so that readers need no division.
     csr transpose;
 
     idx rows() const { return static_cast<idx>(columns.size()); }
 };
 
-/// fine = P coarse. Values need + and multiplication by double.
-template <class Value>
-void prolong(const prolongation& P, std::span<const Value> coarse, std::span<Value> fine)
+/// fine = P coarse. Values need +, += and multiplication by double.
+template <std::size_t K, class Value>
+void prolong(const prolongation<K>& P, std::span<const Value> coarse, std::span<Value> fine)
 {
     for (std::size_t i = 0; i < P.columns.size(); ++i)
     {
-        const auto& [a, b, c] = P.columns[i];
-        const auto& w = P.weights[i];
-        fine[i] = w[0] * coarse[static_cast<std::size_t>(a)] + w[1] * coarse[static_cast<std::size_t>(b)] +
-                  w[2] * coarse[static_cast<std::size_t>(c)];
+        const auto term = [&](std::size_t k)
+        { return P.weights[i][k] * coarse[static_cast<std::size_t>(P.columns[i][k])]; };
+        fine[i] = term(0);
+        for (std::size_t k = 1; k < K; ++k) fine[i] += term(k);
     }
 }
 
 namespace detail
 {
 
-/// Fills P.transpose for `count` columns.
-inline void transpose(prolongation& P, std::size_t count, unsigned threads = 0)
+/// Fills P.transpose for `count` columns. K is at most 4.
+template <std::size_t K>
+void transpose(prolongation<K>& P, std::size_t count, unsigned threads = 0)
 {
     // Places without a weight go to a bucket behind the columns, which is cut off.
-    std::vector<idx> places(3 * P.columns.size());
+    std::vector<idx> places(K * P.columns.size());
     auto start = counting_sort(
         places.size(), count + 1,
         [&](std::size_t place)
-        { return P.weights[place / 3][place % 3] > 0 ? P.columns[place / 3][place % 3] : static_cast<idx>(count); },
-        [&](std::size_t place, std::size_t position) { places[position] = static_cast<idx>(place); }, threads);
+        { return P.weights[place / K][place % K] > 0 ? P.columns[place / K][place % K] : static_cast<idx>(count); },
+        [&](std::size_t place, std::size_t position)
+        { places[position] = static_cast<idx>(4 * (place / K) + place % K); },
+        threads);
     start.pop_back();
     places.resize(static_cast<std::size_t>(start.back()));
     places.shrink_to_fit();

@@ -84,8 +84,8 @@ inline vec2 boundary_point(const ring_image& ring, std::span<const vec3> rest)
 }
 
 /// Places one removed vertex. Returns false if no position is certain to be valid.
-inline bool place(const removals& removed, std::size_t r, std::span<const idx> numbers, std::span<const vec3> points,
-                  int newton_steps, std::span<vec2> uv)
+inline bool place(const removals<triangle>& removed, std::size_t r, std::span<const idx> numbers,
+                  std::span<const vec3> points, int newton_steps, std::span<vec2> uv)
 {
     const auto neighbours = removed.rings.row(static_cast<idx>(r));
     const auto v = static_cast<std::size_t>(removed.vertex[r]);
@@ -119,7 +119,7 @@ inline bool place(const removals& removed, std::size_t r, std::span<const idx> n
 /// coarse: one image a vertex of level + 1
 ///
 /// Throws parameter_error if an argument has the wrong size.
-inline reinsertion reinsert(const hierarchy& h, std::size_t level, std::span<const vec3> points,
+inline reinsertion reinsert(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
                             std::span<const vec2> coarse, const reinsert_params& params = {})
 {
     params.validate();
@@ -129,7 +129,7 @@ inline reinsertion reinsert(const hierarchy& h, std::size_t level, std::span<con
     if (coarse.size() != survivors.size()) throw parameter_error("coarse", "must have one image a coarse vertex");
 
     const auto& numbers = h.levels[level].vertices;
-    const removals& removed = h.steps[level].removed;
+    const removals<triangle>& removed = h.steps[level].removed;
     reinsertion result;
     result.uv.assign(numbers.size(), vec2(0.0));
     // Both lists of vertices are ascending.
@@ -160,7 +160,7 @@ inline reinsertion reinsert(const hierarchy& h, std::size_t level, std::span<con
 /// The factor that makes a map of a level least distorted by the isometric energy: (b / a)^(1/4) with
 /// a = sum of area |S|^2 and b = sum of area |S|^2 / det^2 over the cells. 1 if that is not finite and positive.
 /// Meant for maps without pins.
-inline double isometric_scale(const hierarchy& h, std::size_t level, std::span<const vec3> points,
+inline double isometric_scale(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
                               std::span<const vec2> uv, unsigned threads = 0)
 {
     struct sums
@@ -183,12 +183,9 @@ inline double isometric_scale(const hierarchy& h, std::size_t level, std::span<c
             rest[k] = points[static_cast<std::size_t>(numbers[static_cast<std::size_t>(t[k])])];
         const mat2 W = triangle::ideal(rest);
         if (!(W[1][1] > 0)) return; // flat at rest: no area
-        const vec2 x = uv[static_cast<std::size_t>(t[0])];
-        const vec2 first = (uv[static_cast<std::size_t>(t[1])] - x) / W[0][0];
-        const vec2 second = (uv[static_cast<std::size_t>(t[2])] - x - W[1][0] * first) / W[1][1];
-        const double area = 0.5 * W[0][0] * W[1][1];
-        const double det = detail::cross(first, second);
-        const double n = area * (glm::dot(first, first) + glm::dot(second, second));
+        const mat2 S = shape_matrix<2>(t, uv, detail::invert_upper(W));
+        const double det = glm::determinant(S);
+        const double n = 0.5 * W[0][0] * W[1][1] * norm2(S);
         sum.plain += n;
         sum.inverse += n / (det * det);
     };

@@ -31,7 +31,7 @@ public:
     {
     }
 
-    /// Sweeps over the vertices of triangles whose energy |S|^2 (1 + 1/det S^2) exceeds `factor` times the area mean,
+    /// Sweeps over the vertices of triangles whose isometric energy exceeds `factor` times the area mean,
     /// until there are none or a sweep gains less than 2 %, at most `sweeps` times. Returns the mean at the end;
     /// +infinity if a triangle is not surely positive, and then nothing is moved.
     double run(std::span<vec2> x, double factor, int sweeps)
@@ -74,13 +74,11 @@ private:
         const auto add = [&](sums& sum, std::size_t c)
         {
             const auto [i, j, k] = cells_[c];
-            const mat2 W = triangle::ideal({rest(i), rest(j), rest(k)});
-            const vec2 a = x[u(j)] - x[u(i)], b = x[u(k)] - x[u(i)];
-            const double height = std::max(W[1][1], 1e-6 * W[0][0]); // as in star_energy
-            const vec2 first = a / W[0][0], second = (b - W[1][0] * first) / height;
-            const double det = cross(first, second), area = W[0][0] * height;
+            const mat2 W = stiff_ideal(rest(j) - rest(i), rest(k) - rest(i));
+            const mat2 S = shape_matrix<2>(cells_[c], std::span<const vec2>(x), invert_upper(W));
+            const double area = 0.5 * W[0][0] * W[1][1];
             density_[c] = surely_positive(x[u(i)], x[u(j)], x[u(k)])
-                              ? (glm::dot(first, first) + glm::dot(second, second)) * (1 + 1 / (det * det))
+                              ? energy::isometric{}(element<double, 2>{S, glm::determinant(S), area})
                               : std::numeric_limits<double>::infinity();
             sum.energy += area * density_[c];
             sum.area += area;

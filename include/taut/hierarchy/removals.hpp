@@ -5,14 +5,20 @@
 #include <vector>
 
 #include <taut/mesh/incidence.hpp>
+#include <taut/mesh/triangle.hpp>
 
 namespace taut
 {
 
-/// How a level was thinned to the next coarser one: vertices pulled into a neighbour each, in rounds. In a round no two
+/// How a level was thinned to the next coarser one; what it takes to undo that is each element's own.
+template <class Element>
+struct removals;
+
+/// Of surfaces: vertices pulled into a neighbour each, in rounds. In a round no two
 /// removed vertices are neighbours, so all of it can be done, and undone, at once. Numbers are those of the finer
 /// level.
-struct removals
+template <>
+struct removals<triangle>
 {
     std::vector<idx> vertex; ///< the removed vertices, ascending in each round
     std::vector<idx> target; ///< position in the ring of the neighbour that it was pulled into

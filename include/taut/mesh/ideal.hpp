@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,6 +33,26 @@ double unit_scale(const mesh<Element>& m)
     return largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
 }
 
+/// S = A W^-1 (eq. 3), A the edges of the image from corner 0. inverse: W^-1, upper triangular.
+inline mat2 shape_matrix(const mat2& A, const mat2& inverse)
+{
+    return mat2(inverse[0][0] * A[0], inverse[1][0] * A[0] + inverse[1][1] * A[1]);
+}
+inline mat3 shape_matrix(const mat3& A, const mat3& inverse)
+{
+    return mat3(inverse[0][0] * A[0], inverse[1][0] * A[0] + inverse[1][1] * A[1],
+                inverse[2][0] * A[0] + inverse[2][1] * A[1] + inverse[2][2] * A[2]);
+}
+/// Of a cell. x: one image point a vertex.
+template <int D, std::size_t N>
+mat<D> shape_matrix(const std::array<idx, N>& cell, std::span<const vec<D>> x, const mat<D>& inverse)
+{
+    const auto at = [&](std::size_t k) { return x[static_cast<std::size_t>(cell[k])]; };
+    mat<D> A;
+    for (int k = 0; k < D; ++k) A[k] = at(static_cast<std::size_t>(k) + 1) - at(0);
+    return shape_matrix(A, inverse);
+}
+
 namespace detail
 {
 
@@ -44,6 +67,15 @@ inline mat3 invert_upper(const mat3& W)
     const double x = 1 / W[0][0], y = 1 / W[1][1], z = 1 / W[2][2];
     const double yz = -y * (W[2][1] * z), xy = -x * (W[1][0] * y);
     return mat3(x, 0.0, 0.0, xy, y, 0.0, -x * (W[1][0] * yz + W[2][0] * z), yz, z);
+}
+
+/// The ideal edge matrix of a triangle with edges a and b from corner 0. Flat triangles have none: a height near 0
+/// makes them stiff instead.
+inline mat2 stiff_ideal(const vec3& a, const vec3& b)
+{
+    const double along = std::max(glm::length(a), std::numeric_limits<double>::min());
+    const double height = std::max(glm::length(glm::cross(a, b)) / along, 1e-6 * along);
+    return mat2(along, 0.0, glm::dot(a, b) / along, height);
 }
 
 /// The corners of cell c of the mesh times `scale`.

@@ -8,6 +8,7 @@
 
 #include <taut/compute/record.hpp>
 #include <taut/energy/eigenvalue_clamp.hpp>
+#include <taut/energy/isotropic.hpp>
 #include <taut/energy/modes.hpp>
 #include <taut/objective/traced_element.hpp>
 

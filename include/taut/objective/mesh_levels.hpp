@@ -8,21 +8,22 @@
 #include <utility>
 #include <vector>
 
-#include <taut/hierarchy/hierarchy.hpp>
+#include <taut/hierarchy/make_hierarchy.hpp>
 #include <taut/mesh/layout.hpp>
 #include <taut/sparse/transfer_weights.hpp>
 
 namespace taut
 {
 
-/// A surface in solution order and its coarser levels, with what solvers want of each: connectivity, layout, and the
+/// A mesh in solution order and its coarser levels, with what solvers want of each: connectivity, layout, and the
 /// transfers between levels. Levels keep the numbering of the finest one, so free vertices are first on each.
+template <class Element>
 class mesh_levels
 {
 public:
     /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level. data: of the cells of m; coarser
     /// levels have the means. Throws mesh_error, parameter_error.
-    explicit mesh_levels(const mesh<triangle>& m, const std::vector<bool>& pinned = {},
+    explicit mesh_levels(const mesh<Element>& m, const std::vector<bool>& pinned = {},
                          const hierarchy_params& params = {}, const cell_data& data = {})
         : numbering_(m, pinned), finest_(permute(m, numbering_.order))
     {
@@ -46,7 +47,7 @@ public:
     }
 
     std::size_t size() const noexcept { return hierarchy_.levels.size(); }
-    const taut::hierarchy& hierarchy() const noexcept { return hierarchy_; }
+    const taut::hierarchy<Element>& hierarchy() const noexcept { return hierarchy_; }
     std::span<const vec3> points() const { return finest_.points(); }
     std::size_t vertices(std::size_t l) const { return hierarchy_.levels[l].vertices.size(); }
 
@@ -54,17 +55,14 @@ public:
     const mesh_order& order() const noexcept { return numbering_.order; }
 
     /// A level as a mesh of its own.
-    mesh<triangle> surface(std::size_t l) const
-    {
-        return l == 0 ? finest_ : level_mesh(hierarchy_, l, finest_.points());
-    }
-    const std::vector<mesh<triangle>::cell>& cells(std::size_t l) const { return hierarchy_.levels[l].cells; }
+    mesh<Element> level(std::size_t l) const { return l == 0 ? finest_ : level_mesh(hierarchy_, l, finest_.points()); }
+    const std::vector<typename mesh<Element>::cell>& cells(std::size_t l) const { return hierarchy_.levels[l].cells; }
 
     /// In the numbers of the level; for the finest one, to and from the numbers of the level, too, not the user's.
-    std::shared_ptr<const layout<triangle>> make_layout(std::size_t l) const
+    std::shared_ptr<const layout<Element>> make_layout(std::size_t l) const
     {
-        const auto m = surface(l);
-        auto made = std::make_shared<layout<triangle>>(m, identity_order(m), free_[l]);
+        const auto m = level(l);
+        auto made = std::make_shared<layout<Element>>(m, identity_order(m), free_[l]);
         if (!data_.empty()) made->attach(l == 0 ? data_ : coarse_data_.at(m.cells(), hierarchy_.levels[l].vertices), m);
         return made;
     }
@@ -79,23 +77,20 @@ public:
         std::vector<transfer_weights> all;
         for (; l < hierarchy_.steps.size(); ++l)
         {
-            const prolongation& P = hierarchy_.steps[l].interpolation;
-            all.push_back({.columns = P.columns,
-                           .weights = P.weights,
-                           .coarse = vertices(l + 1),
-                           .fixed = fixed(l + 1),
-                           .offsets = P.transpose.offsets,
-                           .places = P.transpose.items});
+            const auto& P = hierarchy_.steps[l].interpolation;
+            all.push_back(transfer_weights::of_rows(P.columns, P.weights, vertices(l + 1), fixed(l + 1)));
+            all.back().offsets = P.transpose.offsets;
+            all.back().places = P.transpose.items;
         }
         return all;
     }
 
 private:
     solution_order numbering_;
-    mesh<triangle> finest_;
+    mesh<Element> finest_;
     cell_data data_;
     averaged_cell_data coarse_data_;
-    taut::hierarchy hierarchy_;
+    taut::hierarchy<Element> hierarchy_;
     std::vector<idx> free_;
     std::vector<std::vector<char>> fixed_;
 };

@@ -21,16 +21,22 @@ namespace taut
 namespace detail
 {
 
-/// A kernel of kernels/block_sparse.cl for D x D blocks.
-inline kernel block_kernel(queue& q, const char* name, scalar_type real, int D, lane_form form)
+/// A kernel of kernels/block_sparse.cl for D x D blocks and interpolations of K weights a row.
+inline kernel transfer_kernel(queue& q, const char* name, scalar_type real, int D, int K, lane_form form)
 {
     const bool wide = real == scalar_type::f64;
     return {q, kernels::block_sparse, name,
             "-DREAL=" + std::string(spelling(real)) + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
-                " -DD=" + std::to_string(D) + " -DC=" + std::to_string(form.slice) +
+                " -DD=" + std::to_string(D) + " -DK=" + std::to_string(K) + " -DC=" + std::to_string(form.slice) +
                 " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
                 " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f"),
             real};
+}
+
+/// A kernel that knows no interpolation: of the program that those of simplices with D + 1 corners are in.
+inline kernel block_kernel(queue& q, const char* name, scalar_type real, int D, lane_form form)
+{
+    return transfer_kernel(q, name, real, D, D + 1, form);
 }
 
 } // namespace detail

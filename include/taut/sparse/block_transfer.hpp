@@ -25,6 +25,7 @@ public:
     block_transfer(const block_matrix& fine, const transfer_lists& lists, const block_matrix& coarse)
         : queue_(fine.queue()),
           form_(fine.form()),
+          K_(static_cast<int>(lists.K)),
           fine_stride_(static_cast<idx>(fine.stride())),
           stride_(static_cast<idx>(coarse.stride())),
           columns_(queue_, lists.columns),
@@ -35,10 +36,11 @@ public:
         if (lists.fine_rows != fine.rows() || lists.coarse_rows != coarse.rows())
             throw parameter_error("transfer_lists", "do not fit the matrices");
         upload(lists.groups, coarse);
-        const int D = fine.block_size();
-        prolong_ = detail::block_kernel(queue_, "prolong", fine.type(), D, form_);
-        restrict_ = detail::block_kernel(queue_, "restrict_residual", fine.type(), D, form_);
-        galerkin_ = detail::block_kernel(queue_, "galerkin", fine.type(), D, form_);
+        const auto get = [&](const char* name)
+        { return detail::transfer_kernel(queue_, name, fine.type(), fine.block_size(), K_, form_); };
+        prolong_ = get("prolong");
+        restrict_ = get("restrict_residual");
+        galerkin_ = get("galerkin");
     }
 
     /// x += P coarse
@@ -89,7 +91,9 @@ public:
                                    {"coarse", coarse.values()}});
     }
 
-    /// Columns and weights of P at [k * stride + row], for places k < 3.
+    /// Places a row of P.
+    int K() const noexcept { return K_; }
+    /// Columns and weights of P at [k * stride + row], for places k < K.
     const buffer<idx>& columns() const noexcept { return columns_; }
     const real_buffer& weights() const noexcept { return weights_; }
 
@@ -120,6 +124,7 @@ private:
 
     mutable queue queue_;
     lane_form form_;
+    int K_;
     idx fine_stride_, stride_, group_size_ = 1, colour_count_ = 0;
     range product_items_{0};
     buffer<idx> columns_, transpose_offsets_, transpose_, codes_, colours_, visit_offsets_, visits_;

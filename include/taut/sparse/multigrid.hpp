@@ -41,7 +41,8 @@ public:
         constexpr std::size_t few = 2048; // rows; a product takes one core as long as a launch takes
         fused_ = last.form().lanes > 1 && levels() > 1 && solves_coarsest() && levels_[levels() - 2].A.rows() <= few;
         if (fused_)
-            small_cycle_ = detail::block_kernel(last.queue(), "small_cycle", type, last.block_size(), last.form());
+            small_cycle_ = detail::transfer_kernel(last.queue(), "small_cycle", type, last.block_size(),
+                                                   transfers_.back().K(), last.form());
         // Chebyshev iteration on [lambda_max / ratio, lambda_max] (Saad, Iterative Methods, algorithm 12.1).
         const double low = params.lambda_max / params.lambda_ratio, middle = (params.lambda_max + low) / 2,
                      half = (params.lambda_max - low) / 2, sigma = middle / half;

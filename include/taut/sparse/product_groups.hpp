@@ -64,13 +64,13 @@ private:
 
     void code(const transfer_weights& P)
     {
-        codes.assign(P.columns.size(), 0);
+        static_assert(transfer_weights::most <= sizeof(idx));
+        codes.assign(P.rows(), 0);
         const auto some = [&](std::size_t begin, std::size_t end)
         {
             for (std::size_t i = begin; i < end; ++i)
-                for (std::size_t k = 0; k < 3; ++k)
-                    if (P.weight(i, k) != 0)
-                        codes[i] |= colours[static_cast<std::size_t>(P.columns[i][k])] % most_colours << 8 * k;
+                for (std::size_t k = 0; k < P.K; ++k)
+                    if (P.weight(i, k) != 0) codes[i] |= colours[P.column(i, k)] % most_colours << 8 * k;
         };
         parallel_for(codes.size(), some);
     }
@@ -81,14 +81,14 @@ private:
         std::vector<std::vector<idx>> lists(groups);
         const auto some = [&](std::size_t begin, std::size_t end)
         {
-            std::vector<idx> lanes(P.columns.size() / C + 1, 0), slices;
+            std::vector<idx> lanes(P.rows() / C + 1, 0), slices;
             for (std::size_t g = begin; g < end; ++g)
             {
                 slices.clear();
                 for (std::size_t J = g * size; J < std::min(P.coarse, (g + 1) * size); ++J)
                     for (const idx place : t[J])
                     {
-                        const auto i = static_cast<std::size_t>(place / 3);
+                        const auto i = transfer_weights::row_of(place);
                         if (lanes[i / C] == 0) slices.push_back(static_cast<idx>(i / C));
                         lanes[i / C] |= idx{1} << i % C;
                     }

@@ -14,17 +14,34 @@
 namespace taut
 {
 
+namespace detail
+{
+
+/// A map without flips, for want of a better one.
+inline std::vector<vec2> some_map(const mesh<triangle>& m)
+{
+    return barycentric_map(m, facets(m), {}).uv;
+}
+inline std::vector<vec3> some_map(const mesh<tetrahedron>& m)
+{
+    return m.points();
+}
+
+} // namespace detail
+
 /// Minimises an energy on one level of a hierarchy after another. The kernels are traced and compiled once; buffers and
 /// matrices live as long as the level that they serve is at work.
+template <class Element>
 class level_solver
 {
 public:
-    using kernels = newton_kernels<triangle>;
-    using plan = newton_plan<triangle>;
+    static constexpr int D = Element::dimension;
+    using kernels = newton_kernels<Element>;
+    using plan = newton_plan<Element>;
 
     /// Refers to the levels.
-    level_solver(const queue& q, const mesh_levels& levels, const any_energy& energy, energy::weighting weights,
-                 const real_types& types)
+    level_solver(const queue& q, const mesh_levels<Element>& levels, const any_energy& energy,
+                 energy::weighting weights, const real_types& types)
         : queue_(q),
           levels_(levels),
           energy_(energy),
@@ -37,27 +54,27 @@ public:
     void warm_up()
     {
         const std::size_t coarsest = levels_.size() - 1;
-        const auto m = levels_.surface(coarsest);
         plan host(levels_, coarsest, lane_form::for_device(queue_.device()));
-        level(*this, std::move(host), barycentric_map(m, facets(m), {}).uv).warm_up();
+        level(*this, std::move(host), detail::some_map(levels_.level(coarsest))).warm_up();
     }
 
-    double energy_at_rest() const { return energy_(element<double, 2>{mat2(1.0), 1.0, 1.0}); }
+    double energy_at_rest() const { return energy::rest_value<D>(energy_); }
 
     /// One level at work.
     class level
     {
     public:
-        /// host: that of the level. uv: the map to start from, coordinates of the level's vertices. constraints: in the
+        /// host: that of the level. x: the map to start from, coordinates of the level's vertices. constraints: in the
         /// level's numbers.
-        level(level_solver& owner, plan host, const std::vector<vec2>& uv, const point_constraints<2>& constraints = {})
+        level(level_solver& owner, plan host, const std::vector<vec<D>>& x,
+              const point_constraints<D>& constraints = {})
             : objective_(owner.queue_, std::move(host), owner.energy_, owner.weights_, owner.kernels_, constraints),
               x_(objective_.make_point())
         {
-            objective_.upload(uv, x_);
+            objective_.upload(x, x_);
         }
 
-        std::vector<vec2> download() const { return objective_.download(x_); }
+        std::vector<vec<D>> download() const { return objective_.download(x_); }
 
         /// Spreads out what caps the first step: meant for maps that come from a coarser level.
         void relax() { objective_.relax(x_); }
@@ -70,13 +87,13 @@ public:
         void warm_up() { objective_.warm_up(x_); }
 
     private:
-        newton_objective<triangle> objective_;
-        newton_objective<triangle>::point x_;
+        newton_objective<Element> objective_;
+        typename newton_objective<Element>::point x_;
     };
 
 private:
     queue queue_;
-    const mesh_levels& levels_;
+    const mesh_levels<Element>& levels_;
     any_energy energy_;
     energy::weighting weights_;
     std::shared_ptr<const kernels> kernels_;

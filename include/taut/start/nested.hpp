@@ -33,7 +33,7 @@ struct nested_params
     int small_decrease_count = 3;
 
     /// The level that the start map is made on.
-    std::size_t first_level(const mesh_levels& levels) const
+    std::size_t first_level(const mesh_levels<triangle>& levels) const
     {
         std::size_t l = 0;
         while (l + 1 < levels.size() && levels.vertices(l) > start_vertices) ++l;
@@ -41,14 +41,15 @@ struct nested_params
     }
 };
 
-/// Nested iteration: a start map on a coarse level, minimised, and then for each finer level its vertices reinserted
-/// without flips, the worst elements relaxed, and the map minimised again. It needs no map of the fine mesh to begin
-/// with and hands the fine level one that lacks detail only (the paper's coarse-to-fine scheme, its section 5).
+/// Nested iteration on surfaces: a start map on a coarse level, minimised, and then for each finer level its vertices
+/// reinserted without flips, the worst elements relaxed, and the map minimised again. It needs no map of the fine mesh
+/// to begin with and hands the fine level one that lacks detail only (the paper's coarse-to-fine scheme, its section
+/// 5).
 class nested_iteration
 {
 public:
     /// Refers to the levels and the solver.
-    nested_iteration(const mesh_levels& levels, level_solver& solver, nested_params params)
+    nested_iteration(const mesh_levels<triangle>& levels, level_solver<triangle>& solver, nested_params params)
         : levels_(levels), solver_(solver), params_(std::move(params))
     {
         params_.stopping.base = solver.energy_at_rest();
@@ -57,11 +58,16 @@ public:
     /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
     /// reason() then says how.
     /// plan: that of a level; asked for each level but the finest, coarse ones first.
+<<<<<<< HEAD
     std::vector<vec2> run(const std::function<observer(std::size_t level)>& ask,
                           const std::function<level_solver::plan(std::size_t level)>& plan)
+=======
+    std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer,
+                          const std::function<level_solver<triangle>::plan(std::size_t level)>& plan)
+>>>>>>> 4d8d0b120093ee2cda60a9d70ad4624eb83cfeb8
     {
         const std::size_t first = params_.first_level(levels_);
-        start_ = robust_start(levels_.surface(first), params_.start);
+        start_ = robust_start(levels_.level(first), params_.start);
         if (!start_.flips) return fail("the coarse start has " + describe_defects<triangle>(start_.flips));
         auto uv = std::move(start_.uv);
         const auto stopped = [this] { return params_.start.proceed && !params_.start.proceed(); };
@@ -88,10 +94,15 @@ public:
     const std::vector<level_report>& reports() const { return reports_; }
 
 private:
+<<<<<<< HEAD
     std::vector<vec2> minimised(std::size_t l, level_solver::plan host, const std::vector<vec2>& uv, bool relax,
                                 const observer& ask)
+=======
+    std::vector<vec2> minimised(std::size_t l, level_solver<triangle>::plan host, const std::vector<vec2>& uv,
+                                bool relax, const solve::observer& ask)
+>>>>>>> 4d8d0b120093ee2cda60a9d70ad4624eb83cfeb8
     {
-        level_solver::level level(solver_, std::move(host), uv);
+        level_solver<triangle>::level level(solver_, std::move(host), uv);
         if (relax && params_.stopping.max_iterations > 0) level.relax();
         auto stopping = params_.stopping;
         if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;
@@ -107,8 +118,8 @@ private:
         return {};
     }
 
-    const mesh_levels& levels_;
-    level_solver& solver_;
+    const mesh_levels<triangle>& levels_;
+    level_solver<triangle>& solver_;
     nested_params params_;
     start_map start_;
     std::string reason_;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/hierarchy/make_hierarchy.hpp>
 #include <taut/start/barycentric_map.hpp>
 #include <taut/start/isometric_newton.hpp>
 #include <taut/start/raise_map.hpp>
@@ -61,7 +62,7 @@ struct descent_plan
 };
 
 /// Area of a level at rest.
-inline double surface_area(const hierarchy& h, std::size_t level, std::span<const vec3> points)
+inline double surface_area(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points)
 {
     const auto at = [&](idx v)
     { return points[static_cast<std::size_t>(h.levels[level].vertices[static_cast<std::size_t>(v)])]; };
@@ -72,14 +73,15 @@ inline double surface_area(const hierarchy& h, std::size_t level, std::span<cons
 }
 
 /// Brings a map of a level on an outline, which has the area of the level, to the area of the whole surface.
-inline void scale_outline(const hierarchy& h, std::size_t level, std::span<const vec3> points, std::vector<vec2>& uv)
+inline void scale_outline(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
+                          std::vector<vec2>& uv)
 {
     const double scale = std::sqrt(surface_area(h, 0, points) / surface_area(h, level, points));
     for (vec2& p : uv) p *= scale;
 }
 
 /// Newton's method on the isometric energy of a level, from a map without flips. Returns the energy, as area mean.
-inline double optimize_level(const hierarchy& h, std::size_t level, std::span<const vec3> rest,
+inline double optimize_level(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> rest,
                              std::span<const char> fixed, const robust_start_params& params, std::vector<vec2>& uv)
 {
     std::vector<vec3> points;

@@ -13,7 +13,9 @@
 
 #include <taut/core/held_marks.hpp>
 #include <taut/core/parallel.hpp>
-#include <taut/energy/regularized_triangle.hpp>
+#include <taut/energy/corner_derivatives.hpp>
+#include <taut/energy/modes.hpp>
+#include <taut/energy/regularized.hpp>
 #include <taut/mesh/first_flip.hpp>
 #include <taut/sparse/front_cholesky.hpp>
 #include <taut/start/target_shapes.hpp>
@@ -53,13 +55,13 @@ public:
 
     mat2 mapped(std::span<const vec2> x, std::size_t c) const
     {
-        const auto& t = cells_[c];
-        return mat2(x[u(t[1])] - x[u(t[0])], x[u(t[2])] - x[u(t[0])]) * shapes[c].inverse;
+        return shape_matrix<2>(cells_[c], x, shapes[c].inverse);
     }
 
     double value(std::span<const vec2> x) const
     {
         constexpr std::size_t block = 2048;
+        const energy::regularized<2> f{eps, area_weight};
         std::vector<double> part((cells_.size() + block - 1) / block, 0.0);
         parallel_for(
             part.size(),
@@ -67,7 +69,7 @@ public:
             {
                 for (std::size_t b = begin; b < end; ++b)
                     for (std::size_t c = b * block; c < std::min(cells_.size(), (b + 1) * block); ++c)
-                        part[b] += shapes[c].weight * regularized_triangle::value_of(mapped(x, c), eps, area_weight);
+                        part[b] += shapes[c].weight * f(mapped(x, c));
             },
             0, 2);
         double sum = 0;
@@ -159,29 +161,11 @@ private:
     /// Sets the triangle's block and the forces on its corners.
     void derivatives(std::span<const vec2> x, std::size_t c)
     {
-        const regularized_triangle f(mapped(x, c), eps, area_weight);
-        // dS = dA W^-1: how S moves with the corners.
-        const mat2& w = shapes[c].inverse;
-        const std::array<vec2, 3> corner{vec2(-w[0][0] - w[0][1], -w[1][0] - w[1][1]), vec2(w[0][0], w[1][0]),
-                                         vec2(w[0][1], w[1][1])};
-        std::array<std::array<double, 6>, 4> moved{};
-        for (std::size_t m = 0; m < 4; ++m)
-            for (std::size_t k = 0; k < 3; ++k)
-                for (std::size_t r = 0; r < 2; ++r)
-                    moved[m][2 * k + r] = f.modes[m][r] * corner[k].x + f.modes[m][2 + r] * corner[k].y;
+        const mat2 S = mapped(x, c);
+        const auto psi = energy::regularized<2>{eps, area_weight}.derivatives(norm2(S), glm::determinant(S));
         const double weight = shapes[c].weight;
-        auto& H = blocks_[c];
-        for (std::size_t i = 0; i < 6; ++i)
-            for (std::size_t j = i; j < 6; ++j)
-            {
-                double sum = 0;
-                for (std::size_t m = 0; m < 4; ++m) sum += f.stiffness[m] * moved[m][i] * moved[m][j];
-                H[i][j] = H[j][i] = weight * sum;
-            }
-        for (std::size_t k = 0; k < 3; ++k)
-            for (std::size_t r = 0; r < 2; ++r)
-                forces_[c][k][static_cast<int>(r)] =
-                    -weight * (f.gradient[r] * corner[k].x + f.gradient[2 + r] * corner[k].y);
+        blocks_[c] = corner_hessian<2>(plane_modes<double>(S, psi, true).hessian(weight), shapes[c].inverse);
+        forces_[c] = corner_gradient<2>(-weight * gradient_by_shape(S, psi.by_I, psi.by_d), shapes[c].inverse);
     }
 
     /// Makes the equations of held coordinates x = 0; pinned vertices have none.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <taut/energy/regularized_triangle.hpp>
+#include <taut/energy/regularized.hpp>
 
 namespace taut::detail
 {
@@ -36,7 +36,7 @@ public:
             return;
         }
         const double sigma = std::clamp(1 - after / before, std::clamp(pace_ * std::sqrt(t), 0.1 * pace_, pace_), 0.9);
-        const double chi = (1 - sigma) * regularized_triangle::chi(eps_, least);
+        const double chi = (1 - sigma) * energy::regularized<2>{.eps = eps_}.chi(least);
         eps_ = least < chi ? std::max(floor, 2 * std::sqrt(chi * (chi - least))) : floor;
     }
 

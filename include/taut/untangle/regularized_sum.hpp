@@ -13,16 +13,15 @@
 #include <taut/core/held_marks.hpp>
 #include <taut/core/linalg.hpp>
 #include <taut/core/parallel.hpp>
-#include <taut/energy/regularized_triangle.hpp>
+#include <taut/energy/corner_derivatives.hpp>
+#include <taut/energy/regularized.hpp>
 #include <taut/mesh/incidence.hpp>
 #include <taut/start/target_shapes.hpp>
 
 namespace taut::detail
 {
 
-/// The regularised energy of regularized_triangle.hpp over a mesh of any dimension, with its gradient:
-///
-///     sum of weight (|S|^2 / chi^(2/D) + area_weight (det S^2 + 1) / chi)
+/// energy::regularized summed over a mesh by weight, with its gradient.
 template <class Element>
 class regularized_sum
 {
@@ -79,37 +78,22 @@ private:
     mat<D> mapped(std::span<const double> x, std::size_t c) const
     {
         const auto& t = mesh_.cells()[c];
+        const auto at = [&](int corner, int k)
+        { return x[D * u(t[static_cast<std::size_t>(corner)]) + static_cast<std::size_t>(k)]; };
         mat<D> A;
         for (int e = 0; e < D; ++e)
-            for (int k = 0; k < D; ++k)
-                A[e][k] = x[D * u(t[static_cast<std::size_t>(e) + 1]) + static_cast<std::size_t>(k)] -
-                          x[D * u(t[0]) + static_cast<std::size_t>(k)];
-        return A * shapes[c].inverse;
-    }
-
-    /// d det S / dS.
-    static mat2 cofactors(const mat2& S) { return mat2(S[1][1], -S[1][0], -S[0][1], S[0][0]); }
-    static mat3 cofactors(const mat3& S)
-    {
-        return mat3(glm::cross(S[1], S[2]), glm::cross(S[2], S[0]), glm::cross(S[0], S[1]));
+            for (int k = 0; k < D; ++k) A[e][k] = at(e + 1, k) - at(0, k);
+        return shape_matrix(A, shapes[c].inverse);
     }
 
     void element(std::span<const double> x, std::size_t c)
     {
         const mat<D> S = mapped(x, c);
-        const double det = glm::determinant(S), n2 = norm2(S), r = std::hypot(eps, det);
-        const double chi = regularized_triangle::chi(eps, det); // d chi / d det = chi / r
-        const double shape = D == 2 ? 1 / chi : 1 / std::cbrt(chi * chi), weight = shapes[c].weight;
-        values_[c] = weight * (n2 * shape + area_weight * (det * det + 1) / chi);
-        const double by_det = -2.0 / D * n2 * shape / r + area_weight * (2 * det - (det * det + 1) / r) / chi;
-        const mat<D> by_edges = weight * (2 * shape * S + by_det * cofactors(S)) * glm::transpose(shapes[c].inverse);
-        vec<D> first(0.0);
-        for (int e = 0; e < D; ++e)
-        {
-            forces_[c * Element::corners + static_cast<std::size_t>(e) + 1] = by_edges[e];
-            first -= by_edges[e];
-        }
-        forces_[c * Element::corners] = first;
+        const double weight = shapes[c].weight;
+        const auto f = energy::regularized<D>{eps, area_weight}.first_derivatives(norm2(S), glm::determinant(S));
+        values_[c] = weight * f.value;
+        const auto g = corner_gradient<D>(weight * gradient_by_shape(S, f.by_I, f.by_d), shapes[c].inverse);
+        for (std::size_t k = 0; k < g.size(); ++k) forces_[c * g.size() + k] = g[k];
     }
 
     const mesh<Element>& mesh_;

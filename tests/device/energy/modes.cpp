@@ -13,6 +13,7 @@
 
 #include <taut/energy/algebra.hpp>
 #include <taut/energy/isometric.hpp>
+#include <taut/energy/isotropic.hpp>
 #include <taut/energy/modes.hpp>
 #include <taut/symbolic/evaluate.hpp>
 

@@ -22,8 +22,8 @@ using namespace taut;
 struct setting
 {
     mesh<triangle> surface = test::bumpy(test::sized(16, 4), 0.25, 2);
-    mesh_levels levels{surface};
-    mesh<triangle> finest = levels.surface(0);
+    mesh_levels<triangle> levels{surface};
+    mesh<triangle> finest = levels.level(0);
     std::vector<vec2> start = barycentric_map(finest, facets(finest), {.stretch_rounds = 3}).uv;
     point_constraints<2> wanted;
     queue q;

@@ -39,7 +39,7 @@ struct fixture
 {
     mesh<triangle> surface;
     std::vector<bool> pinned;
-    mesh_levels levels;
+    mesh_levels<triangle> levels;
     std::vector<vec2> start;
     queue q;
 

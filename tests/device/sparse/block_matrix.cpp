@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cmath>
+#include <random>
 
 #include <doctest/doctest.h>
 
@@ -77,28 +79,108 @@ std::vector<double> random_blocks(scalar_type type, const block_pattern& p, std:
     return values;
 }
 
-/// Interpolation from every third vertex, with rows of one, two and three weights.
+/// Interpolation from every third vertex: rows of one to K weights, which sum to 1, at random places near by.
+template <std::size_t K>
 struct some_weights
 {
     explicit some_weights(std::size_t rows)
     {
         coarse = (rows + 2) / 3;
+        std::mt19937 rng(K);
         for (std::size_t i = 0; i < rows; ++i)
         {
-            const taut::idx a = taut::idx(i / 3), b = taut::idx((i / 3 + 1) % coarse),
-                            c = taut::idx((i / 3 + 5) % coarse);
-            columns.push_back({a, b, c});
-            weights.push_back(i % 3 == 0   ? std::array{1.0, 0.0, 0.0}
-                              : i % 3 == 1 ? std::array{0.25, 0.75, 0.0}
-                                           : std::array{0.5, 0.2, 0.3});
+            std::array<taut::idx, K> c;
+            for (std::size_t k = 0, next = i / 3; k < K; ++k, next += 1 + rng() % 3) c[k] = taut::idx(next % coarse);
+            std::array<double, K> w{};
+            double sum = 0;
+            for (std::size_t k = 0; k <= i % K; ++k) sum += w[k] = 1 + double(rng() % 8);
+            for (double& x : w) x /= sum;
+            columns.push_back(c);
+            weights.push_back(w);
         }
     }
-    transfer_weights view(std::span<const char> fixed = {}) const { return {columns, weights, coarse, fixed, {}, {}}; }
+    transfer_weights view(std::span<const char> fixed = {}) const
+    {
+        return transfer_weights::of_rows(columns, weights, coarse, fixed);
+    }
 
     std::size_t coarse;
-    std::vector<std::array<taut::idx, 3>> columns;
-    std::vector<std::array<double, 3>> weights;
+    std::vector<std::array<taut::idx, K>> columns;
+    std::vector<std::array<double, K>> weights;
 };
+
+/// Cells of K vertices that lie within a few dozen of each other.
+template <std::size_t K>
+std::vector<std::array<taut::idx, K>> random_cells(std::size_t rows)
+{
+    std::mt19937 rng(1);
+    std::vector<std::array<taut::idx, K>> cells(rows);
+    for (std::size_t c = 0; c < rows; ++c)
+        for (std::size_t k = 0, next = c; k < K; ++k, next += 1 + rng() % 9) cells[c][k] = taut::idx(next % rows);
+    return cells;
+}
+
+/// Restriction, prolongation and the coarse matrix against loops on the host.
+template <class T, std::size_t K>
+void check_transfers(const std::vector<std::array<taut::idx, K>>& cells, std::size_t n, int D)
+{
+    queue q;
+    const some_weights<K> P(n);
+    std::vector<char> fixed(P.coarse, 0);
+    fixed[2] = 1;
+    const auto d = std::size_t(D);
+    for (const lane_form form : forms)
+    {
+        CAPTURE(D);
+        CAPTURE(K);
+        CAPTURE(form.lanes);
+        const auto view = P.view(fixed);
+        block_matrix A(q, scalar_type_of<T>, pattern_of_cells(cells, n, form.slice), D, form);
+        block_matrix B(q, scalar_type_of<T>, pattern_of_product(A.pattern(), view), D, form);
+        const auto values = random_blocks(A.type(), A.pattern(), d, 4);
+        A.upload(values);
+        const block_transfer transfer(A, view, B);
+        transfer.refresh(A, B);
+        std::vector<double> expected(B.pattern().columns.size() * d * d, 0.0);
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < A.pattern().length(i); ++j)
+                for (std::size_t k = 0; k < K; ++k)
+                    for (std::size_t l = 0; l < K; ++l)
+                    {
+                        const auto c = std::size_t(A.pattern().column(i, j));
+                        const double w = view.weight(i, k) * view.weight(c, l);
+                        if (w == 0) continue;
+                        const auto I = std::size_t(P.columns[i][k]);
+                        const std::size_t at = B.pattern().find(I, P.columns[c][l]);
+                        REQUIRE(at < B.pattern().length(I));
+                        for (std::size_t e = 0; e < d * d; ++e)
+                            expected[B.pattern().place(I, at) * d * d + e] +=
+                                w * values[A.pattern().place(i, j) * d * d + e];
+                    }
+        CHECK(difference(B.download(), expected) < tolerance<T>);
+
+        // Restriction with its first smoothing step, then prolongation.
+        B.invert_diagonal();
+        std::vector<double> hr, hx, hc;
+        const auto r = random_vector(A, 1, hr), coarse = random_vector(B, 2, hc);
+        auto b = B.vector(), y = B.vector(), y2 = B.vector(), x = random_vector(A, 3, hx);
+        transfer.restrict_residual(r, B, 0.5, b, y);
+        std::vector<double> hb(d * B.stride(), 0.0), hp = hx;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t k = 0; k < K; ++k)
+                for (std::size_t c = 0; c < d; ++c)
+                {
+                    const auto I = std::size_t(P.columns[i][k]);
+                    hb[c * B.stride() + I] += view.weight(i, k) * hr[c * A.stride() + i];
+                    hp[c * A.stride() + i] += view.weight(i, k) * hc[c * B.stride() + I];
+                }
+        CHECK(difference(b.download(), hb) < tolerance<T>);
+        B.jacobi(b, 0.5, y2);
+        CHECK(difference(y.download(), y2.download()) == 0);
+        transfer.prolong(coarse, x);
+        CHECK(difference(x.download(), hp) < tolerance<T>);
+    }
+}
 
 } // namespace
 
@@ -223,62 +305,12 @@ TEST_CASE_TEMPLATE("block sparse: element blocks are summed into place, transpos
 
 TEST_CASE_TEMPLATE("block sparse: transfers and the coarse matrix are those of a host loop", T, float, double)
 {
-    queue q;
     const auto m = test_mesh();
-    const std::size_t n = m.points().size();
-    const some_weights P(n);
-    std::vector<char> fixed(P.coarse, 0);
-    fixed[2] = 1;
-    for (const lane_form form : forms)
-        for (const int D : {2, 3})
-        {
-            const auto d = std::size_t(D);
-            const auto view = P.view(fixed);
-            block_matrix A(q, scalar_type_of<T>, pattern_of_cells(m.cells(), n, form.slice), D, form);
-            block_matrix B(q, scalar_type_of<T>, pattern_of_product(A.pattern(), view), D, form);
-            const auto values = random_blocks(A.type(), A.pattern(), d, 4);
-            A.upload(values);
-            const block_transfer transfer(A, view, B);
-            transfer.refresh(A, B);
-            std::vector<double> expected(B.pattern().columns.size() * d * d, 0.0);
-            for (std::size_t i = 0; i < n; ++i)
-                for (std::size_t j = 0; j < A.pattern().length(i); ++j)
-                    for (std::size_t k = 0; k < 3; ++k)
-                        for (std::size_t l = 0; l < 3; ++l)
-                        {
-                            const auto c = std::size_t(A.pattern().column(i, j));
-                            const double w = view.weight(i, k) * view.weight(c, l);
-                            if (w == 0) continue;
-                            const auto I = std::size_t(P.columns[i][k]);
-                            const std::size_t at = B.pattern().find(I, P.columns[c][l]);
-                            REQUIRE(at < B.pattern().length(I));
-                            for (std::size_t e = 0; e < d * d; ++e)
-                                expected[B.pattern().place(I, at) * d * d + e] +=
-                                    w * values[A.pattern().place(i, j) * d * d + e];
-                        }
-            CHECK(difference(B.download(), expected) < tolerance<T>);
-
-            // Restriction with its first smoothing step, then prolongation.
-            B.invert_diagonal();
-            std::vector<double> hr, hx, hc;
-            const auto r = random_vector(A, 1, hr), coarse = random_vector(B, 2, hc);
-            auto b = B.vector(), y = B.vector(), y2 = B.vector(), x = random_vector(A, 3, hx);
-            transfer.restrict_residual(r, B, 0.5, b, y);
-            std::vector<double> hb(d * B.stride(), 0.0), hp = hx;
-            for (std::size_t i = 0; i < n; ++i)
-                for (std::size_t k = 0; k < 3; ++k)
-                    for (std::size_t c = 0; c < d; ++c)
-                    {
-                        const auto I = std::size_t(P.columns[i][k]);
-                        hb[c * B.stride() + I] += view.weight(i, k) * hr[c * A.stride() + i];
-                        hp[c * A.stride() + i] += view.weight(i, k) * hc[c * B.stride() + I];
-                    }
-            CHECK(difference(b.download(), hb) < tolerance<T>);
-            B.jacobi(b, 0.5, y2);
-            CHECK(difference(y.download(), y2.download()) == 0);
-            transfer.prolong(coarse, x);
-            CHECK(difference(x.download(), hp) < tolerance<T>);
-        }
+    check_transfers<T>(m.cells(), m.points().size(), 2);
+    check_transfers<T>(m.cells(), m.points().size(), 3);
+    const auto n = std::size_t(test::sized(500, 100));
+    check_transfers<T>(random_cells<3>(n), n, 2);
+    check_transfers<T>(random_cells<4>(n), n, 3);
 }
 
 TEST_CASE_TEMPLATE("block sparse: the product with the identity is the matrix, rows of many nonzeros included", T,
@@ -292,7 +324,7 @@ TEST_CASE_TEMPLATE("block sparse: the product with the identity is the matrix, r
     std::vector<std::array<taut::idx, 3>> columns;
     for (taut::idx v = 0; v < n; ++v) columns.push_back({v, v, v});
     const std::vector<std::array<double, 3>> weights(columns.size(), {1, 0, 0});
-    const transfer_weights identity{columns, weights, columns.size(), {}, {}, {}};
+    const auto identity = transfer_weights::of_rows(columns, weights, columns.size());
     queue q;
     for (const lane_form form : forms)
         for (const int D : {2, 3})

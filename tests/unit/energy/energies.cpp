@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <random>
 
 #include <doctest/doctest.h>
 
 #include <taut/energy/algebra.hpp>
+#include <taut/energy/corner_derivatives.hpp>
 #include <taut/energy/isometric.hpp>
+#include <taut/energy/modes.hpp>
+#include <taut/mesh/ideal.hpp>
 
 namespace
 {
@@ -132,4 +137,75 @@ TEST_CASE("algebra: sums, factors and products evaluate as written")
               doctest::Approx(0.8 * isometric{}(x) + 0.2 * shape{}(x) + shape{}(x)*area{}(x)).epsilon(1e-14));
     }
     static_assert(decltype(mixed)::barrier);
+}
+
+TEST_CASE("isometric: its derivatives by the invariants are those of its value")
+{
+    std::mt19937 rng(7);
+    std::uniform_real_distribution<double> some(-0.4, 0.4);
+    const auto value = [](const mat2& S) {
+        return energy::isometric{}(element<double, 2>{S, glm::determinant(S), 1.0});
+    };
+    const auto psi = [](const mat2& S) { return energy::isometric::derivatives(norm2(S), glm::determinant(S)); };
+    const auto gradient = [&](const mat2& S) { return gradient_by_shape(S, psi(S).by_I, psi(S).by_d); };
+    for (int n = 0; n < 20; ++n)
+    {
+        const mat2 S(1 + some(rng), some(rng), some(rng), 1 + some(rng));
+        const auto H = plane_modes<double>(S, psi(S), false).hessian(1.0);
+        const double h = 1e-6;
+        for (int i = 0; i < 4; ++i)
+        {
+            mat2 ahead = S, behind = S;
+            ahead[i / 2][i % 2] += h;
+            behind[i / 2][i % 2] -= h;
+            CHECK(gradient(S)[i / 2][i % 2] ==
+                  doctest::Approx((value(ahead) - value(behind)) / (2 * h)).epsilon(1e-6).scale(10));
+            const mat2 change = (gradient(ahead) - gradient(behind)) / (2 * h);
+            for (int j = 0; j < 4; ++j)
+                CHECK(H(i, j) == doctest::Approx(change[j / 2][j % 2]).epsilon(1e-6).scale(100));
+        }
+    }
+}
+
+TEST_CASE_TEMPLATE("corner derivatives: they are those of a quadratic of S", Element, triangle, tetrahedron)
+{
+    constexpr int D = Element::dimension;
+    constexpr std::size_t N = Element::corners;
+    std::mt19937 rng(3);
+    std::uniform_real_distribution<double> some(-1, 1);
+    mat<D> inverse(0.0);
+    for (int c = 0; c < D; ++c)
+        for (int r = 0; r <= c; ++r) inverse[c][r] = some(rng);
+    symmetric_matrix<double, D * D> H;
+    for (int j = 0; j < D * D; ++j)
+        for (int i = 0; i <= j; ++i) H(i, j) = some(rng);
+    const auto gradient = [&](const std::array<vec<D>, N>& x)
+    {
+        mat<D> A;
+        for (int k = 0; k < D; ++k) A[k] = x[static_cast<std::size_t>(k) + 1] - x[0];
+        const mat<D> S = shape_matrix(A, inverse);
+        mat<D> g(0.0);
+        for (int i = 0; i < D * D; ++i)
+            for (int j = 0; j < D * D; ++j) g[i / D][i % D] += H(i, j) * S[j / D][j % D];
+        return corner_gradient<D>(g, inverse);
+    };
+    std::array<vec<D>, N> x;
+    for (auto& p : x)
+        for (int k = 0; k < D; ++k) p[k] = some(rng);
+    const auto blocks = corner_hessian<D>(H, inverse);
+    const auto here = gradient(x);
+    vec<D> sum(0.0);
+    for (const auto& g : here) sum += g;
+    for (int k = 0; k < D; ++k) CHECK(std::abs(sum[k]) < 1e-14);
+    for (std::size_t i = 0; i < D * N; ++i)
+    {
+        auto moved = x;
+        moved[i / D][static_cast<int>(i % D)] += 1; // the gradient is linear
+        const auto there = gradient(moved);
+        for (std::size_t j = 0; j < D * N; ++j)
+        {
+            const int r = static_cast<int>(j % D);
+            CHECK(blocks[i][j] == doctest::Approx(there[j / D][r] - here[j / D][r]).epsilon(1e-12).scale(10));
+        }
+    }
 }

@@ -25,7 +25,7 @@ int euler(const mesh<triangle>& m)
     return m.vertex_count() - edges + m.cell_count();
 }
 
-bool same(const hierarchy& a, const hierarchy& b)
+bool same(const hierarchy<triangle>& a, const hierarchy<triangle>& b)
 {
     if (a.levels.size() != b.levels.size()) return false;
     for (std::size_t l = 0; l < a.levels.size(); ++l)
@@ -140,7 +140,7 @@ TEST_CASE("hierarchy: kept vertices are on every level and never the only corner
         std::vector<taut::idx> kept;
         for (std::size_t v = 0; v < keep.size(); ++v)
             if (keep[v]) kept.push_back(static_cast<taut::idx>(v));
-        const auto locked = [&](const hierarchy::level& level)
+        const auto locked = [&](const hierarchy<triangle>::level& level)
         {
             int count = 0;
             for (const auto& t : level.cells)

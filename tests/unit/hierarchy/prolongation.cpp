@@ -14,7 +14,7 @@ namespace
 using namespace taut;
 using taut::idx;
 
-std::vector<vec3> positions(const hierarchy& h, std::size_t level, const mesh<triangle>& m)
+std::vector<vec3> positions(const hierarchy<triangle>& h, std::size_t level, const mesh<triangle>& m)
 {
     std::vector<vec3> x;
     for (const taut::idx v : h.levels[level].vertices) x.push_back(m.points()[static_cast<std::size_t>(v)]);
@@ -106,7 +106,7 @@ TEST_CASE("prolongation: linear functions of a planar mesh are reproduced, strai
         {
             const auto coarse = positions(h, l + 1, m), expected = positions(h, l, m);
             std::vector<vec3> fine(expected.size());
-            prolong<vec3>(h.steps[l].interpolation, coarse, fine);
+            prolong<3, vec3>(h.steps[l].interpolation, coarse, fine);
             double error = 0;
             for (std::size_t i = 0; i < fine.size(); ++i) error = std::max(error, glm::distance(fine[i], expected[i]));
             CHECK(error < 1e-11);
@@ -120,7 +120,7 @@ TEST_CASE("prolongation: a curved surface is interpolated to the size of its tri
     const auto h = make_hierarchy(m);
     const auto coarse = positions(h, 1, m), expected = positions(h, 0, m);
     std::vector<vec3> fine(expected.size());
-    prolong<vec3>(h.steps[0].interpolation, coarse, fine);
+    prolong<3, vec3>(h.steps[0].interpolation, coarse, fine);
     double error = 0;
     for (std::size_t i = 0; i < fine.size(); ++i) error += glm::distance(fine[i], expected[i]) / double(fine.size());
     // Coarse edges are about 0.06 long: sagitta 0.06^2 / 8; distances along the surface shrink as much.
@@ -141,11 +141,11 @@ TEST_CASE("prolongation: restriction is its transpose")
     };
     const auto coarse = random(h.levels[1].vertices.size()), fine = random(h.levels[0].vertices.size());
     std::vector<double> up(fine.size()), down(coarse.size());
-    prolong<double>(P, coarse, up);
+    prolong<3, double>(P, coarse, up);
     for (std::size_t j = 0; j < down.size(); ++j)
         for (const idx place : P.transpose.row(static_cast<idx>(j)))
         {
-            const auto row = static_cast<std::size_t>(place / 3), k = static_cast<std::size_t>(place % 3);
+            const auto row = static_cast<std::size_t>(place / 4), k = static_cast<std::size_t>(place % 4);
             CHECK(P.columns[row][k] == static_cast<idx>(j));
             down[j] += P.weights[row][k] * fine[row];
         }

@@ -19,7 +19,7 @@ using namespace taut;
 using taut::idx;
 
 /// From a map of the coarsest level to one of the mesh; checks every level exactly.
-std::vector<vec2> refine(const hierarchy& h, const mesh<triangle>& m, std::vector<vec2> uv,
+std::vector<vec2> refine(const hierarchy<triangle>& h, const mesh<triangle>& m, std::vector<vec2> uv,
                          const reinsert_params& params = {})
 {
     for (std::size_t l = h.steps.size(); l-- > 0;)
@@ -33,7 +33,7 @@ std::vector<vec2> refine(const hierarchy& h, const mesh<triangle>& m, std::vecto
     return uv;
 }
 
-std::vector<vec2> flat_positions(const hierarchy& h, std::size_t level, const mesh<triangle>& m)
+std::vector<vec2> flat_positions(const hierarchy<triangle>& h, std::size_t level, const mesh<triangle>& m)
 {
     std::vector<vec2> uv;
     for (const taut::idx v : h.levels[level].vertices)

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/hierarchy/hierarchy.hpp>
+#include <taut/hierarchy/make_hierarchy.hpp>
 
 namespace taut::test
 {

@@ -9,13 +9,15 @@
 #include <span>
 
 #include <taut/core/linalg.hpp>
+#include <taut/energy/isometric.hpp>
 #include <taut/hierarchy/detail/star_region.hpp>
+#include <taut/mesh/ideal.hpp>
 
 namespace taut::detail
 {
 
-/// Isometric distortion of the triangles around one vertex as a function of its image p, the ring fixed:
-/// sum of area |S|^2 (1 + 1/det S^2). |S|^2 is quadratic in p and det S linear, so that derivatives are short.
+/// energy::isometric of the triangles around one vertex, summed by area, as a function of its image p, the ring fixed.
+/// |S|^2 is quadratic in p and det S linear, so that derivatives are short.
 class star_energy
 {
 public:
@@ -24,15 +26,8 @@ public:
     {
         for (std::size_t i = 0; i < ring.triangles(); ++i)
         {
-            const vec3 a = rest[i], b = rest[ring.next(i)];
-            rest_triangle& t = triangle_[i];
-            // Flat triangles at rest have no ideal element; a height near 0 makes them stiff instead.
-            const double length = std::max(glm::length(a), std::numeric_limits<double>::min());
-            const double height = std::max(glm::length(glm::cross(a, b)) / length, 1e-6 * length);
-            t.along = 1 / length;
-            t.across = 1 / height;
-            t.shear = glm::dot(a, b) / (length * length);
-            t.area = 0.5 * length * height;
+            const mat2 W = stiff_ideal(rest[i], rest[ring.next(i)]);
+            triangle_[i] = {invert_upper(W), 0.5 * W[0][0] * W[1][1]};
         }
     }
 
@@ -42,9 +37,10 @@ public:
         double sum = 0;
         for (std::size_t i = 0; i < ring_.triangles(); ++i)
         {
-            const element e = at(i, p);
-            if (!(e.det > 0)) return std::numeric_limits<double>::infinity();
-            sum += triangle_[i].area * e.norm2 * (1 + 1 / (e.det * e.det));
+            const mat2 S = at(i, p);
+            const double det = glm::determinant(S);
+            if (!(det > 0)) return std::numeric_limits<double>::infinity();
+            sum += triangle_[i].area * energy::isometric{}(element<double, 2>{S, det, triangle_[i].area});
         }
         return sum;
     }
@@ -56,38 +52,31 @@ public:
         hessian = mat2(0.0);
         for (std::size_t i = 0; i < ring_.triangles(); ++i)
         {
-            const element e = at(i, p);
-            const rest_triangle& t = triangle_[i];
+            const mat2 S = at(i, p);
+            const auto& [inverse, area] = triangle_[i];
+            const auto psi = energy::isometric::derivatives(norm2(S), glm::determinant(S));
             // Columns of S move by s0 dp and s1 dp.
-            const double s0 = -t.along, s1 = (t.shear - 1) * t.across;
-            const vec2 dn = 2.0 * (s0 * e.first + s1 * e.second);
+            const double s0 = -inverse[0][0], s1 = -inverse[1][0] - inverse[1][1];
+            const vec2 dI = 2.0 * (s0 * S[0] + s1 * S[1]);
             const vec2 side = ring_.corner[ring_.next(i)] - ring_.corner[i];
-            const vec2 dd = (t.along * t.across) * vec2(-side.y, side.x);
-            const double r = 1 / e.det, r2 = r * r;
-            gradient += t.area * ((1 + r2) * dn - 2 * e.norm2 * r2 * r * dd);
-            hessian += t.area * (mat2(2 * (1 + r2) * (s0 * s0 + s1 * s1)) -
-                                 2 * r2 * r * (glm::outerProduct(dn, dd) + glm::outerProduct(dd, dn)) +
-                                 6 * e.norm2 * r2 * r2 * glm::outerProduct(dd, dd));
+            const vec2 dd = (inverse[0][0] * inverse[1][1]) * vec2(-side.y, side.x);
+            gradient += area * (psi.by_I * dI + psi.by_d * dd);
+            hessian += area * (mat2(2 * psi.by_I * (s0 * s0 + s1 * s1)) +
+                               psi.by_Id * (glm::outerProduct(dI, dd) + glm::outerProduct(dd, dI)) +
+                               psi.by_dd * glm::outerProduct(dd, dd)); // by_II is 0
         }
     }
 
 private:
     struct rest_triangle
     {
-        double along, across, shear, area; // W = (1 / along, shear / along; 0, 1 / across)
-    };
-    struct element
-    {
-        vec2 first, second; // columns of S
-        double det, norm2;
+        mat2 inverse; // W^-1
+        double area;
     };
 
-    element at(std::size_t i, const vec2& p) const
+    mat2 at(std::size_t i, const vec2& p) const
     {
-        const rest_triangle& t = triangle_[i];
-        const vec2 a = ring_.corner[i] - p, b = ring_.corner[ring_.next(i)] - p;
-        const vec2 first = t.along * a, second = t.across * (b - t.shear * a);
-        return {first, second, cross(first, second), glm::dot(first, first) + glm::dot(second, second)};
+        return shape_matrix(mat2(ring_.corner[i] - p, ring_.corner[ring_.next(i)] - p), triangle_[i].inverse);
     }
 
     const ring_image& ring_;

@@ -70,12 +70,12 @@ public:
     }
 
     /// What run() did. The object is then spent, but for coarse().
-    std::pair<prolongation, removals> result()
+    std::pair<prolongation<3>, removals<triangle>> result()
     {
         std::vector<idx> number(surface_.points.size(), 0);
         for (std::size_t i = 0; i < alive_.size(); ++i)
             number[static_cast<std::size_t>(alive_[i])] = static_cast<idx>(i);
-        prolongation P;
+        prolongation<3> P;
         P.columns.resize(where_.size());
         P.weights.resize(where_.size());
         parallel_for(
@@ -331,7 +331,7 @@ private:
     collapse_round round_;
     std::vector<char> given_up_;
     ring_table spare_;
-    removals log_;
+    removals<triangle> log_;
 };
 
 } // namespace taut::detail
