@@ -58,13 +58,8 @@ public:
     /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
     /// reason() then says how.
     /// plan: that of a level; asked for each level but the finest, coarse ones first.
-<<<<<<< HEAD
     std::vector<vec2> run(const std::function<observer(std::size_t level)>& ask,
-                          const std::function<level_solver::plan(std::size_t level)>& plan)
-=======
-    std::vector<vec2> run(const std::function<solve::observer(std::size_t level)>& observer,
                           const std::function<level_solver<triangle>::plan(std::size_t level)>& plan)
->>>>>>> 4d8d0b120093ee2cda60a9d70ad4624eb83cfeb8
     {
         const std::size_t first = params_.first_level(levels_);
         start_ = robust_start(levels_.level(first), params_.start);
@@ -94,13 +89,8 @@ public:
     const std::vector<level_report>& reports() const { return reports_; }
 
 private:
-<<<<<<< HEAD
-    std::vector<vec2> minimised(std::size_t l, level_solver::plan host, const std::vector<vec2>& uv, bool relax,
-                                const observer& ask)
-=======
     std::vector<vec2> minimised(std::size_t l, level_solver<triangle>::plan host, const std::vector<vec2>& uv,
-                                bool relax, const solve::observer& ask)
->>>>>>> 4d8d0b120093ee2cda60a9d70ad4624eb83cfeb8
+                                bool relax, const observer& ask)
     {
         level_solver<triangle>::level level(solver_, std::move(host), uv);
         if (relax && params_.stopping.max_iterations > 0) level.relax();

@@ -30,7 +30,7 @@ template <class Element>
 attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, precision how, int max_iterations,
                           std::vector<vec2> from)
 {
-    const mesh_levels& levels = *run.levels;
+    const mesh_levels<Element>& levels = *run.levels;
     const auto& numbers = levels.order().vertices;
     attempt a;
     a.precision = how;
@@ -40,12 +40,12 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
     const nested_params descent = descent_of(run);
     const std::size_t first = descends ? descent.first_level(levels) : 0;
     // Plans are made while the driver compiles, and while coarser levels are solved.
-    using plan = level_solver::plan;
+    using plan = typename level_solver<Element>::plan;
     const auto form = lane_form::for_device(run.queue.device());
     made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels, first - k, form); });
     const auto take = [&](std::size_t l) { return plans.take(first - l); };
 
-    std::optional<level_solver> solver;
+    std::optional<level_solver<Element>> solver;
     const bool built =
         build_within(run.queue, run.clock,
                      [&]
@@ -67,7 +67,8 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
         a.stopped = a.arrival.empty() ? run.clock.over() : !run.clock.proceed();
         if (a.stopped || a.arrival.empty()) return a;
     }
-    level_solver::level finest(*solver, take(0), a.arrival, run.held.beyond_pins(start.centre).renumbered(numbers));
+    typename level_solver<Element>::level finest(*solver, take(0), a.arrival,
+                                                 run.held.beyond_pins(start.centre).renumbered(numbers));
     run.clock.spent(&map_seconds::setup);
     a.stopped = !run.clock.proceed();
     if (a.stopped) return a;

@@ -35,7 +35,8 @@ struct map_run
     const run_surface& in;
     run_clock& clock;
     held_coordinates held;
-    std::optional<mesh_levels> levels; ///< none where the method needs none, or the limits leave no time for them
+    std::optional<mesh_levels<Element>>
+        levels; ///< none where the method needs none, or the limits leave no time for them
 
     /// Refers to its arguments but the queue. Throws parameter_error for constraints of another mesh.
     map_run(taut::queue q, const run_surface& surface, const parameterize_params& p, run_clock& limits)
