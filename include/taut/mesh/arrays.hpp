@@ -19,8 +19,8 @@ namespace taut
 {
 
 /// Rows of K numbers in the memory of a program: row i begins `stride` bytes after row i - 1, wherever that is (a
-/// packed array, an interleaved vertex buffer, every second row). It refers to the memory; T is const where it is only
-/// read.
+/// packed array, an interleaved vertex buffer, every second row), and its numbers are `step` bytes apart (a matrix by
+/// columns, coordinates in arrays of their own). It refers to the memory; T is const where it is only read.
 template <class T, int K>
     requires std::is_arithmetic_v<std::remove_const_t<T>>
 class array_view
@@ -32,8 +32,8 @@ public:
     using row_type = std::array<value_type, static_cast<std::size_t>(K)>;
 
     array_view() = default;
-    array_view(T* first, std::size_t rows, std::size_t stride = K * sizeof(T))
-        : first_(reinterpret_cast<byte*>(first)), rows_(rows), stride_(stride)
+    array_view(T* first, std::size_t rows, std::size_t stride = K * sizeof(T), std::size_t step = sizeof(T))
+        : first_(reinterpret_cast<byte*>(first)), rows_(rows), stride_(stride), step_(step)
     {
     }
     /// Packed numbers. Throws parameter_error unless their count is a multiple of K.
@@ -50,17 +50,19 @@ public:
     row_type operator[](std::size_t i) const
     {
         row_type row;
-        std::memcpy(row.data(), first_ + i * stride_, sizeof row);
+        for (std::size_t k = 0; k < row.size(); ++k) std::memcpy(&row[k], at(i, k), sizeof row[k]);
         return row;
     }
     void set(std::size_t i, const row_type& row) const requires(!std::is_const_v<T>)
     {
-        std::memcpy(first_ + i * stride_, row.data(), sizeof row);
+        for (std::size_t k = 0; k < row.size(); ++k) std::memcpy(at(i, k), &row[k], sizeof row[k]);
     }
 
 private:
+    byte* at(std::size_t i, std::size_t k) const { return first_ + i * stride_ + k * step_; }
+
     byte* first_ = nullptr;
-    std::size_t rows_ = 0, stride_ = 0;
+    std::size_t rows_ = 0, stride_ = 0, step_ = 0;
 };
 
 namespace detail

@@ -13,18 +13,10 @@
 #include <taut/objective/element_hessian.hpp>
 #include <taut/objective/map_objective.hpp>
 #include <taut/sparse/block_assembly.hpp>
+#include <taut/sparse/block_rows.hpp>
 
 namespace taut
 {
-
-/// A square matrix of D x D blocks by rows (CSR): block k of row r, in column columns[k], for k = offsets[r] ..
-/// offsets[r + 1] - 1, columns ascending; entry (i, j) of a block is blocks[k][j][i], as GLM has it.
-template <int D>
-struct block_rows
-{
-    std::vector<idx> offsets, columns;
-    std::vector<mat<D>> blocks;
-};
 
 /// Energy, gradient and Hessian of a map as numbers, for people with a solver of their own:
 ///
