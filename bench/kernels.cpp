@@ -301,9 +301,11 @@ private:
                     levels.points()[v][c] * local->scale;
         const real_buffer x(queue_, types.position, positions);
         real_buffer hessian(queue_, types.vector, hessian_slots<2>::count * local->cell_stride);
-        const auto hessians = [&] {
-            kernels.second.projected({local->cell_stride, layout<triangle>::step},
-                                     arrays.with(x, {{"hessian", hessian}}));
+        const auto hessians = [&]
+        {
+            kernels.second.launch(
+                {local->cell_stride, layout<triangle>::step},
+                arrays.with(x, {kernels.second.as_argument(definiteness::projected), {"hessian", hessian}}));
         };
         hessians();
         assembly(hessian, A);

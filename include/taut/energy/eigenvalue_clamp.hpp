@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
+#include <taut/core/select.hpp>
 #include <taut/energy/symmetric_matrix.hpp>
 #include <taut/symbolic/math.hpp>
 
 namespace taut
 {
+
+/// What a comparison of two numbers is: bool, or sym_bool of traced ones.
+template <class Real>
+using condition_of = decltype(std::declval<Real>() < std::declval<Real>());
+
+/// An eigenvalue, or 0 where it is negative and `projected` holds.
+template <class Real>
+Real clamped(condition_of<Real> projected, const Real& eigenvalue)
+{
+    using std::max;
+    return select(projected, max(eigenvalue, Real(0.0)), eigenvalue);
+}
 
 /// The nearest positive semi-definite matrix in the Frobenius norm: negative eigenvalues become 0. Traced, so that it
 /// runs in a kernel: a fixed number of sweeps of cyclic Jacobi rotations, unrolled, with selects and square roots only
@@ -19,15 +34,19 @@ class eigenvalue_clamp
 public:
     using real = Real;
 
-    /// type: of the numbers, f32 or f64.
-    static symmetric_matrix<real, N> apply(const symmetric_matrix<real, N>& H, scalar_type type)
+    /// type: of the numbers, f32 or f64. projected: where it does not hold, H comes back as it is.
+    static symmetric_matrix<real, N> apply(const symmetric_matrix<real, N>& H, scalar_type type,
+                                           condition_of<real> projected = true)
     {
         const int sweeps = (type == scalar_type::f64 ? 5 : 4) + (N > 4 ? 2 : 0);
         eigenvalue_clamp state(H);
         for (int sweep = 0; sweep < sweeps; ++sweep)
             for (int p = 0; p < N; ++p)
                 for (int q = p + 1; q < N; ++q) state.rotate(p, q);
-        return state.clamped();
+        auto result = state.clamped();
+        for (int j = 0; j < N; ++j)
+            for (int i = 0; i <= j; ++i) result(i, j) = select(projected, result(i, j), H(i, j));
+        return result;
     }
 
 private:

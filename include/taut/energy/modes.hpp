@@ -16,7 +16,7 @@ namespace taut
 {
 
 /// The Hessian of an isotropic energy psi(I, d) of the plane by the four entries of S (by columns), through its
-/// eigen-decomposition in closed form; `projected` clamps negative eigenvalues at 0.
+/// eigen-decomposition in closed form; where `projected` holds, negative eigenvalues are clamped at 0.
 ///
 /// Half sums and differences of the entries split S into a similarity p and a reflected one q, two vectors of the
 /// plane with |p| = (s1 + s2)/2 and |q| = (s1 - s2)/2. Three eigenspaces follow (compare Smith, de Goes, Kim 2019,
@@ -36,8 +36,9 @@ class plane_modes
 {
 public:
     using real = Real;
+    using condition = condition_of<real>;
 
-    plane_modes(const glm::mat<2, 2, real>& S, const invariant_derivatives<real>& psi, bool projected)
+    plane_modes(const glm::mat<2, 2, real>& S, const invariant_derivatives<real>& psi, condition projected)
         : twist_(real(2.0) * psi.by_I + psi.by_d), flip_(real(2.0) * psi.by_I - psi.by_d)
     {
         const real half = 0.5;
@@ -57,7 +58,7 @@ public:
         b11_ = curvature(s1, s2);
         b22_ = curvature(s2, s1);
         b12_ = psi.by_d + four * psi.d * psi.by_II + real(2.0) * psi.I * psi.by_Id + psi.d * psi.by_dd;
-        if (projected) project();
+        project(projected);
     }
 
     symmetric_matrix<real, 4> hessian(real weight) const
@@ -97,12 +98,12 @@ private:
         real length, x, y;
     };
 
-    void project()
+    void project(condition projected)
     {
         using std::abs, std::max, std::sqrt;
         const real zero = 0.0, half = 0.5;
-        twist_ = max(twist_, zero);
-        flip_ = max(flip_, zero);
+        twist_ = clamped(projected, twist_);
+        flip_ = clamped(projected, flip_);
 
         // The 2 x 2 block in units of its largest entry, so that no square overflows.
         const real largest = max(max(abs(b11_), abs(b22_)), abs(b12_));
@@ -113,8 +114,8 @@ private:
         // Of two signs, what remains is the positive eigenvalue times its projector (1 + (B - trace/2) / (root/2)) / 2.
         const real split = real(1.0) / select(root > zero, root, real(1.0));
         const real positive = half * largest * (half * (trace + root));
-        const auto mixed = det < zero;
-        const auto none = trace < zero;
+        const auto mixed = projected && det < zero;
+        const auto none = projected && trace < zero;
         const auto choose = [&](real kept, real one_mode) { return select(mixed, one_mode, select(none, zero, kept)); };
         b11_ = choose(b11_, positive * (real(1.0) + delta * split));
         b22_ = choose(b22_, positive * (real(1.0) - delta * split));
@@ -126,8 +127,8 @@ private:
     real b11_, b12_, b22_;
 };
 
-/// The same in space: the Hessian of psi(I, d) by the nine entries of S (by columns), with negative eigenvalues clamped
-/// at 0. With S = U diag(s) V', for each pair of axes i, j and the third one k:
+/// The same in space: the Hessian of psi(I, d) by the nine entries of S (by columns). With S = U diag(s) V', for each
+/// pair of axes i, j and the third one k:
 ///
 ///   twist    u_i v_j' - u_j v_i'   2 psi_I + s_k psi_d
 ///   flip     u_i v_j' + u_j v_i'   2 psi_I - s_k psi_d
@@ -142,15 +143,15 @@ public:
     using real = Real;
 
     /// type: of the numbers, f32 or f64.
-    space_modes(const glm::mat<3, 3, real>& S, const invariant_derivatives<real>& psi, scalar_type type)
+    space_modes(const glm::mat<3, 3, real>& S, const invariant_derivatives<real>& psi, scalar_type type,
+                condition_of<real> projected)
     {
         decompose(S, psi.d, type);
-        using std::max;
-        const real zero = 0.0, two = 2.0, four = 4.0;
+        const real two = 2.0, four = 4.0;
         for (int k = 0; k < 3; ++k)
         {
-            twist_[k] = max(two * psi.by_I + s_[k] * psi.by_d, zero);
-            flip_[k] = max(two * psi.by_I - s_[k] * psi.by_d, zero);
+            twist_[k] = clamped(projected, two * psi.by_I + s_[k] * psi.by_d);
+            flip_[k] = clamped(projected, two * psi.by_I - s_[k] * psi.by_d);
         }
         const real g[3] = {s_[1] * s_[2], s_[2] * s_[0], s_[0] * s_[1]}; // derivatives of d by s
         for (int j = 0; j < 3; ++j)
@@ -161,7 +162,7 @@ public:
                     four * (s_[i] * s_[j] * psi.by_II) + two * (mixed * psi.by_Id) + g[i] * g[j] * psi.by_dd;
                 block_(i, j) = i == j ? two * psi.by_I + both : s_[3 - i - j] * psi.by_d + both;
             }
-        block_ = eigenvalue_clamp<real, 3>::apply(block_, type);
+        block_ = eigenvalue_clamp<real, 3>::apply(block_, type, projected);
     }
 
     symmetric_matrix<real, 9> hessian(real weight) const

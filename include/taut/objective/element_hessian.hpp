@@ -48,47 +48,41 @@ struct hessian_slots
 /// An energy of |S|^2 and det S takes the closed forms of modes.hpp. Any other is differentiated twice on the tape and
 /// projected by Jacobi rotations; in space its diagonal is shifted instead.
 template <class Element>
-struct element_hessian_kernels
+struct element_hessian_kernel
 {
     static constexpr int D = Element::dimension;
     using slots = hessian_slots<D>;
 
-    /// element_inputs -> "hessian", slots::count x cell_stride
-    recorded_kernel projected, indefinite;
+    /// element_inputs, as_argument(definiteness) -> "hessian", slots::count x cell_stride
+    recorded_kernel launch;
 
-    element_hessian_kernels(const queue& q, const any_energy& energy, const real_types& types)
-        : element_hessian_kernels(traced_program(q, record(energy, types, detail::form_for(q.device()))))
+    element_hessian_kernel(const queue& q, const any_energy& energy, const real_types& types)
+        : element_hessian_kernel(traced_program(q, {record(energy, types, detail::form_for(q.device()))}))
     {
     }
 
-    /// From a program with all that record() gives.
-    explicit element_hessian_kernels(const traced_program& p)
-        : projected(p, name_of(definiteness::projected)), indefinite(p, name_of(definiteness::indefinite))
-    {
-    }
+    /// From a program with what record() gives.
+    explicit element_hessian_kernel(const traced_program& p) : launch(p, name) {}
 
-    /// Both kernels as text, for a program that others share.
-    static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
-    {
-        return {record(energy, definiteness::projected, types, form),
-                record(energy, definiteness::indefinite, types, form)};
-    }
+    /// Both kinds of Hessian are one kernel: what they have in common is most of what a driver compiles.
+    static named_argument as_argument(definiteness sign) { return {"projected", idx{sign == definiteness::projected}}; }
 
-    /// One as text.
-    static kernel_text record(const any_energy& energy, definiteness sign, const real_types& types, kernel_form form)
+    /// As text, for a program that others share.
+    static kernel_text record(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.vector);
         const element_inputs in(r, types, energy);
+        const sym_bool projected = r.scalar<idx>("projected") != 0;
         auto hessian = r.out<double>("hessian", types.vector);
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.vector);
-        const auto H = corner_hessian(by_shape_matrix(energy, e, sign, types.vector), e);
+        const auto H = corner_hessian(by_shape_matrix(energy, e, projected, types.vector), e);
         for (int k = 0; k <= D; ++k)
             for (int l = k; l <= D; ++l)
                 for (int i = 0; i < D; ++i)
                     for (int j = k == l ? i : 0; j < D; ++j)
                         hessian[cell + slots::at(k, i, l, j) * in.cell_stride] = H(k * D + i, l * D + j);
-        return r.finish(name_of(sign), form);
+        return r.finish(name, form);
     }
 
 private:
@@ -97,13 +91,10 @@ private:
     using matrix = typename traced::matrix;
     static constexpr int N = D * D;
 
-    static const char* name_of(definiteness sign)
-    {
-        return sign == definiteness::projected ? "element_hessian_projected" : "element_hessian";
-    }
+    static constexpr const char* name = "element_hessian";
 
     /// Second derivatives of weight * energy by the entries of S, by columns.
-    static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const traced& e, definiteness sign,
+    static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const traced& e, sym_bool projected,
                                                      scalar_type type)
     {
         const matrix S = e.shape_matrix();
@@ -111,10 +102,10 @@ private:
         const auto psi = derivatives_by_invariants<D>(value, S);
         if constexpr (D == 2)
         {
-            if (psi) return plane_modes<real>(S, *psi, sign == definiteness::projected).hessian(weight);
+            if (psi) return plane_modes<real>(S, *psi, projected).hessian(weight);
         }
-        else if (psi && sign == definiteness::projected)
-            return space_modes<real>(S, *psi, type).hessian(weight);
+        else if (psi)
+            return space_modes<real>(S, *psi, type, projected).hessian(weight);
 
         std::vector<real> entries;
         for (int c = 0; c < D; ++c)
@@ -127,16 +118,15 @@ private:
             const auto row = differentiate(gradient[static_cast<std::size_t>(j)], upper);
             for (int i = 0; i <= j; ++i) H(i, j) = weight * row[static_cast<std::size_t>(i)];
         }
-        if (sign == definiteness::indefinite) return H;
         if constexpr (D == 2)
-            return eigenvalue_clamp<real, N>::apply(H, type);
+            return eigenvalue_clamp<real, N>::apply(H, type, projected);
         else
-            return shifted(std::move(H));
+            return shifted(std::move(H), projected);
     }
 
     /// H + t I with the least t >= 0 for which Gershgorin's circles say that it is positive semi-definite. In space the
     /// rotations of eigenvalue_clamp are 0.8 MB of unrolled code, which a driver compiles for half a minute.
-    static symmetric_matrix<real, N> shifted(symmetric_matrix<real, N> H)
+    static symmetric_matrix<real, N> shifted(symmetric_matrix<real, N> H, sym_bool projected)
     {
         real t = 0.0;
         for (int i = 0; i < N; ++i)
@@ -146,6 +136,7 @@ private:
                 if (j != i) radius = radius + abs(H(i, j));
             t = max(t, radius - H(i, i));
         }
+        t = select(projected, t, real(0.0));
         for (int i = 0; i < N; ++i) H(i, i) = H(i, i) + t;
         return H;
     }

@@ -72,9 +72,9 @@ public:
     {
         upload(x);
         if (!second_) second_.emplace(queue_, energy_, weights_, types_, *layout_, cells_);
-        const auto& kernel = sign == definiteness::projected ? second_->kernels.projected : second_->kernels.indefinite;
-        kernel({layout_->cell_stride, layout<Element>::step},
-               second_->arrays.with(x_.data(), {{"hessian", second_->elements}}));
+        const auto& kernel = second_->kernel;
+        kernel.launch({layout_->cell_stride, layout<Element>::step},
+                      second_->arrays.with(x_.data(), {kernel.as_argument(sign), {"hessian", second_->elements}}));
         second_->assemble(second_->elements, second_->matrix);
         return rows();
     }
@@ -93,7 +93,7 @@ private:
     /// What the Hessian takes, made where it is first asked for.
     struct second_order
     {
-        element_hessian_kernels<Element> kernels;
+        element_hessian_kernel<Element> kernel;
         element_arrays<Element> arrays;
         real_buffer elements;
         block_matrix matrix;
@@ -101,7 +101,7 @@ private:
 
         second_order(queue& q, const any_energy& energy, energy::weighting weights, const real_types& types,
                      const layout<Element>& l, const std::vector<typename mesh<Element>::cell>& cells)
-            : kernels(q, energy, types),
+            : kernel(q, energy, types),
               arrays(q, types.vector, l, weights, energy),
               elements(q, types.vector, hessian_slots<D>::count * l.cell_stride),
               matrix(q, types.vector,

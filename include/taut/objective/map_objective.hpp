@@ -198,12 +198,6 @@ protected:
 
     constraint_terms<Element>& terms() { return terms_; }
 
-    /// Launches a kernel of element_hessian_kernels.
-    void launch_hessian(const recorded_kernel& kernel, const point& x, real_buffer& hessian)
-    {
-        kernel(cells(), arrays_->with(x.data(), {{"hessian", hessian}}));
-    }
-
 private:
     /// Rows of free vertices only: the others get zero.
     gather make_gather()

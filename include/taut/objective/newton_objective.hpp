@@ -24,7 +24,7 @@ template <class Element>
 struct newton_kernels
 {
     element_kernels<Element> first;
-    element_hessian_kernels<Element> second;
+    element_hessian_kernel<Element> second;
     relaxation_kernels<Element> relaxation;
 
     real_types types;
@@ -43,7 +43,7 @@ private:
     static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
         auto all = decltype(first)::record(energy, types, form);
-        for (auto& text : decltype(second)::record(energy, types, form)) all.push_back(std::move(text));
+        all.push_back(decltype(second)::record(energy, types, form));
         for (auto& text : decltype(relaxation)::record(energy, types, form)) all.push_back(std::move(text));
         return all;
     }
@@ -82,13 +82,13 @@ public:
 
     void linearize(const point& x, bool exact)
     {
-        element_hessians(kernels_->second.projected, x);
+        element_hessians(x, definiteness::projected);
         assemble_(hessian_, cycle_.matrix());
         cycle_.refresh();
         exact_ = exact;
         if (!exact) return;
         if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
-        element_hessians(kernels_->second.indefinite, x);
+        element_hessians(x, definiteness::indefinite);
         assemble_(hessian_, *indefinite_);
     }
     void hessian_product(const vector& v, vector& out)
@@ -121,9 +121,10 @@ public:
     }
 
 private:
-    void element_hessians(const recorded_kernel& kernel, const point& x)
+    void element_hessians(const point& x, definiteness sign)
     {
-        this->launch_hessian(kernel, x, hessian_);
+        const auto& kernel = kernels_->second;
+        kernel.launch(this->cells(), this->arrays()->with(x.data(), {kernel.as_argument(sign), {"hessian", hessian_}}));
         this->terms().add_hessian(hessian_, [](idx j, idx k) { return hessian_slots<D>::at(j, k, j, k); });
     }
 

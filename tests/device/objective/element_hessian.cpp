@@ -146,17 +146,17 @@ std::vector<matrix> on_device(queue& q, const any_energy& energy, const elements
         inverse[n + c] = e.inverse[c][1][0];
         inverse[2 * n + c] = e.inverse[c][1][1];
     }
-    const element_hessian_kernels<triangle> kernels(q, energy, types);
+    const element_hessian_kernel<triangle> kernel(q, energy, types);
     real_buffer hessian(q, types.vector, slots::count * n);
-    const auto& kernel = sign == definiteness::projected ? kernels.projected : kernels.indefinite;
-    kernel({n}, {{"corners", buffer<taut::idx>(q, corners)},
-                 {"inverse", real_buffer(q, types.vector, inverse)},
-                 {"measure", real_buffer(q, types.vector, std::vector<double>(n, 1.0))},
-                 {"weight", real_buffer(q, types.vector, e.weight)},
-                 {"x", real_buffer(q, types.position, x)},
-                 {"cell_stride", static_cast<taut::idx>(n)},
-                 {"vertex_stride", static_cast<taut::idx>(3 * n)},
-                 {"hessian", hessian}});
+    kernel.launch({n}, {{"corners", buffer<taut::idx>(q, corners)},
+                        {"inverse", real_buffer(q, types.vector, inverse)},
+                        {"measure", real_buffer(q, types.vector, std::vector<double>(n, 1.0))},
+                        {"weight", real_buffer(q, types.vector, e.weight)},
+                        {"x", real_buffer(q, types.position, x)},
+                        {"cell_stride", static_cast<taut::idx>(n)},
+                        {"vertex_stride", static_cast<taut::idx>(3 * n)},
+                        kernel.as_argument(sign),
+                        {"hessian", hessian}});
     const auto h = hessian.download();
 
     std::vector<matrix> result(n, matrix(6, 6));
@@ -422,8 +422,8 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
 
 TEST_CASE("element Hessian: in space its kernel writes each entry of the matrix once")
 {
-    using E = element_hessian_kernels<tetrahedron>;
-    const auto text = E::record(energy::isometric{}, definiteness::indefinite, real_types{}, kernel_form::guarded);
+    using E = element_hessian_kernel<tetrahedron>;
+    const auto text = E::record(energy::isometric{}, real_types{}, kernel_form::guarded);
     std::size_t stores = 0;
     for (std::size_t at = 0; (at = text.source.find("hessian[", at)) != std::string::npos; ++at) ++stores;
     CHECK(stores == static_cast<std::size_t>(E::slots::count));
