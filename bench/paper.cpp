@@ -10,6 +10,7 @@
 
 #include <taut/io/read_surface.hpp>
 #include <taut/map/parameterize.hpp>
+#include <taut/solve/line/line_search.hpp>
 
 #include "measure.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -20,5 +21,12 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
 command add_check(CLI::App& program);
 command add_eval(CLI::App& program);
 command add_devices(CLI::App& program);
+
+/// All of them, in the order in which the help lists them.
+inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    return {add_unwrap(program, launch), add_untangle(program, launch), add_check(program), add_eval(program),
+            add_devices(program)};
+}
 
 } // namespace taut::tools

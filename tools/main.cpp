@@ -8,7 +8,6 @@
 #include <sstream>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -132,8 +131,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
                    "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure;\n"
                    "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one by then");
 
-    std::vector<command> commands{add_unwrap(program, launch), add_untangle(program, launch), add_check(program),
-                                  add_eval(program), add_devices(program)};
+    const auto commands = add_commands(program, launch);
     if (const auto wrong = wrong_subcommand(program, argc, argv); !wrong.empty())
         return fail(exit_code::usage, wrong, "`taut --help` lists them");
     try

@@ -64,19 +64,14 @@ struct exact_params
     }
 };
 
-enum class line_search_method
-{
-    hybrid,       ///< the paper's: full step under strong Wolfe, else bracket and Brent
-    strong_wolfe, ///< Nocedal & Wright 3.5, 3.6: a gradient at every trial
-    backtracking  ///< Armijo only
-};
+enum class line_search_method : int; // solve/line/line_search.hpp has their names, and includes them
 
 /// Of the descent methods. Newton's method has a search of its own, which takes wolfe.sufficient_decrease,
 /// barrier_fraction and rounding alone (newton_search_params).
 struct line_search_params
 {
-    /// hybrid where values are cheaper than gradients; strong_wolfe where they come together anyway.
-    line_search_method method = line_search_method::hybrid;
+    /// hybrid, the default, where values are cheaper than gradients; strong_wolfe where they come together anyway.
+    line_search_method method{};
 
     wolfe_params wolfe = {};
     exact_params exact = {};
