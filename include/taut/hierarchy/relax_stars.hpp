@@ -12,6 +12,7 @@
 
 #include <taut/core/block_sum.hpp>
 #include <taut/core/counting_sort.hpp>
+#include <taut/core/csr.hpp>
 #include <taut/hierarchy/detail/star_energy.hpp>
 #include <taut/mesh/triangle.hpp>
 
@@ -42,7 +43,7 @@ public:
         {
             const double limit = factor * energy;
             if (std::none_of(density_.begin(), density_.end(), [=](double d) { return d > limit; })) break;
-            if (offsets_.empty()) find_corners();
+            if (corners_.offsets.empty()) find_corners();
             std::vector<char> bad(numbers_.size(), 0);
             for (std::size_t c = 0; c < cells_.size(); ++c)
                 if (density_[c] > limit)
@@ -90,21 +91,23 @@ private:
     /// Triangles of each vertex, as 3 * triangle + corner.
     void find_corners()
     {
-        corners_.resize(3 * cells_.size());
-        offsets_ = counting_sort(
-            corners_.size(), numbers_.size(), [&](std::size_t corner) { return cells_[corner / 3][corner % 3]; },
-            [&](std::size_t corner, std::size_t position) { corners_[position] = static_cast<idx>(corner); }, threads_);
+        corners_.items.resize(3 * cells_.size());
+        corners_.offsets = counting_sort(
+            corners_.items.size(), numbers_.size(), [&](std::size_t corner) { return cells_[corner / 3][corner % 3]; },
+            [&](std::size_t corner, std::size_t position) { corners_.items[position] = static_cast<idx>(corner); },
+            threads_);
     }
 
     /// The neighbours of v counter-clockwise, along the boundary first; false if there are too many.
     bool ring_of(std::size_t v, std::array<idx, largest_star>& ring, std::size_t& size, bool& open) const
     {
         std::array<std::array<idx, 2>, largest_star> edge;
-        const auto first = u(offsets_[v]), count = u(offsets_[v + 1]) - first;
+        const auto corners = corners_.row(static_cast<idx>(v));
+        const std::size_t count = corners.size();
         if (count == 0 || count > largest_star) return false;
         for (std::size_t i = 0; i < count; ++i)
         {
-            const std::size_t corner = u(corners_[first + i]), k = corner % 3;
+            const std::size_t corner = u(corners[i]), k = corner % 3;
             const auto& t = cells_[corner / 3];
             edge[i] = {t[(k + 1) % 3], t[(k + 2) % 3]};
         }
@@ -144,7 +147,7 @@ private:
     std::span<const char> fixed_;
     unsigned threads_;
     std::vector<double> density_; // of each triangle
-    std::vector<idx> offsets_, corners_;
+    csr corners_;                 // of each vertex, as 3 * triangle + corner
 };
 
 } // namespace taut::detail

@@ -3,29 +3,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include <taut/core/counting_sort.hpp>
+#include <taut/core/csr.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut
 {
-
-/// Rows of varying length: row r is items[offsets[r]] .. items[offsets[r + 1] - 1].
-struct csr
-{
-    std::vector<idx> offsets; ///< rows + 1
-    std::vector<idx> items;
-
-    idx rows() const { return static_cast<idx>(offsets.size()) - 1; }
-    std::span<const idx> row(idx r) const
-    {
-        const auto first = static_cast<std::size_t>(offsets[static_cast<std::size_t>(r)]);
-        const auto last = static_cast<std::size_t>(offsets[static_cast<std::size_t>(r) + 1]);
-        return {items.data() + first, last - first};
-    }
-};
 
 /// The corners of each vertex, as corners * cell + k, in increasing order: what a gather of per-corner values reads
 /// (paper, Fig. 8).

@@ -45,7 +45,7 @@ struct newton_plan
     assembly_lists assembly;
 
 private:
-    newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells, const cell_incidence& around,
+    newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells, const csr& around,
                 const std::vector<transfer_weights>& transfers, std::span<const char> fixed, lane_form form)
         : layout(std::move(mesh_layout)),
           cycle(pattern_of_cells(cells, around, form.slice), Element::dimension, transfers, form,

@@ -31,7 +31,7 @@ public:
     /// cells: arrays of corner numbers, in the pattern. fixed: a flag a row, or none; rows and columns that are fixed
     /// stay 0, diagonals included. Throws parameter_error.
     template <class Cells>
-    assembly_lists(const block_pattern& pattern, int block_size, const Cells& cells, const cell_incidence& around,
+    assembly_lists(const block_pattern& pattern, int block_size, const Cells& cells, const csr& around,
                    std::size_t stride, std::span<const char> fixed = {})
         : cell_stride(stride), places(pattern.columns.size())
     {
@@ -67,9 +67,9 @@ public:
                 {
                     if (is_fixed(static_cast<idx>(v))) continue;
                     row.read(pattern, v);
-                    for (idx n = around.offsets[v]; n < around.offsets[v + 1]; ++n)
+                    for (const idx i : around.row(static_cast<idx>(v)))
                     {
-                        const auto corner = static_cast<std::size_t>(around.corners[static_cast<std::size_t>(n)]);
+                        const auto corner = static_cast<std::size_t>(i);
                         const std::size_t cell = corner / K, k = corner % K;
                         lists.add(0, v % C, static_cast<idx>(first[k][k] + cell));
                         for (std::size_t l = 0; l < K; ++l)

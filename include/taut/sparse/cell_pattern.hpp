@@ -9,30 +9,26 @@
 #include <tuple>
 #include <vector>
 
+#include <taut/core/csr.hpp>
 #include <taut/sparse/block_pattern.hpp>
 
 namespace taut
 {
-
-/// The corners that meet in each vertex: K * cell + corner, ascending, at corners[offsets[v]] .. of vertex v.
-struct cell_incidence
-{
-    std::vector<idx> offsets, corners;
-};
 
 /// Corners of a cell of a range of std::array<idx, K>.
 template <class Cells>
 inline constexpr std::size_t cell_corners =
     std::tuple_size_v<std::remove_cvref_t<decltype(std::declval<const Cells&>()[0])>>;
 
-/// cells: arrays of corner numbers below `rows`. Throws parameter_error.
+/// The corners that meet in each vertex: K * cell + corner, ascending. cells: arrays of corner numbers below `rows`.
+/// Throws parameter_error.
 template <class Cells>
-cell_incidence incidence_of_cells(const Cells& cells, std::size_t rows)
+csr incidence_of_cells(const Cells& cells, std::size_t rows)
 {
     constexpr std::size_t K = cell_corners<Cells>;
     if (cells.size() > static_cast<std::size_t>(std::numeric_limits<idx>::max()) / K)
         throw size_error("cells", "more than 2^31 corners");
-    cell_incidence around;
+    csr around;
     around.offsets.assign(rows + 1, 0);
     for (std::size_t c = 0; c < cells.size(); ++c)
         for (const idx v : cells[c])
@@ -44,17 +40,17 @@ cell_incidence incidence_of_cells(const Cells& cells, std::size_t rows)
     // Running ends, which filling from the back turns into starts.
     for (std::size_t v = 0, end = 0; v <= rows; ++v)
         around.offsets[v] = static_cast<idx>(end += static_cast<std::size_t>(around.offsets[v]));
-    around.corners.resize(K * cells.size());
+    around.items.resize(K * cells.size());
     for (std::size_t c = cells.size(); c-- > 0;)
         for (std::size_t k = K; k-- > 0;)
-            around.corners[static_cast<std::size_t>(--around.offsets[static_cast<std::size_t>(cells[c][k])])] =
+            around.items[static_cast<std::size_t>(--around.offsets[static_cast<std::size_t>(cells[c][k])])] =
                 static_cast<idx>(K * c + k);
     return around;
 }
 
 /// The pattern of a matrix that is a sum of element matrices, for a device with so many rows a slice.
 template <class Cells>
-block_pattern pattern_of_cells(const Cells& cells, const cell_incidence& around, idx slice)
+block_pattern pattern_of_cells(const Cells& cells, const csr& around, idx slice)
 {
     constexpr std::size_t K = cell_corners<Cells>;
     const auto make_row = [&]
@@ -62,12 +58,12 @@ block_pattern pattern_of_cells(const Cells& cells, const cell_incidence& around,
         return [&](std::size_t v, std::vector<idx>& others)
         {
             const auto start = static_cast<std::ptrdiff_t>(others.size());
-            const idx begin = around.offsets[v], end = around.offsets[v + 1];
-            const bool few = static_cast<std::size_t>(end - begin) * (K - 1) <= detail::short_list::most;
+            const auto corners = around.row(static_cast<idx>(v));
+            const bool few = corners.size() * (K - 1) <= detail::short_list::most;
             detail::short_list seen; // searching beats sorting
             seen.clear();
-            for (idx n = begin; n < end; ++n)
-                for (const idx w : cells[static_cast<std::size_t>(around.corners[static_cast<std::size_t>(n)]) / K])
+            for (const idx corner : corners)
+                for (const idx w : cells[static_cast<std::size_t>(corner) / K])
                 {
                     if (w == static_cast<idx>(v)) continue;
                     if (few && seen.find(w) >= 0) continue;
@@ -79,7 +75,7 @@ block_pattern pattern_of_cells(const Cells& cells, const cell_incidence& around,
             others.erase(std::unique(others.begin() + start, others.end()), others.end());
         };
     };
-    return detail::make_pattern(around.offsets.size() - 1, slice, make_row);
+    return detail::make_pattern(static_cast<std::size_t>(around.rows()), slice, make_row);
 }
 template <class Cells>
 block_pattern pattern_of_cells(const Cells& cells, std::size_t rows, idx slice)
