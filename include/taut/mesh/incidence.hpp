@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include <taut/core/counting_sort.hpp>
 #include <taut/core/csr.hpp>

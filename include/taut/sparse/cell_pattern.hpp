@@ -75,7 +75,7 @@ block_pattern pattern_of_cells(const Cells& cells, const csr& around, idx slice)
             others.erase(std::unique(others.begin() + start, others.end()), others.end());
         };
     };
-    return detail::make_pattern(around.offsets.size() - 1, slice, make_row);
+    return detail::make_pattern(static_cast<std::size_t>(around.rows()), slice, make_row);
 }
 template <class Cells>
 block_pattern pattern_of_cells(const Cells& cells, std::size_t rows, idx slice)

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <taut/core/csr.hpp>
 #include <taut/sparse/block_pattern.hpp>
 
 namespace taut
@@ -79,21 +80,21 @@ public:
     {
         P.validate();
         if (!P.offsets.empty()) return;
-        own_offsets_.assign(P.coarse + 1, 0);
+        own_.offsets.assign(P.coarse + 1, 0);
         std::size_t count = 0;
         for (std::size_t at = 0; at < P.columns.size(); ++at)
-            if (P.weights[at] != 0) ++own_offsets_[static_cast<std::size_t>(P.columns[at])], ++count;
+            if (P.weights[at] != 0) ++own_.offsets[static_cast<std::size_t>(P.columns[at])], ++count;
         // Running ends, which filling from the back turns into starts.
         for (std::size_t J = 0, end = 0; J <= P.coarse; ++J)
-            own_offsets_[J] = static_cast<idx>(end += static_cast<std::size_t>(own_offsets_[J]));
-        own_places_.resize(count);
+            own_.offsets[J] = static_cast<idx>(end += static_cast<std::size_t>(own_.offsets[J]));
+        own_.items.resize(count);
         for (std::size_t i = P.rows(); i-- > 0;)
             for (std::size_t k = P.K; k-- > 0;)
                 if (P.weights[P.K * i + k] != 0)
-                    own_places_[static_cast<std::size_t>(--own_offsets_[P.column(i, k)])] =
+                    own_.items[static_cast<std::size_t>(--own_.offsets[P.column(i, k)])] =
                         transfer_weights::place(i, k);
-        offsets_ = own_offsets_;
-        places_ = own_places_;
+        offsets_ = own_.offsets;
+        places_ = own_.items;
     }
     transposed_weights(const transposed_weights&) = delete;
     transposed_weights& operator=(const transposed_weights&) = delete;
@@ -108,7 +109,7 @@ public:
 
 private:
     const transfer_weights* P_;
-    std::vector<idx> own_offsets_, own_places_;
+    csr own_;
     std::span<const idx> offsets_, places_;
 };
 
