@@ -20,8 +20,9 @@ namespace taut
 class program_cache
 {
 public:
-    program_cache(boost::compute::context context, taut::device device)
-        : context_(std::move(context)), device_(std::move(device))
+    /// quick: see queue_options.
+    program_cache(boost::compute::context context, taut::device device, bool quick)
+        : context_(std::move(context)), device_(std::move(device)), quick_(quick)
     {
     }
 
@@ -65,7 +66,7 @@ private:
         try
         {
             target.program = boost::compute::program::create_with_source(source, context_);
-            target.program.build("-cl-std=CL1.2 " + options);
+            target.program.build((quick_ ? "-cl-std=CL1.2 -cl-opt-disable " : "-cl-std=CL1.2 ") + options);
         }
         catch (const boost::compute::opencl_error& e)
         {
@@ -93,6 +94,7 @@ private:
 
     boost::compute::context context_;
     taut::device device_;
+    bool quick_;
     std::unordered_map<std::string, entry> entries_;
     std::size_t builds_ = 0;
     double seconds_ = 0;

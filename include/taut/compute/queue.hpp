@@ -27,6 +27,11 @@ class typed_kernel;
 struct queue_options
 {
     bool profiling = false; ///< event::seconds() works; costs a little at each launch
+
+    /// Kernels are compiled without optimisations: for programs that run once on small meshes with an empty kernel
+    /// cache. With PoCL they are built in less than half of the time and take several times as long. The environment's
+    /// TAUT_BUILD=quick has the same effect on every queue.
+    bool quick_builds = false;
 };
 
 /// An in-order queue of commands to one device, with its context and its cache of built programs. Copies share all of

@@ -66,6 +66,28 @@ TEST_CASE("kernel: equal source and options are built once, other options again"
     CHECK(q.counters().builds == 3);
 }
 
+TEST_CASE("kernel: quick builds leave optimisations out, and results as they are")
+{
+    const auto options_of = [](taut::queue& q)
+    {
+        taut::typed_kernel<taut::buffer<float>, float> add_to = q.kernel<taut::buffer<float>, float>(
+            "__kernel void add_to(__global float* y, const float a) { y[get_global_id(0)] += a; }", "add_to");
+        taut::buffer<float> y(q, std::vector<float>(64, 1.0F));
+        add_to(64, y, 2.0F);
+        CHECK(y.download() == std::vector<float>(64, 3.0F));
+        const auto program = q.state()->cache.find(
+            "__kernel void add_to(__global float* y, const float a) { y[get_global_id(0)] += a; }", "add_to", "");
+        return program.get_program().get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS,
+                                                                 boost::compute::device(q.device().native()));
+    };
+    taut::queue full, quick(taut::choose_device(), {.quick_builds = true});
+    CHECK(options_of(full).find("-cl-opt-disable") == std::string::npos);
+    CHECK(options_of(quick).find("-cl-opt-disable") != std::string::npos);
+    const taut::test::with_variable wish("TAUT_BUILD", "quick");
+    taut::queue asked;
+    CHECK(options_of(asked).find("-cl-opt-disable") != std::string::npos);
+}
+
 TEST_CASE("kernel: a compiler's refusal shows kernel, log, device and the numbered lines around the error")
 {
     taut::queue q;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -31,6 +33,13 @@ std::invoke_result_t<Wrap> adopt(Wrap&& wrap)
     }
 }
 
+/// Whether the environment asks for kernels without optimisations.
+inline bool wants_quick_builds()
+{
+    const char* wish = std::getenv("TAUT_BUILD");
+    return wish && std::string_view(wish) == "quick";
+}
+
 template <class MakeContext>
 std::shared_ptr<queue_state> open(const taut::device& device, queue_options options, MakeContext&& make)
 {
@@ -39,7 +48,8 @@ std::shared_ptr<queue_state> open(const taut::device& device, queue_options opti
         const boost::compute::context context = make();
         const cl_command_queue_properties flags = options.profiling ? CL_QUEUE_PROFILING_ENABLE : 0;
         boost::compute::command_queue commands(context, boost::compute::device(device.native()), flags);
-        return std::make_shared<queue_state>(device, context, std::move(commands));
+        return std::make_shared<queue_state>(device, context, std::move(commands),
+                                             options.quick_builds || wants_quick_builds());
     }
     catch (const boost::compute::opencl_error& e)
     {
@@ -64,8 +74,8 @@ TAUT_INLINE queue::queue(cl_context context, queue_options options)
 TAUT_INLINE queue::queue(cl_command_queue native)
 {
     const auto adopted = detail::adopt([&] { return boost::compute::command_queue(native); });
-    state_ =
-        std::make_shared<detail::queue_state>(taut::device(adopted.get_device().id()), adopted.get_context(), adopted);
+    state_ = std::make_shared<detail::queue_state>(taut::device(adopted.get_device().id()), adopted.get_context(),
+                                                   adopted, detail::wants_quick_builds());
     const auto properties = adopted.get_info<cl_command_queue_properties>(CL_QUEUE_PROPERTIES);
     if (properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)
         state_->fail("adopting a command queue", "it is out of order; taut relies on the order of commands");
