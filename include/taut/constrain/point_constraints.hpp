@@ -12,6 +12,14 @@
 namespace taut
 {
 
+/// A spring with a stiffness a coordinate: it adds the sum over k of stiffness[k] (x - target)[k]^2.
+template <int D>
+struct directed_spring
+{
+    idx vertex;
+    vec<D> target, stiffness;
+};
+
 /// What is asked of single vertices besides being pinned, which is the matter of the layout: coordinates that are held
 /// alone, and springs. Units are those of the map.
 template <int D>

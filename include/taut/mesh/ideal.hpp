@@ -133,6 +133,12 @@ struct ideal_elements
     std::vector<mat<D>> inverse; ///< W^-1, upper triangular, one a cell; finite
     std::vector<double> measure; ///< rest area or volume, one a cell
 
+    /// Any others, one a cell.
+    ideal_elements(std::vector<mat<D>> inverses, std::vector<double> measures)
+        : inverse(std::move(inverses)), measure(std::move(measures))
+    {
+    }
+
     /// Of the mesh times `scale`: W^-1 in 1 / length and measure in length^D of the scaled mesh.
     /// Throws mesh_error (degenerate_cell, inverted_cell) with every cell that has no ideal element.
     explicit ideal_elements(const mesh<Element>& m, double scale = 1.0)

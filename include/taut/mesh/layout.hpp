@@ -55,13 +55,18 @@ struct layout
     /// Of a mesh that has its final order: its first `free` vertices move, the rest are pinned. `numbers` leads from
     /// the user's mesh to this one; identity_order() where they are the same. Throws mesh_error for degenerate cells.
     layout(const mesh<Element>& local, mesh_order numbers, idx free)
+        : layout(local, std::move(numbers), free, ideal_elements<Element>(local))
+    {
+    }
+
+    /// The same with ideal elements that are not those of the mesh.
+    layout(const mesh<Element>& local, mesh_order numbers, idx free, const ideal_elements<Element>& ideal)
         : order(std::move(numbers)),
           free_count(free),
           vertex_count(local.vertex_count()),
           cell_count(local.cell_count()),
           vertex_corners(taut::vertex_corners(local))
     {
-        const ideal_elements<Element> ideal(local);
         const double total = std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0);
         scale = std::exp2(std::round(std::log2(static_cast<double>(cell_count) / total) / D));
         cell_stride = padded(local.cells().size(), step);

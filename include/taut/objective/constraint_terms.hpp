@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,9 +37,53 @@ public:
           cell_stride_(static_cast<idx>(mesh_layout.cell_stride)),
           vertex_stride_(static_cast<idx>(mesh_layout.vertex_stride))
     {
-        const auto local = c.renumbered(mesh_layout.order.vertices).scaled(mesh_layout.scale);
-        if (!local.held.empty()) make_mask(local.held);
-        if (!local.springs.empty()) make_springs(mesh_layout, local.springs);
+        if (!c.held.empty()) make_mask(held_marks<D>(mesh_layout.order.vertices.apply(c.held.bits())));
+        std::vector<directed_spring<D>> springs;
+        for (const spring<D>& s : c.springs) springs.push_back({s.vertex, s.target, vec<D>(s.weight)});
+        if (!springs.empty()) set_springs(mesh_layout, springs);
+    }
+
+    /// Other springs, in the user's numbers and units. mesh_layout: the same as before.
+    void set_springs(const layout<Element>& mesh_layout, std::span<const directed_spring<D>> springs)
+    {
+        struct entry
+        {
+            std::array<const directed_spring<D>*, corners> at{};
+        };
+        std::map<idx, entry> by_cell;
+        for (const auto& s : springs)
+        {
+            const auto around = mesh_layout.vertex_corners.row(
+                mesh_layout.order.vertices.old_to_new[static_cast<std::size_t>(s.vertex)]);
+            if (around.empty()) continue; // no element sees the vertex, and none can be distorted for it
+            const auto corner = static_cast<std::size_t>(around.front());
+            by_cell[static_cast<idx>(corner / corners)].at[corner % corners] = &s;
+        }
+        count_ = by_cell.size();
+        if (count_ == 0) return;
+        const double unit = mesh_layout.scale;
+        std::vector<idx> cell, vertex(corners * count_);
+        std::vector<double> stiffness(corners * D * count_, 0), target(corners * D * count_, 0);
+        for (const auto& [c, e] : by_cell)
+        {
+            const std::size_t i = cell.size();
+            cell.push_back(c);
+            for (std::size_t j = 0; j < corners; ++j)
+            {
+                vertex[i + j * count_] = mesh_layout.corners[j * mesh_layout.cell_stride + static_cast<std::size_t>(c)];
+                if (!e.at[j]) continue;
+                for (std::size_t k = 0; k < D; ++k)
+                {
+                    const std::size_t place = i + (j * D + k) * count_;
+                    stiffness[place] = e.at[j]->stiffness[static_cast<int>(k)] / (unit * unit);
+                    target[place] = e.at[j]->target[static_cast<int>(k)] * unit;
+                }
+            }
+        }
+        cell_ = buffer<idx>(queue_, cell);
+        vertex_ = buffer<idx>(queue_, vertex);
+        stiffness_ = real_buffer(queue_, types_.vector, stiffness);
+        target_ = real_buffer(queue_, types_.position, target);
     }
 
     /// To the energies of elements at x.
@@ -60,7 +105,7 @@ public:
                                        {
                                            const auto gap =
                                                cast(types_.vector, p[l.place(i, j, k)] - l.at_target(i, j, k));
-                                           sum = sum + l.stiff(i, j) * gap * gap;
+                                           sum = sum + l.stiff(i, j, k) * gap * gap;
                                        }
                                    e[l.cell[i]] = sum;
                                });
@@ -96,7 +141,7 @@ public:
                                                const auto v = l.place(i, j, k);
                                                const auto gap = cast(types_.vector, p[v] - l.at_target(i, j, k)) +
                                                                 u[0] * a[n] * along[v];
-                                               sum = sum + l.stiff(i, j) * gap * gap;
+                                               sum = sum + l.stiff(i, j, k) * gap * gap;
                                            }
                                        e[at] = sum;
                                    }
@@ -122,7 +167,7 @@ public:
                                        {
                                            const auto slot = l.cell[i] + (j * D + k) * l.cells;
                                            const auto gap = p[l.place(i, j, k)] - l.at_target(i, j, k);
-                                           g[slot] = g[slot] + 2.0 * cast(types_.position, l.stiff(i, j)) * gap;
+                                           g[slot] = g[slot] + 2.0 * cast(types_.position, l.stiff(i, j, k)) * gap;
                                        }
                                });
             });
@@ -145,7 +190,7 @@ public:
                                        for (idx k = 0; k < D; ++k)
                                        {
                                            const auto at = l.cell[i] + static_cast<idx>(slot(j, k)) * l.cells;
-                                           H[at] = H[at] + 2.0 * l.stiff(i, j);
+                                           H[at] = H[at] + 2.0 * l.stiff(i, j, k);
                                        }
                                });
             });
@@ -183,7 +228,7 @@ private:
         {
         }
         auto place(sym<idx> i, idx j, idx k) const { return vertex[i + j * n] + k * vertices; }
-        auto stiff(sym<idx> i, idx j) const { return stiffness[i + j * n]; }
+        auto stiff(sym<idx> i, idx j, idx k) const { return stiffness[i + (j * D + k) * n]; }
         auto at_target(sym<idx> i, idx j, idx k) const { return target[i + (j * D + k) * n]; }
     };
 
@@ -197,42 +242,6 @@ private:
             for (std::size_t k = 0; k < D; ++k)
                 if (held.test(v, static_cast<int>(k))) free[k * stride + v] = 0;
         mask_ = real_buffer(queue_, types_.vector, free);
-    }
-
-    void make_springs(const layout<Element>& mesh_layout, const std::vector<spring<D>>& springs)
-    {
-        struct entry
-        {
-            std::array<const spring<D>*, corners> at{};
-        };
-        std::map<idx, entry> by_cell;
-        for (const auto& s : springs)
-        {
-            const auto around = mesh_layout.vertex_corners.row(s.vertex);
-            if (around.empty()) continue; // no element sees the vertex, and none can be distorted for it
-            const auto corner = static_cast<std::size_t>(around.front());
-            by_cell[static_cast<idx>(corner / corners)].at[corner % corners] = &s;
-        }
-        count_ = by_cell.size();
-        std::vector<idx> cell, vertex(corners * count_);
-        std::vector<double> stiffness(corners * count_, 0), target(corners * D * count_, 0);
-        for (const auto& [c, e] : by_cell)
-        {
-            const std::size_t i = cell.size();
-            cell.push_back(c);
-            for (std::size_t j = 0; j < corners; ++j)
-            {
-                vertex[i + j * count_] = mesh_layout.corners[j * mesh_layout.cell_stride + static_cast<std::size_t>(c)];
-                if (!e.at[j]) continue;
-                stiffness[i + j * count_] = e.at[j]->weight;
-                for (std::size_t k = 0; k < D; ++k)
-                    target[i + (j * D + k) * count_] = e.at[j]->target[static_cast<int>(k)];
-            }
-        }
-        cell_ = buffer<idx>(queue_, cell);
-        vertex_ = buffer<idx>(queue_, vertex);
-        stiffness_ = real_buffer(queue_, types_.vector, stiffness);
-        target_ = real_buffer(queue_, types_.position, target);
     }
 
     queue queue_;

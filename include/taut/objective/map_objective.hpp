@@ -57,7 +57,7 @@ public:
           space_(queue_, types.vector, D * layout_->vertex_stride),
           reductions_(queue_),
           kernels_(std::move(traced)),
-          arrays_(std::make_shared<const element_arrays<Element>>(queue_, types.vector, *layout_, weights, energy)),
+          arrays_(std::make_shared<element_arrays<Element>>(queue_, types.vector, *layout_, weights, energy)),
           energies_(queue_, types.vector, kernels::trials * layout_->cell_stride),
           one_(queue_, types.vector, std::array{1.0}),
           limit_(queue_, types.vector, std::array{1.0}),
@@ -77,6 +77,14 @@ public:
     /// Coordinates in the user's order and units, to the device and back.
     void upload(const std::vector<vec<D>>& x, point& p) const { p.upload(layout_->to_local(x)); }
     std::vector<vec<D>> download(const point& p) const { return layout_->to_user(p.download()); }
+
+    /// Other values of the numbers that the energy reads as parameters: as many as before.
+    void set_parameters(std::span<const double> values)
+    {
+        for (std::size_t k = 0; k < values.size(); ++k) arrays_->parameters.at(k).second = values[k];
+    }
+    /// Other springs, in the user's numbers and units.
+    void set_springs(std::span<const directed_spring<D>> springs) { terms_.set_springs(*layout_, springs); }
 
     double value(const point& x)
     {
@@ -194,7 +202,7 @@ public:
 protected:
     range cells() const { return {layout_->cell_stride, taut::layout<Element>::step}; }
 
-    const std::shared_ptr<const element_arrays<Element>>& arrays() const { return arrays_; }
+    std::shared_ptr<const element_arrays<Element>> arrays() const { return arrays_; }
 
     constraint_terms<Element>& terms() { return terms_; }
 
@@ -296,7 +304,7 @@ private:
     device_vectors space_;
     reductions reductions_;
     std::shared_ptr<const kernels> kernels_;
-    std::shared_ptr<const element_arrays<Element>> arrays_;
+    std::shared_ptr<element_arrays<Element>> arrays_;
     real_buffer energies_;
     real_buffer one_, limit_; ///< units of step lengths
     real_buffer corner_gradients_;

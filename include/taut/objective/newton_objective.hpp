@@ -18,6 +18,13 @@
 namespace taut
 {
 
+/// What a newton_objective does for elements that cap a step.
+enum class capping_elements
+{
+    relaxed, ///< newton_objective::relax() moves their vertices
+    left     ///< nothing: for energies without a barrier
+};
+
 /// The kernels of one energy for Newton's method, traced once, built as one program and shared by all levels of a
 /// hierarchy.
 template <class Element>
@@ -25,26 +32,31 @@ struct newton_kernels
 {
     element_kernels<Element> first;
     element_hessian_kernel<Element> second;
-    relaxation_kernels<Element> relaxation;
+    std::optional<relaxation_kernels<Element>> relaxation;
 
     real_types types;
 
-    newton_kernels(const queue& q, const any_energy& energy, const real_types& of)
-        : newton_kernels(traced_program(q, record(energy, of, detail::form_for(q.device()))), energy, of)
+    newton_kernels(const queue& q, const any_energy& energy, const real_types& of,
+                   capping_elements capping = capping_elements::relaxed)
+        : newton_kernels(traced_program(q, record(energy, of, detail::form_for(q.device()), capping)), energy, of,
+                         capping)
     {
     }
 
 private:
-    newton_kernels(const traced_program& p, const any_energy& energy, const real_types& of)
-        : first(p), second(p), relaxation(p, energy), types(of)
+    newton_kernels(const traced_program& p, const any_energy& energy, const real_types& of, capping_elements capping)
+        : first(p), second(p), types(of)
     {
+        if (capping == capping_elements::relaxed) relaxation.emplace(p, energy);
     }
 
-    static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
+    static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form,
+                                           capping_elements capping)
     {
         auto all = decltype(first)::record(energy, types, form);
         all.push_back(decltype(second)::record(energy, types, form));
-        for (auto& text : decltype(relaxation)::record(energy, types, form)) all.push_back(std::move(text));
+        if (capping == capping_elements::relaxed)
+            for (auto& text : relaxation_kernels<Element>::record(energy, types, form)) all.push_back(std::move(text));
         return all;
     }
 };
@@ -73,11 +85,12 @@ public:
           kernels_(std::move(traced)),
           hessian_(q, kernels_->types.vector, hessian_slots<D>::count * host.layout->cell_stride),
           cycle_(q, kernels_->types.vector, std::move(host.cycle)),
-          assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))), // freed once they are on the device
-          relaxation_(q, host.layout,
-                      std::shared_ptr<const relaxation_kernels<Element>>(kernels_, &kernels_->relaxation),
-                      this->arrays(), constraints.touched(static_cast<std::size_t>(host.layout->vertex_count)))
+          assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))) // freed once they are on the device
     {
+        if (kernels_->relaxation)
+            relaxation_.emplace(
+                q, host.layout, std::shared_ptr<const relaxation_kernels<Element>>(kernels_, &*kernels_->relaxation),
+                this->arrays(), constraints.touched(static_cast<std::size_t>(host.layout->vertex_count)));
     }
 
     void linearize(const point& x, bool exact)
@@ -107,13 +120,13 @@ public:
     const multigrid& preconditioner() const { return cycle_; }
 
     /// Moves the vertices of the worst elements alone; whether there were any.
-    bool relax(point& x) { return relaxation_(x).vertices > 0; }
+    bool relax(point& x) { return relaxation_ && (*relaxation_)(x).vertices > 0; }
 
     /// As map_objective::warm_up, and what is Newton's.
     void warm_up(point& x)
     {
         base::warm_up(x);
-        relaxation_.warm_up(x);
+        if (relaxation_) relaxation_->warm_up(x);
         auto v = this->space().make(), w = this->space().make();
         linearize(x, true);
         hessian_product(v, w);
@@ -132,7 +145,7 @@ private:
     real_buffer hessian_;
     multigrid cycle_;
     block_assembly assemble_;
-    vertex_relaxation<Element> relaxation_;
+    std::optional<vertex_relaxation<Element>> relaxation_;
     std::optional<block_matrix> indefinite_;
     bool exact_ = false;
 };

@@ -3,7 +3,6 @@
 
 #include <string_view>
 
-#include <taut/start/harmonic.hpp>
 #include <taut/untangle/stage.hpp>
 
 namespace taut
@@ -19,7 +18,7 @@ public:
 
     bool run(untangle_state<Element>& state, int) override
     {
-        state.offer(detail::harmonic_start(state.problem(), state.initial()));
+        state.offer(state.harmonic());
         state.proceed();
         return false;
     }

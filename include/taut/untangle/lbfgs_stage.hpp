@@ -59,7 +59,7 @@ private:
     void start(untangle_state<Element>& state)
     {
         const auto& problem = state.problem();
-        const auto harmonic = detail::harmonic_start(problem, state.initial());
+        const auto& harmonic = state.harmonic();
         const auto before = state.flips().flipped;
         const auto best = state.offer(harmonic).flipped <= before ? harmonic : state.best();
         for (const auto& p : best)

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include <taut/untangle/element_newton.hpp>
 #include <taut/untangle/state.hpp>
 
 namespace taut::detail
@@ -17,15 +16,16 @@ namespace taut::detail
 inline void improve_margin(untangle_state<triangle>& state, int steps)
 {
     const auto& problem = state.problem();
-    triangle_newton newton(state.cells(), problem.held);
-    newton.proceed = [&state] { return state.proceed(0); };
-    newton.shapes = rest_shapes(problem.rest, expected_measure(problem, state.best()));
     auto x = state.best();
-    double value = newton.value(x);
+    const auto newton = state.make_newton({.rest = problem.rest,
+                                           .held = problem.held,
+                                           .shapes = rest_shapes(problem.rest, expected_measure(problem, x))});
+    newton->proceed = [&state] { return state.proceed(0); };
+    double value = newton->value(x);
     for (int i = 0; i < steps && value < std::numeric_limits<double>::infinity(); ++i)
     {
         const double before = value;
-        value = newton.step(x, before);
+        value = newton->step(x, before);
         if (!(value < before) || !state.replace(x) || !state.proceed() || value > 0.999 * before) break;
     }
 }

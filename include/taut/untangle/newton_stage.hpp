@@ -9,9 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/start/harmonic.hpp>
 #include <taut/start/laid.hpp>
-#include <taut/untangle/element_newton.hpp>
 #include <taut/untangle/epsilon_schedule.hpp>
 #include <taut/untangle/shapes.hpp>
 #include <taut/untangle/stage.hpp>
@@ -37,14 +35,17 @@ struct newton_stage_params
 };
 
 /// Newton's method on the regularised energy, one step for each value of epsilon.
-class newton_stage final : public untangle_stage<triangle>
+template <class Element>
+class newton_stage final : public untangle_stage<Element>
 {
+    static constexpr int D = Element::dimension;
+
 public:
     explicit newton_stage(newton_stage_params params) : params_(std::move(params)) {}
 
     std::string_view name() const override { return params_.name; }
 
-    bool run(untangle_state<triangle>& state, int iterations) override
+    bool run(untangle_state<Element>& state, int iterations) override
     {
         if (!newton_ && !start(state)) return false;
         if (state.offer(x_).flipped == 0) return false;
@@ -64,34 +65,46 @@ public:
 
 private:
     /// False if there is no such start.
-    bool start(untangle_state<triangle>& state)
+    bool start(untangle_state<Element>& state)
     {
         const auto& problem = state.problem();
         if (params_.start == untangle_start::best)
             x_ = state.best();
         else if (params_.start == untangle_start::harmonic)
-            x_ = detail::harmonic_start(problem, state.initial());
-        else if (auto laid = detail::laid_start(problem, state.initial(), state.draft()))
-            x_ = std::move(*laid);
-        else
+            x_ = state.harmonic();
+        else if (!lay(state))
             return false;
         for (std::size_t v = 0; v < x_.size(); ++v)
-            for (int k = 0; k < 2; ++k)
+            for (int k = 0; k < D; ++k)
                 if (problem.held.test(v, k)) x_[v][k] = state.initial()[v][k];
-        newton_ = std::make_unique<detail::triangle_newton>(state.cells(), problem.held);
-        newton_->area_weight = params_.area_weight;
-        newton_->proceed = [&state] { return state.proceed(0); };
         const double measure = detail::expected_measure(problem, state.initial());
-        newton_->shapes = params_.shapes == untangle_shapes::rest ? detail::rest_shapes(problem.rest, measure)
-                                                                  : detail::regular_shapes(problem.rest, measure);
+        newton_ = state.make_newton({.rest = problem.rest,
+                                     .held = problem.held,
+                                     .shapes = params_.shapes == untangle_shapes::rest
+                                                   ? detail::rest_shapes(problem.rest, measure)
+                                                   : detail::regular_shapes(problem.rest, measure),
+                                     .area_weight = params_.area_weight});
+        newton_->proceed = [&state] { return state.proceed(0); };
         schedule_ = std::make_unique<detail::epsilon_schedule>(newton_->least_det(x_));
         return true;
     }
 
+    /// False if there is no such map.
+    bool lay(untangle_state<Element>& state)
+    {
+        if constexpr (D == 2)
+            if (auto laid = detail::laid_start(state.problem(), state.initial(), state.draft()))
+            {
+                x_ = std::move(*laid);
+                return true;
+            }
+        return false;
+    }
+
     newton_stage_params params_;
-    std::unique_ptr<detail::triangle_newton> newton_;
+    std::unique_ptr<regularized_newton<Element>> newton_;
     std::unique_ptr<detail::epsilon_schedule> schedule_;
-    std::vector<vec2> x_;
+    std::vector<vec<D>> x_;
     int standing_ = 0; // steps in a row that could not be made
 };
 

@@ -16,7 +16,6 @@
 #include <taut/mesh/boundary.hpp>
 #include <taut/start/harmonic.hpp>
 #include <taut/start/laid.hpp>
-#include <taut/untangle/element_newton.hpp>
 #include <taut/untangle/shapes.hpp>
 #include <taut/untangle/stage.hpp>
 
@@ -68,27 +67,28 @@ private:
     static constexpr double growth = 1.2;
 
     /// False if there is no injective map to start from.
-    bool start(const untangle_state<triangle>& state)
+    bool start(untangle_state<triangle>& state)
     {
         const auto& problem = state.problem();
         if (!hold_boundary(state) && !hold_nothing(state)) return false;
-        newton_ = std::make_unique<detail::triangle_newton>(state.cells(), held_);
-        newton_->area_weight = params_.area_weight;
         const double measure = detail::expected_measure(problem, state.initial());
+        regularized_problem<triangle> pulled{.rest = problem.rest, .held = held_, .area_weight = params_.area_weight};
         if (params_.shapes == untangle_shapes::regular)
-            newton_->shapes = detail::regular_shapes(problem.rest, measure);
+            pulled.shapes = detail::regular_shapes(problem.rest, measure);
         else
         {
             std::vector<vec3> points;
             for (const vec2& p : x_) points.emplace_back(p, 0.0);
-            newton_->shapes = detail::rest_shapes(mesh<triangle>(std::move(points), state.cells()), measure);
+            pulled.shapes = detail::rest_shapes(mesh<triangle>(std::move(points), state.cells()), measure);
         }
         for (std::size_t v = 0; v < held_.size(); ++v)
         {
-            const auto pulled = [&](int k) { return problem.held.test(v, k) && !held_.test(v, k); };
-            if (pulled(0) || pulled(1)) newton_->springs.push_back({v, state.initial()[v], vec2(pulled(0), pulled(1))});
+            const auto is_pulled = [&](int k) { return problem.held.test(v, k) && !held_.test(v, k); };
+            if (is_pulled(0) || is_pulled(1))
+                pulled.springs.push_back({static_cast<idx>(v), state.initial()[v], vec2(is_pulled(0), is_pulled(1))});
         }
-        for (auto& s : newton_->springs) s.stiffness /= static_cast<double>(newton_->springs.size());
+        for (auto& s : pulled.springs) s.stiffness /= static_cast<double>(pulled.springs.size());
+        newton_ = state.make_newton(std::move(pulled));
         vec2 low = x_.front(), high = low;
         for (const vec2& p : x_)
         {
@@ -142,7 +142,8 @@ private:
             const double stiffness = std::exp(2 * uniform() - 1) / static_cast<double>(places_.size());
             for (int k = 0; k < 2; ++k)
                 if (s.stiffness[k] > 0) s.stiffness[k] = stiffness;
-            const vec2 off = vec2(glm::greaterThan(s.stiffness, vec2(0))) * (x_[s.vertex] - s.target);
+            const vec2 off =
+                vec2(glm::greaterThan(s.stiffness, vec2(0))) * (x_[static_cast<std::size_t>(s.vertex)] - s.target);
             if (!away_ || glm::length(off) < 1e-3 * reach_ || uniform() > 0.7) continue;
             const double angle = 2 * std::numbers::pi * uniform();
             s.target += reach_ * uniform() * vec2(std::cos(angle), std::sin(angle));
@@ -150,7 +151,7 @@ private:
     }
 
     pull_stage_params params_;
-    std::unique_ptr<detail::triangle_newton> newton_;
+    std::unique_ptr<regularized_newton<triangle>> newton_;
     held_marks<2> held_; // by newton_
     std::vector<vec2> x_;
     std::mt19937 random_{1};
@@ -158,7 +159,7 @@ private:
     int pulled_ = 0;    // steps since the springs were weak
     bool away_ = false; // on a detour
     double reach_ = 0;  // of detours
-    std::vector<detail::triangle_newton::spring> places_;
+    std::vector<directed_spring<2>> places_;
 };
 
 } // namespace taut

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <taut/core/error.hpp>
+#include <taut/untangle/element_newton.hpp>
 #include <taut/untangle/harmonic_stage.hpp>
 #include <taut/untangle/lbfgs_stage.hpp>
 #include <taut/untangle/newton_stage.hpp>
@@ -38,7 +39,8 @@ inline untangle_stages<triangle> host_stages(bool outline_pinned)
     using enum untangle_start;
     using enum untangle_shapes;
     untangle_stages<triangle> stages;
-    const auto follow = [&](newton_stage_params p) { stages.push_back(std::make_unique<newton_stage>(std::move(p))); };
+    const auto follow = [&](newton_stage_params p)
+    { stages.push_back(std::make_unique<newton_stage<triangle>>(std::move(p))); };
     const auto pull = [&] { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"})); };
     const auto stretch = [&](int share) {
         stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", regular, 0.1, true, share}));

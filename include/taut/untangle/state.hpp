@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -11,7 +12,9 @@
 #include <taut/constrain/untangle_problem.hpp>
 #include <taut/core/budget.hpp>
 #include <taut/exact/certify.hpp>
+#include <taut/start/harmonic.hpp>
 #include <taut/untangle/params.hpp>
+#include <taut/untangle/regularized_newton.hpp>
 
 namespace taut
 {
@@ -28,8 +31,10 @@ public:
     using map = std::vector<vec<D>>;
 
     /// The problem is referred to.
-    untangle_state(const untangle_problem<Element>& problem, const untangle_params& params)
+    untangle_state(const untangle_problem<Element>& problem, const untangle_params& params,
+                   newton_maker<Element> newton)
         : problem_(problem),
+          newton_(std::move(newton)),
           budget_(params.time_limit, params.observer),
           best_(problem.initial),
           flips_(certified(best_))
@@ -44,13 +49,25 @@ public:
 
     const untangle_problem<Element>& problem() const { return problem_; }
     const auto& cells() const { return problem_.rest.cells(); }
-    const map& initial() const { return initial_; }     ///< in the unit of the stages
-    const map& draft() const { return draft_; }         ///< of the problem, in the unit of the stages; may be empty
+    const map& initial() const { return initial_; } ///< in the unit of the stages
+    const map& draft() const { return draft_; }     ///< of the problem, in the unit of the stages; may be empty
+    /// The harmonic map that keeps what is held, in the unit of the stages.
+    const map& harmonic()
+    {
+        if (harmonic_.empty()) harmonic_ = detail::harmonic_start(problem_, initial_);
+        return harmonic_;
+    }
     map best() const { return scaled(best_); }          ///< in the unit of the stages
     const map& best_map() const { return best_; }       ///< in the unit of the problem
     const certificate& flips() const { return flips_; } ///< of best_map(), exact
     bool injective() const { return static_cast<bool>(flips_); }
     int iterations() const { return iterations_; }
+
+    /// Newton's steps for a stage.
+    std::unique_ptr<regularized_newton<Element>> make_newton(regularized_problem<Element> p) const
+    {
+        return newton_(std::move(p));
+    }
 
     /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its held coordinates are replaced
     /// by those of the problem before they are counted. Returns what was counted.
@@ -116,9 +133,10 @@ private:
     }
 
     const untangle_problem<Element>& problem_;
+    newton_maker<Element> newton_;
     budget budget_;
     double unit_ = 1;
-    map initial_, draft_, best_;
+    map initial_, draft_, harmonic_, best_;
     certificate flips_;
     int iterations_ = 0;
 };

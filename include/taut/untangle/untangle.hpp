@@ -15,9 +15,9 @@ namespace taut
 /// found to be either comes with the reason and the inverted elements. Held coordinates are those of `problem.initial`,
 /// bit for bit, in all cases.
 ///
-/// It is untangle() of untangle_host.hpp with the paper's operator on the device as a further stage. In the plane that
-/// one comes last, as the stages of the host are surer and as quick on meshes of some ten thousand elements, and in
-/// space early; untangle_params::stages gives another order.
+/// It is untangle() of untangle_host.hpp with Newton's steps made on the device, on all but small meshes of the plane,
+/// and the paper's operator as a further stage. In the plane that one comes last, as the others are surer, and in space
+/// early; untangle_params::stages gives another order.
 /// Throws parameter_error for a problem or parameters that are not valid, device_error.
 template <class Element>
 untangle_result<Element> untangle(const queue& q, const untangle_problem<Element>& problem,

@@ -88,12 +88,12 @@ void run_stages(untangle_state<Element>& state, untangle_stages<Element>& stages
 /// Throws parameter_error for a problem or parameters that are not valid.
 template <class Element>
 untangle_result<Element> untangle(const untangle_problem<Element>& problem, untangle_stages<Element> stages,
-                                  const untangle_params& params = {})
+                                  newton_maker<Element> newton, const untangle_params& params = {})
 {
     problem.validate();
     params.validate();
     stages = chosen(std::move(stages), params.stages);
-    untangle_state<Element> state(problem, params);
+    untangle_state<Element> state(problem, params, std::move(newton));
     untangle_result<Element> result;
     if (state.injective())
         result.stage = "initial";
@@ -132,12 +132,13 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
 /// The same with all stages that need no device.
 inline untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {})
 {
-    return untangle(problem, host_stages(problem.outline_pinned()), params);
+    return untangle(problem, host_stages(problem.outline_pinned()), newton_maker<triangle>(detail::direct_newton),
+                    params);
 }
 inline untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem,
                                              const untangle_params& params = {})
 {
-    return untangle(problem, solid_host_stages(), params);
+    return untangle(problem, solid_host_stages(), newton_maker<tetrahedron>(), params);
 }
 
 } // namespace taut
