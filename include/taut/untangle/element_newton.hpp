@@ -26,7 +26,7 @@ namespace taut::detail
 class triangle_newton final : public regularized_newton<triangle>
 {
 public:
-    explicit triangle_newton(regularized_problem<triangle> problem)
+    explicit triangle_newton(const regularized_problem<triangle>& problem)
         : regularized_newton(problem),
           held_(problem.held),
           solver_(cells_, pinned(held_)),
@@ -153,9 +153,9 @@ private:
     std::vector<std::size_t> first_cell_; // of a vertex
 };
 
-inline std::unique_ptr<regularized_newton<triangle>> direct_newton(regularized_problem<triangle> problem)
+inline std::unique_ptr<regularized_newton<triangle>> direct_newton(const regularized_problem<triangle>& problem)
 {
-    return std::make_unique<triangle_newton>(std::move(problem));
+    return std::make_unique<triangle_newton>(problem);
 }
 
 } // namespace taut::detail

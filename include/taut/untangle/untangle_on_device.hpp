@@ -26,7 +26,7 @@ newton_maker<Element> newton_on_device(const queue& q)
         if constexpr (Element::dimension == 2)
         {
             constexpr idx few = 4000; // docs/numerics.md, "Newton's steps"
-            if (problem.rest.cell_count() < few) return direct_newton(std::move(problem));
+            if (problem.rest.cell_count() < few) return direct_newton(problem);
         }
         if (!traced) traced = multigrid_newton<Element>::trace(q);
         return std::make_unique<multigrid_newton<Element>>(q, traced, std::move(problem));

@@ -17,7 +17,7 @@ namespace taut::detail
 
 /// Calls build, in which drivers compile for seconds, and asks the limits between the kernels; false if they ended it.
 template <class Build>
-bool build_within(queue q, run_clock& clock, const Build& build)
+bool build_within(const queue& q, run_clock& clock, const Build& build)
 {
     struct stopped
     {

@@ -21,8 +21,13 @@ map_result run_result(const map_run<Element>& run, const run_start& start, attem
     report.notes = start.notes;
     report.notes.insert(report.notes.end(), a.notes.begin(), a.notes.end());
     report.precision = a.precision;
-    report.start = a.descent ? std::move(a.descent->start) : start.map;
-    report.levels = a.descent ? std::move(a.descent->levels) : start.levels;
+    report.start = start.map;
+    report.levels = start.levels;
+    if (a.descent)
+    {
+        report.start = std::move(a.descent->start);
+        report.levels = std::move(a.descent->levels);
+    }
     report.pin_origins = start.pin_origins;
     report.untangling = start.untangling;
     report.flips = std::move(a.flips);
