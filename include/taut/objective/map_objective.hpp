@@ -171,8 +171,8 @@ public:
         return {fold_capped_values(capped, fraction, out), reductions_.value(norm)};
     }
 
-    /// Launches every kernel once, so that what the driver compiles at the first launch is compiled: those of the
-    /// elements, and the vector operations in the shapes in which the solvers ask for them.
+    /// Launches once what Newton's method launches, so that what the driver compiles at the first launch is compiled;
+    /// what other methods need besides is compiled at its first use.
     void warm_up(const point& x)
     {
         auto g = space_.make(), d = space_.make();

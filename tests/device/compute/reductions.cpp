@@ -19,8 +19,8 @@ using taut::test::sized_count;
 namespace
 {
 
-/// Both forms run on every device: the one for CPUs and the one for GPUs.
-const reduction_plan forms[] = {reduction_plan::serial(), reduction_plan::grouped()};
+/// All forms run on every device: the one for CPUs, the one for GPUs, and that with groups smaller than a tile of dots.
+const reduction_plan forms[] = {reduction_plan::serial(), reduction_plan::grouped(), {4, 1, 2048, 256}};
 
 std::vector<std::size_t> sizes()
 {

@@ -43,7 +43,7 @@ R"cl(#line 1 "kernels/reduce.cl"
 #define FOLD(s) ((((s).s0 + (s).s1) + ((s).s2 + (s).s3)) + (((s).s4 + (s).s5) + ((s).s6 + (s).s7)))
 #endif
 
-/// Joins `count` of at most K values of each of the items of a group, column by column: one barrier, no loop around it.
+/// Joins `count` of at most K values of each of the items of a group, column by column: one barrier.
 #if L == 1
 #define JOIN(K, count, items, value, out)                                                                              \
     for (uint k = 0; k < (count); ++k) (out)[k * groups] = (value)[k];
@@ -52,17 +52,17 @@ R"cl(#line 1 "kernels/reduce.cl"
     __local SUM shared[(K) * (items)];                                                                                 \
     for (uint k = 0; k < (count); ++k) shared[k * (items) + lid] = (value)[k];                                         \
     barrier(CLK_LOCAL_MEM_FENCE);                                                                                      \
-    if (lid < (int)(count))                                                                                            \
+    for (int k = lid; k < (int)(count); k += (items))                                                                  \
     {                                                                                                                  \
         SUM s0 = 0, s1 = 0, s2 = 0, s3 = 0;                                                                            \
         for (int i = 0; i < (items); i += 4)                                                                           \
         {                                                                                                              \
-            s0 += shared[lid * (items) + i];                                                                           \
-            s1 += shared[lid * (items) + i + 1];                                                                       \
-            s2 += shared[lid * (items) + i + 2];                                                                       \
-            s3 += shared[lid * (items) + i + 3];                                                                       \
+            s0 += shared[k * (items) + i];                                                                             \
+            s1 += shared[k * (items) + i + 1];                                                                         \
+            s2 += shared[k * (items) + i + 2];                                                                         \
+            s3 += shared[k * (items) + i + 3];                                                                         \
         }                                                                                                              \
-        (out)[lid * groups] = (s0 + s1) + (s2 + s3);                                                                   \
+        (out)[k * groups] = (s0 + s1) + (s2 + s3);                                                                     \
     }
 #endif
 
