@@ -293,6 +293,20 @@ inline mesh<tetrahedron> cube(int n)
     return {std::move(points), std::move(cells)};
 }
 
+/// The same with vertices moved at random along the faces, edges and the inside that they are on: irregular tetrahedra,
+/// all of them positive.
+inline mesh<tetrahedron> jittered_cube(int n, unsigned seed)
+{
+    const auto m = cube(n);
+    auto points = m.points();
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> move(-0.2 / n, 0.2 / n);
+    for (vec3& p : points)
+        for (int k = 0; k < 3; ++k)
+            if (p[k] > 0 && p[k] < 1) p[k] += move(random);
+    return {std::move(points), m.cells()};
+}
+
 inline mesh<tetrahedron> single_tetrahedron()
 {
     return {{{0, 0, 0}, {1, 0, 0}, {0.2, 0.9, 0}, {0.3, 0.2, 0.8}}, {{0, 1, 2, 3}}};

@@ -40,7 +40,8 @@ struct hierarchy
     struct level
     {
         std::vector<idx> vertices;                       ///< numbers in the mesh, ascending
-        std::vector<typename mesh<Element>::cell> cells; ///< oriented like the mesh; numbers in `vertices`
+        std::vector<typename mesh<Element>::cell> cells; ///< oriented like the mesh; numbers in `vertices`; of volumes
+                                                         ///< on the finest level only
     };
     /// Between a level and the next coarser one.
     struct step

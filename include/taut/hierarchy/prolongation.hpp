@@ -13,15 +13,15 @@ namespace taut
 {
 
 /// Linear interpolation from a coarse level to the next finer one: row i has at most K columns (vertices of the coarse
-/// level, corners of a cell) with weights >= 0 that sum to 1. Unused places have weight 0 and repeat a used column. The
-/// row of a vertex without cells is 0.
+/// level, corners of a cell) with weights that sum to 1, none of them negative on surfaces. Unused places have weight 0
+/// and repeat a used column. The row of a vertex without cells is 0.
 template <std::size_t K>
 struct prolongation
 {
     std::vector<std::array<idx, K>> columns;
     std::vector<std::array<double, K>> weights;
 
-    /// Of each coarse vertex: the places 4 * row + k with a weight > 0, ascending; what restriction gathers. 4 for any
+    /// Of each coarse vertex: the places 4 * row + k with a weight, ascending; what restriction gathers. 4 for any
     /// K, so that readers need no division.
     csr transpose;
 
@@ -53,7 +53,7 @@ void transpose(prolongation<K>& P, std::size_t count, unsigned threads = 0)
     auto start = counting_sort(
         places.size(), count + 1,
         [&](std::size_t place)
-        { return P.weights[place / K][place % K] > 0 ? P.columns[place / K][place % K] : static_cast<idx>(count); },
+        { return P.weights[place / K][place % K] != 0 ? P.columns[place / K][place % K] : static_cast<idx>(count); },
         [&](std::size_t place, std::size_t position)
         { places[position] = static_cast<idx>(4 * (place / K) + place % K); },
         threads);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <taut/mesh/incidence.hpp>
+#include <taut/mesh/tetrahedron.hpp>
 #include <taut/mesh/triangle.hpp>
 
 namespace taut
@@ -27,6 +28,12 @@ struct removals<triangle>
     std::vector<idx> rounds; ///< round r: removals rounds[r] .. rounds[r + 1] - 1
 
     std::size_t round_count() const { return rounds.size() - 1; }
+};
+
+/// Of volumes: nothing. Their coarser levels have no cells that vertices could go back into.
+template <>
+struct removals<tetrahedron>
+{
 };
 
 } // namespace taut

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <taut/hierarchy/make_hierarchy.hpp>
+#include <taut/hierarchy/make_volume_hierarchy.hpp>
 #include <taut/mesh/layout.hpp>
 #include <taut/sparse/transfer_weights.hpp>
 

@@ -45,11 +45,14 @@ struct newton_plan
     assembly_lists assembly;
 
 private:
+    /// In space a level of few points cannot bend, so that the last one is as large as a direct solver takes.
+    static constexpr std::size_t dense_enough = Element::dimension == 3 ? 600 : 180;
+
     newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells, const csr& around,
                 const std::vector<transfer_weights>& transfers, std::span<const char> fixed, lane_form form)
         : layout(std::move(mesh_layout)),
           cycle(pattern_of_cells(cells, around, form.slice), Element::dimension, transfers, form,
-                {.lambda_max = Element::dimension + 1.0}),
+                {.lambda_max = Element::corners, .dense_enough = dense_enough}),
           assembly(cycle.patterns.front(), Element::dimension, cells, around, layout->cell_stride, fixed)
     {
     }

@@ -25,7 +25,7 @@ inline any_energy regularized_energy(double eps, double area_weight)
 }
 
 /// The plan of a problem: the mesh with the wanted shapes in place of its own, which may be flat, and the coarser
-/// levels of the mesh, if its kind has any.
+/// levels of the mesh.
 template <class Element>
 newton_plan<Element> regularized_plan(const regularized_problem<Element>& problem, lane_form form)
 {
@@ -42,17 +42,16 @@ newton_plan<Element> regularized_plan(const regularized_problem<Element>& proble
         return std::make_shared<const layout<Element>>(local, order, free, wanted);
     };
     const auto pinned = problem.held.pinned();
-    if constexpr (requires { make_hierarchy(problem.rest); }) try
-        {
-            const mesh_levels<Element> levels(problem.rest, pinned);
-            const auto fixed = levels.fixed(0);
-            const auto free = static_cast<idx>(std::count(fixed.begin(), fixed.end(), char(0)));
-            return {layout_of(levels.level(0), levels.order(), free), levels.cells(0), levels.transfers(0), fixed,
-                    form};
-        }
-        catch (const mesh_error&) // no surface that can be thinned: one level will do
-        {
-        }
+    try
+    {
+        const mesh_levels<Element> levels(problem.rest, pinned);
+        const auto fixed = levels.fixed(0);
+        const auto free = static_cast<idx>(std::count(fixed.begin(), fixed.end(), char(0)));
+        return {layout_of(levels.level(0), levels.order(), free), levels.cells(0), levels.transfers(0), fixed, form};
+    }
+    catch (const mesh_error&) // no surface that can be thinned: one level will do
+    {
+    }
     const solution_order numbers(problem.rest, pinned);
     const auto local = permute(problem.rest, numbers.order);
     std::vector<char> fixed(local.points().size(), 0);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/hierarchy/detail/boundary_rank.hpp>
+#include <taut/hierarchy/detail/point_thinning.hpp>
+#include <taut/hierarchy/hierarchy.hpp>
+#include <taut/mesh/ideal.hpp>
+#include <taut/mesh/incidence.hpp>
+
+namespace taut
+{
+
+/// Builds the hierarchy of a volume: each level is a maximal independent set of the vertices of the next finer one,
+/// some 5 to 7 times fewer, whatever params.factor is, and interpolates from up to four of them, with weights that can
+/// be negative where the boundary is curved. Coarser levels have no cells: no shape of the mesh can stop the thinning,
+/// and solvers need weights only.
+///
+/// held: one flag a vertex, or none at all. Held vertices (pins, a fixed boundary) are thinned like the others;
+///       nothing is interpolated to them
+///
+/// Linear time, about 5 us a vertex on two cores. Throws parameter_error.
+inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<const char> held = {},
+                                             const hierarchy_params& params = {})
+{
+    params.validate();
+    const std::size_t n = m.points().size();
+    if (!held.empty() && held.size() != n) throw parameter_error("held", "must have one flag a vertex, or none");
+
+    hierarchy<tetrahedron> h;
+    h.levels.push_back({std::vector<idx>(n), m.cells()});
+    std::iota(h.levels[0].vertices.begin(), h.levels[0].vertices.end(), 0);
+    const double unit = unit_scale(m); // so that no product leaves the range of numbers; a power of two
+    detail::point_cloud cloud{m.points(), vertex_neighbours(m), detail::boundary_rank(m, unit),
+                              std::vector<char>(n, 0)};
+    for (vec3& p : cloud.points) p *= unit;
+    std::copy(held.begin(), held.end(), cloud.held.begin());
+    while (cloud.points.size() > 1.5 * params.min_vertices && (!params.proceed || params.proceed()))
+    {
+        const auto chosen = detail::maximal_independent_set(cloud);
+        if (chosen.empty() || chosen.size() > 0.8 * static_cast<double>(cloud.points.size())) break;
+        auto P = detail::interpolate(cloud, chosen, params.threads);
+        cloud = detail::thinned(cloud, chosen, P, params.threads);
+        std::vector<idx> vertices;
+        for (const idx v : chosen) vertices.push_back(h.levels.back().vertices[static_cast<std::size_t>(v)]);
+        h.levels.push_back({std::move(vertices), {}});
+        h.steps.push_back({std::move(P), {}});
+    }
+    return h;
+}
+
+} // namespace taut
