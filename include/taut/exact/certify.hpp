@@ -12,6 +12,7 @@
 
 #include <taut/core/parallel.hpp>
 #include <taut/core/types.hpp>
+#include <taut/exact/branch_edges.hpp>
 #include <taut/exact/branch_points.hpp>
 #include <taut/exact/predicates.hpp>
 
@@ -19,15 +20,15 @@ namespace taut
 {
 
 /// Whether a piecewise linear map is locally injective: no element is flipped, and in the plane no inner vertex is a
-/// branch point, one that the map winds around more than once (branch_points.hpp). With a simple boundary image the map
-/// is injective as a whole.
+/// branch point, one that the map winds around more than once (branch_points.hpp); in space no inner edge is one
+/// (branch_edges.hpp). With a simple boundary image the map is injective as a whole.
 struct certificate
 {
     std::size_t elements = 0; ///< elements examined
     std::size_t flipped = 0;  ///< elements whose determinant is not positive: turned over, flat or not finite; exact
     std::vector<idx> ids{};   ///< the first flipped elements, in ascending order
-    std::size_t branched = 0; ///< branch points of a map to the plane; exact
-    std::vector<idx> branch_ids{}; ///< the first of these vertices, in ascending order
+    std::size_t branched = 0; ///< branch points of a map to the plane, or edges of one to space; exact
+    std::vector<idx> branch_ids{}; ///< the first of these vertices, in ascending order; of edges their two ends
     double min_det = 0; ///< smallest det S = mapped / rest measure, signed; 0 if there is no element, NaN if not finite
     double max_det = 0; ///< largest det S
 
@@ -127,6 +128,13 @@ certificate certify(std::span<const std::array<idx, D + 1>> cells, std::span<con
         result.branch_ids = branch_points(cells, x);
         result.branched = result.branch_ids.size();
         result.branch_ids.resize(std::min(max_ids, result.branched));
+    }
+    else if (result.flipped == 0)
+    {
+        const auto edges = branch_edges(cells, x);
+        result.branched = edges.size();
+        for (std::size_t e = 0; e < std::min(max_ids, edges.size()); ++e)
+            result.branch_ids.insert(result.branch_ids.end(), edges[e].begin(), edges[e].end());
     }
     return result;
 }

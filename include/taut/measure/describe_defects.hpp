@@ -16,9 +16,15 @@ std::string describe_defects(const certificate& c)
     std::string text;
     if (c.flipped > 0) text = detail::list_first_ids(Element::name, Element::names, c.flipped, c.ids) + " flipped";
     if (c.branched > 0)
-        text += (text.empty() ? "" : ", and ") +
-                detail::list_first_ids("vertex", "vertices", c.branched, c.branch_ids) +
-                " that the map winds around more than once";
+    {
+        text += text.empty() ? "" : ", and ";
+        if constexpr (Element::dimension == 2)
+            text += detail::list_first_ids("vertex", "vertices", c.branched, c.branch_ids) +
+                    " that the map winds around more than once";
+        else
+            text += detail::list_first_ids("edge", "edges", c.branched, c.branch_ids, 2) +
+                    " that tetrahedra go around more than once";
+    }
     return text.empty() ? "no defect" : text;
 }
 

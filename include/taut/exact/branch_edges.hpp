@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/core/parallel.hpp>
+#include <taut/exact/branch_points.hpp>
+
+namespace taut
+{
+
+namespace detail
+{
+
+/// An edge of a volume, its smaller vertex first, and whether a tetrahedron around it crosses the half-plane that
+/// leaves the edge along a coordinate axis. Where all of them are positive, as many do as there are turns around it.
+class edge_turns
+{
+public:
+    using edge = std::array<idx, 2>;
+
+    edge_turns(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x) : cells_(cells), x_(x) {}
+
+    /// Calls visit(edge, c, d) for the edges of a cell; (a, b, c, d) is an even permutation of its corners, a < b.
+    template <class Visit>
+    void for_edges(std::size_t cell, const Visit& visit) const
+    {
+        constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
+                                     {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
+        for (const auto& e : edges)
+        {
+            std::array<idx, 4> v;
+            for (std::size_t k = 0; k < 4; ++k) v[k] = cells_[cell][static_cast<std::size_t>(e[k])];
+            if (v[0] > v[1]) std::swap(v[0], v[1]), std::swap(v[2], v[3]);
+            visit(edge{v[0], v[1]}, v[2], v[3]);
+        }
+    }
+
+    bool crosses(const edge& e, idx c, idx d) const
+    {
+        const vec3 &a = at(e[0]), &b = at(e[1]), along = b - a;
+        // Along the axis that the edge has least of: seen in its direction the edge is long.
+        int axis = 0;
+        for (int k = 1; k < 3; ++k)
+            if (std::abs(along[k]) < std::abs(along[axis])) axis = k;
+        const auto seen = [axis](const vec3& p) { return vec2(p[(axis + 1) % 3], p[(axis + 2) % 3]); };
+        return orient_sign(seen(a), seen(b), seen(at(c))) < 0 && orient_sign(seen(a), seen(b), seen(at(d))) >= 0;
+    }
+
+    int sign(std::size_t cell) const
+    {
+        const auto& t = cells_[cell];
+        return orient(at(t[0]), at(t[1]), at(t[2]), at(t[3])).sign;
+    }
+
+private:
+    static int orient_sign(const vec2& a, const vec2& b, const vec2& c) { return orient(a, b, c).sign; }
+    const vec3& at(idx v) const { return x_[static_cast<std::size_t>(v)]; }
+
+    std::span<const std::array<idx, 4>> cells_;
+    std::span<const vec3> x_;
+};
+
+} // namespace detail
+
+/// Edges inside a volume that the tetrahedra of a map go around more than once: the dihedral angles there sum to two
+/// turns or more, and the tetrahedra overlap although all of them are positive. Where there is none and no tetrahedron
+/// is flipped, the map is locally injective: around an inner vertex it then covers the sphere once, which is simply
+/// connected.
+///
+/// Exact, by signs of determinants. Around an edge of positive tetrahedra their other corners turn one way by less
+/// than half a turn at a time, so they pass a half-plane at the edge once a turn. Edges on the boundary, or whose
+/// tetrahedra differ in orientation, are not looked at.
+///
+/// cells: #T by 4 vertex indices, in range; x: one image point a vertex. Ascending.
+inline std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x)
+{
+    const detail::edge_turns turns(cells, x);
+    using edge = detail::edge_turns::edge;
+    constexpr std::size_t block = 8192;
+    std::vector<std::vector<edge>> parts((cells.size() + block - 1) / block);
+    parallel_for(
+        parts.size(),
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t p = begin; p < end; ++p)
+                for (std::size_t t = p * block; t < std::min(cells.size(), (p + 1) * block); ++t)
+                    turns.for_edges(t,
+                                    [&](const edge& e, idx c, idx d)
+                                    {
+                                        if (turns.crosses(e, c, d)) parts[p].push_back(e);
+                                    });
+        },
+        0, 2);
+    std::vector<edge> crossed;
+    for (const auto& part : parts) crossed.insert(crossed.end(), part.begin(), part.end());
+    std::sort(crossed.begin(), crossed.end());
+
+    struct neighbourhood
+    {
+        std::size_t turns = 0;
+        bool positive = false, negative = false;
+        detail::vertex_link link;
+    };
+    std::map<edge, neighbourhood> suspicious;
+    for (std::size_t i = 1; i < crossed.size(); ++i)
+        if (crossed[i] == crossed[i - 1]) suspicious[crossed[i]];
+    if (suspicious.empty()) return {};
+    for (std::size_t t = 0; t < cells.size(); ++t)
+        turns.for_edges(t,
+                        [&](const edge& e, idx c, idx d)
+                        {
+                            const auto found = suspicious.find(e);
+                            if (found == suspicious.end()) return;
+                            auto& n = found->second;
+                            n.link.add(c, d);
+                            n.turns += turns.crosses(e, c, d);
+                            const int sign = turns.sign(t);
+                            n.positive = n.positive || sign >= 0;
+                            n.negative = n.negative || sign <= 0;
+                        });
+    std::vector<edge> found;
+    for (auto& [e, n] : suspicious)
+        if (const std::size_t loops = n.positive != n.negative ? n.link.loops() : 0; loops > 0 && n.turns > loops)
+            found.push_back(e);
+    return found;
+}
+
+} // namespace taut
