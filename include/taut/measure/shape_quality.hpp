@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/core/parallel.hpp>
+#include <taut/mesh/mesh.hpp>
+
+namespace taut
+{
+
+/// How well single triangles or tetrahedra are shaped, in the measures of mesh generation; 1 is regular, 0 flat, less
+/// turned over. Definitions as in Stimpson et al., "The Verdict library reference manual" (2007), the mean ratio as in
+/// Liu and Joe, "Relationship between tetrahedron shape measures" (1994).
+struct element_shape
+{
+    double mean_ratio = 0; ///< D = 2: 4 sqrt(3) area / sum l^2; D = 3: 12 (3 volume)^(2/3) / sum l^2, with its sign
+    double scaled_jacobian = 0; ///< the smallest over the corners of det / product of the edges there, scaled to 1
+    double min_angle = 0;       ///< degrees; corner angles of triangles, dihedral ones of tetrahedra, 0 to 180
+    double max_angle = 0;
+};
+
+namespace detail
+{
+
+/// a / b; 0 for an element whose corners are all in one place
+inline double share(double a, double b)
+{
+    return b > 0 ? a / b : 0;
+}
+
+} // namespace detail
+
+inline element_shape shape_of(const std::array<vec2, 3>& x)
+{
+    const std::array<vec2, 3> edge = {x[2] - x[1], x[0] - x[2], x[1] - x[0]}; // opposite of each corner
+    std::array<double, 3> length;
+    for (std::size_t k = 0; k < 3; ++k) length[k] = glm::length(edge[k]);
+    const double det = edge[2].x * -edge[1].y + edge[2].y * edge[1].x;
+    element_shape s{.min_angle = 180};
+    s.mean_ratio = detail::share(2 * std::numbers::sqrt3 * det,
+                                 length[0] * length[0] + length[1] * length[1] + length[2] * length[2]);
+    double largest = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        const vec2 a = edge[(k + 2) % 3], b = -edge[(k + 1) % 3];
+        const double angle = std::atan2(std::abs(det), glm::dot(a, b)) * 180 / std::numbers::pi;
+        s.min_angle = std::min(s.min_angle, angle);
+        s.max_angle = std::max(s.max_angle, angle);
+        largest = std::max(largest, length[(k + 1) % 3] * length[(k + 2) % 3]);
+    }
+    s.scaled_jacobian = detail::share(2 / std::numbers::sqrt3 * det, largest);
+    return s;
+}
+
+inline element_shape shape_of(const std::array<vec3, 4>& x)
+{
+    const double det = tetrahedron::determinant(x);
+    std::array<std::array<double, 4>, 4> length{};
+    double squares = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+        {
+            const vec3 e = x[i] - x[j];
+            squares += glm::dot(e, e);
+            length[i][j] = length[j][i] = glm::length(e);
+        }
+    element_shape s{.min_angle = 180};
+    s.mean_ratio = detail::share(std::copysign(12 * std::cbrt(det * det / 4), det), squares); // 3 V = det / 2
+    double largest = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        largest = std::max(largest, length[i][(i + 1) % 4] * length[i][(i + 2) % 4] * length[i][(i + 3) % 4]);
+    s.scaled_jacobian = detail::share(std::numbers::sqrt2 * det, largest);
+    std::array<vec3, 4> normal; // of the faces
+    for (std::size_t f = 0; f < 4; ++f)
+    {
+        const auto& side = tetrahedron::facets[f];
+        const auto corner = [&](std::size_t k) { return x[static_cast<std::size_t>(side[k])]; };
+        normal[f] = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+    }
+    for (std::size_t f = 0; f < 4; ++f)
+        for (std::size_t g = 0; g < f; ++g)
+        {
+            const double angle =
+                std::atan2(glm::length(glm::cross(normal[f], normal[g])), -glm::dot(normal[f], normal[g])) * 180 /
+                std::numbers::pi;
+            s.min_angle = std::min(s.min_angle, angle);
+            s.max_angle = std::max(s.max_angle, angle);
+        }
+    return s;
+}
+
+/// The shapes of all elements of a mesh.
+struct shape_quality
+{
+    element_shape worst{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 180, 0};
+    double mean_ratio = 0, scaled_jacobian = 0; ///< means over the elements
+    std::vector<idx> worst_ids;                 ///< up to ten with the smallest mean ratios, the worst first
+};
+
+/// x: one finite position a vertex.
+template <class Element>
+shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& cells,
+                             std::span<const vec<Element::dimension>> x)
+{
+    std::vector<element_shape> shapes(cells.size());
+    parallel_for(cells.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t c = begin; c < end; ++c)
+                     {
+                         typename Element::mapped_corners corners;
+                         for (std::size_t k = 0; k < corners.size(); ++k)
+                             corners[k] = x[static_cast<std::size_t>(cells[c][k])];
+                         shapes[c] = shape_of(corners);
+                     }
+                 });
+    shape_quality q;
+    std::vector<std::pair<double, idx>> ranked;
+    for (std::size_t c = 0; c < shapes.size(); ++c)
+    {
+        const element_shape& s = shapes[c];
+        q.worst.mean_ratio = std::min(q.worst.mean_ratio, s.mean_ratio);
+        q.worst.scaled_jacobian = std::min(q.worst.scaled_jacobian, s.scaled_jacobian);
+        q.worst.min_angle = std::min(q.worst.min_angle, s.min_angle);
+        q.worst.max_angle = std::max(q.worst.max_angle, s.max_angle);
+        q.mean_ratio += s.mean_ratio / static_cast<double>(cells.size());
+        q.scaled_jacobian += s.scaled_jacobian / static_cast<double>(cells.size());
+        ranked.emplace_back(s.mean_ratio, static_cast<idx>(c));
+    }
+    const auto shown = static_cast<std::ptrdiff_t>(std::min<std::size_t>(10, ranked.size()));
+    std::partial_sort(ranked.begin(), ranked.begin() + shown, ranked.end());
+    for (std::ptrdiff_t i = 0; i < shown; ++i) q.worst_ids.push_back(ranked[static_cast<std::size_t>(i)].second);
+    return q;
+}
+
+} // namespace taut
