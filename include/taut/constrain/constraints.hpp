@@ -65,10 +65,7 @@ public:
     /// Pins coordinate k of vertex v alone. Throws constraint_error also for no_coordinate.
     constraints& pin(idx v, int k, double value)
     {
-        if (k < 0 || k >= D)
-            throw constraint_error(constraint_fault::no_coordinate, {v},
-                                   "vertex " + std::to_string(v) + " has no coordinate " + std::to_string(k) +
-                                       "; they count from 0 to " + std::to_string(D - 1));
+        require_coordinate(v, k);
         point x(0.0);
         x[k] = value;
         return hold(std::array{v}, static_cast<std::uint8_t>(1u << k), [&](std::size_t) { return x; });
@@ -76,6 +73,49 @@ public:
 
     constraints& pin_u(idx v, double u) { return pin(v, 0, u); }
     constraints& pin_v(idx v, double value) { return pin(v, 1, value); }
+
+    /// Pins vertices to one position each, where some may be pinned already: what was said of them no longer holds.
+    constraints& repin(std::span<const idx> vertices, std::span<const point> x)
+    {
+        require_count("a vertex", vertices.size(), x.size());
+        return hold(
+            vertices, all, [&](std::size_t i) { return x[i]; }, true);
+    }
+    constraints& repin(idx v, const point& x) { return repin(std::array{v}, std::array{x}); }
+
+    /// The same for coordinate k of vertex v alone; the others stay as they are held.
+    constraints& repin(idx v, int k, double value)
+    {
+        require_coordinate(v, k);
+        point x(0.0);
+        x[k] = value;
+        return hold(
+            std::array{v}, static_cast<std::uint8_t>(1u << k), [&](std::size_t) { return x; }, true);
+    }
+
+    /// As spring(), where v may have one already.
+    constraints& respring(idx v, const point& x, double weight)
+    {
+        const auto old = springs_.extract(v);
+        try
+        {
+            return spring(v, x, weight);
+        }
+        catch (...)
+        {
+            if (old) springs_.insert({v, old.mapped()});
+            throw;
+        }
+    }
+
+    /// Takes back what pins and springs say of vertex v, if they say anything.
+    constraints& release(idx v)
+    {
+        require_vertices(std::array{v});
+        pins_.erase(v);
+        springs_.erase(v);
+        return *this;
+    }
 
     /// Pins the whole boundary, one loop, to a closed polygon: the loop goes around it once, by arc length, as the
     /// edges at rest are long. `first` is laid on the polygon's first corner; -1: the boundary vertex of the smallest
@@ -154,6 +194,16 @@ public:
 
     bool empty() const { return pins_.empty() && springs_.empty(); }
 
+    /// The same for a copy of the mesh. Throws constraint_error where it is another mesh, with fewer vertices.
+    constraints on(const mesh<Element>& copy) const
+    {
+        constraints c = *this;
+        c.mesh_ = &copy;
+        for (const auto& [v, pin] : pins_) c.require_vertices(std::array{v});
+        for (const auto& [v, s] : springs_) c.require_vertices(std::array{v});
+        return c;
+    }
+
     /// The pins by vertex, ascending.
     const std::map<idx, hard_pin<D>>& pins() const { return pins_; }
 
@@ -213,6 +263,14 @@ private:
                                 "that the mesh does not have; it has " + std::to_string(count()) + ", counted from 0");
     }
 
+    static void require_coordinate(idx v, int k)
+    {
+        if (k < 0 || k >= D)
+            throw constraint_error(constraint_fault::no_coordinate, {v},
+                                   "vertex " + std::to_string(v) + " has no coordinate " + std::to_string(k) +
+                                       "; they count from 0 to " + std::to_string(D - 1));
+    }
+
     static void require_count(const char* what, std::size_t wanted, std::size_t given)
     {
         if (wanted != given)
@@ -245,8 +303,9 @@ private:
     }
 
     /// Holds `coordinates` of the vertices at where(i), i counting through them: all or, where it throws, none.
+    /// replace: whether what was held before is no fault.
     template <class Where>
-    constraints& hold(std::span<const idx> vertices, std::uint8_t coordinates, const Where& where)
+    constraints& hold(std::span<const idx> vertices, std::uint8_t coordinates, const Where& where, bool replace = false)
     {
         require_vertices(vertices);
         std::vector<idx> not_finite, contradictory, duplicate, idle;
@@ -263,7 +322,7 @@ private:
             for (int k = 0; k < D; ++k)
             {
                 if ((coordinates >> k & 1u) == 0) continue;
-                const bool taken = (p.held >> k & 1u) != 0;
+                const bool taken = !(replace && is_new) && (p.held >> k & 1u) != 0;
                 again = again || taken;
                 differs = differs || (taken && p.value[k] != x[k]);
                 if (!taken) p.value[k] = x[k];

@@ -20,6 +20,15 @@ struct directed_spring
     vec<D> target, stiffness;
 };
 
+/// The same in all coordinates.
+template <int D>
+std::vector<directed_spring<D>> directed(const std::vector<spring<D>>& springs)
+{
+    std::vector<directed_spring<D>> all;
+    for (const spring<D>& s : springs) all.push_back({s.vertex, s.target, vec<D>(s.weight)});
+    return all;
+}
+
 /// What is asked of single vertices besides being pinned, which is the matter of the layout: coordinates that are held
 /// alone, and springs. Units are those of the map.
 template <int D>

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <vector>
+
+#include <taut/core/linalg.hpp>
 
 namespace taut
 {
@@ -19,6 +22,10 @@ struct progress
     bool iterate =
         true; ///< a new iterate; false: in the middle of a line search, the other fields are the last iterate's
     bool usable = true; ///< a run that ends now has a result; false where one of several phases has none yet
+    /// The map as it is, one point a vertex in the user's order and lengths, for a live view: valid as what is
+    /// returned, but not certified. Empty where there is no map of the whole surface. It costs a download where it is
+    /// called, and nothing where it is not; to be called by the observer only.
+    std::function<std::vector<vec2>()> coordinates = {};
 };
 
 /// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with

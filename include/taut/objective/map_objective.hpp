@@ -15,9 +15,11 @@
 #include <taut/compute/gather.hpp>
 #include <taut/compute/vector_space.hpp>
 #include <taut/energy/characteristic_gradient.hpp>
-#include <taut/objective/constraint_terms.hpp>
 #include <taut/objective/element_arrays.hpp>
 #include <taut/objective/element_kernels.hpp>
+#include <taut/objective/held_terms.hpp>
+#include <taut/objective/spring_terms.hpp>
+#include <taut/solve/objective.hpp>
 
 namespace taut
 {
@@ -63,9 +65,11 @@ public:
           limit_(queue_, types.vector, std::array{1.0}),
           corner_gradients_(queue_, types.position, (D + 1) * D * layout_->cell_stride),
           gather_(make_gather()),
-          terms_(queue_, types, *layout_, constraints),
+          springs_(queue_, types, *layout_, directed(constraints.springs)),
+          held_(queue_, types, *layout_),
           gradient_scale_(characteristic_gradient(*layout_, energy, weights))
     {
+        held_.hold(*layout_, constraints.held);
     }
 
     const device_vectors& space() const { return space_; }
@@ -84,12 +88,24 @@ public:
         for (std::size_t k = 0; k < values.size(); ++k) arrays_->parameters.at(k).second = values[k];
     }
     /// Other springs, in the user's numbers and units.
-    void set_springs(std::span<const directed_spring<D>> springs) { terms_.set_springs(*layout_, springs); }
+    void set_springs(std::span<const directed_spring<D>> springs) { springs_.set_springs(*layout_, springs); }
+    /// Other constraints, in the user's numbers and units, in the place of those that it was made with.
+    void constrain(const point_constraints<D>& c)
+    {
+        springs_.set_springs(*layout_, directed(c.springs));
+        held_.hold(*layout_, c.held);
+    }
+
+    /// Where coordinates that are held besides those of pinned vertices are wanted, for linearize_towards() and put():
+    /// those of a map in the user's numbers and units, of which no others are read.
+    void aim(std::span<const vec<D>> map) { held_.aim(*layout_, map); }
+    /// x = what is wanted at what is held, to the last bit of the type of positions.
+    void put(point& x) { held_.put(x); }
 
     double value(const point& x)
     {
         kernels_->value(cells(), arrays_->with(x.data(), {{"energy", energies_}}));
-        terms_.add_energy(x, energies_);
+        springs_.add_energy(x, energies_);
         return summed();
     }
 
@@ -113,12 +129,9 @@ public:
     /// g = the gradient; nothing waits.
     void gradient(const point& x, vector& g)
     {
-        kernels_->gradient(cells(),
-                           arrays_->with(x.data(), {{"energy", energies_}, {"corner_gradient", corner_gradients_}}));
-        terms_.add_energy(x, energies_);
-        terms_.add_gradient(x, corner_gradients_);
+        element_gradients(x);
         gather_(corner_gradients_, g.data());
-        terms_.mask(g);
+        held_.mask(g);
     }
 
     /// f at x + a[i] d, four step lengths a launch, one wait in all.
@@ -200,11 +213,37 @@ public:
     double rounding() const { return types_.vector == scalar_type::f64 ? 1e-14 : 1e-8; }
 
 protected:
+    /// Energies and gradients of elements at x.
+    void element_gradients(const point& x)
+    {
+        kernels_->gradient(cells(),
+                           arrays_->with(x.data(), {{"energy", energies_}, {"corner_gradient", corner_gradients_}}));
+        springs_.add_energy(x, energies_);
+        springs_.add_gradient(x, corner_gradients_);
+    }
+
+    /// What held coordinates that move by d do to the gradients of elements, which are those at the current point, in
+    /// the model of `hessian`, not masked yet: g = the gradient at the others. f here, and by how much the model
+    /// changes. One wait.
+    solve::model_change move_held(const real_buffer& hessian, const vector& d, vector& g)
+    {
+        const auto sum = enqueue_sum();
+        gather_(corner_gradients_, g.data());
+        const auto before = reductions_.dot(g.data(), d.data(), space_.size());
+        held_.add_product(hessian, d, corner_gradients_);
+        gather_(corner_gradients_, g.data());
+        const auto after = reductions_.dot(g.data(), d.data(), space_.size());
+        held_.mask(g);
+        reductions_.fetch();
+        return {reductions_.value(sum), (reductions_.value(before) + reductions_.value(after)) / 2};
+    }
+
     range cells() const { return {layout_->cell_stride, taut::layout<Element>::step}; }
 
     std::shared_ptr<const element_arrays<Element>> arrays() const { return arrays_; }
 
-    constraint_terms<Element>& terms() { return terms_; }
+    spring_terms<Element>& springs() { return springs_; }
+    held_terms<Element>& held() { return held_; }
 
 private:
     /// Rows of free vertices only: the others get zero.
@@ -243,7 +282,7 @@ private:
                                                               {"step1", step(1)},
                                                               {"step2", step(2)},
                                                               {"step3", step(3)}}));
-            terms_.add_energies(x, d, unit, std::array{step(0), step(1), step(2), step(3)}, energies_);
+            springs_.add_energies(x, d, unit, std::array{step(0), step(1), step(2), step(3)}, energies_);
             // Commands run in order: the next launch overwrites the energies after they are summed.
             results.push_back(
                 reductions_.sum(energies_, {.count = std::min<std::size_t>(kernels::trials, a.size() - first),
@@ -309,7 +348,8 @@ private:
     real_buffer one_, limit_; ///< units of step lengths
     real_buffer corner_gradients_;
     gather gather_;
-    constraint_terms<Element> terms_;
+    spring_terms<Element> springs_;
+    held_terms<Element> held_;
     double gradient_scale_;
 };
 

@@ -93,27 +93,44 @@ public:
                 this->arrays(), constraints.touched(static_cast<std::size_t>(host.layout->vertex_count)));
     }
 
+    /// As map_objective::constrain.
+    void constrain(const point_constraints<D>& c)
+    {
+        base::constrain(c);
+        if (relaxation_) relaxation_->keep_still(c.touched(static_cast<std::size_t>(this->layout().vertex_count)));
+    }
+
     void linearize(const point& x, bool exact)
     {
         element_hessians(x, definiteness::projected);
-        assemble_(hessian_, cycle_.matrix());
-        cycle_.refresh();
+        assemble();
         exact_ = exact;
         if (!exact) return;
         if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
         element_hessians(x, definiteness::indefinite);
+        this->held().mask_hessian(hessian_);
         assemble_(hessian_, *indefinite_);
     }
-    void hessian_product(const vector& v, vector& out)
+
+    /// As linearize(x, false), where held coordinates are on their way to what aim() said: d = a share of what x lacks
+    /// there and 0 elsewhere, g = the gradient at x + d in the model. f(x), and the change of the model along d.
+    solve::model_change linearize_towards(const point& x, double share, vector& d, vector& g)
     {
-        (exact_ ? *indefinite_ : cycle_.matrix()).multiply(v, out);
-        this->terms().mask(out);
+        d.data().fill(0);
+        this->held().gap(x, share, d);
+        this->element_gradients(x);
+        element_hessians(x, definiteness::projected);
+        const auto change = this->move_held(hessian_, d, g);
+        assemble();
+        exact_ = false;
+        return change;
     }
+    void hessian_product(const vector& v, vector& out) { (exact_ ? *indefinite_ : cycle_.matrix()).multiply(v, out); }
     /// The V-cycle between two projections where coordinates are held: symmetric and positive on what is left.
     void precondition(const vector& v, vector& out)
     {
         cycle_.apply(v, out);
-        this->terms().mask(out);
+        this->held().mask(out);
     }
 
     /// What precondition() applies, with its matrices, for measurements.
@@ -134,11 +151,19 @@ public:
     }
 
 private:
+    /// The matrices of all levels, of the element Hessians without what is held.
+    void assemble()
+    {
+        this->held().mask_hessian(hessian_);
+        assemble_(hessian_, cycle_.matrix());
+        cycle_.refresh();
+    }
+
     void element_hessians(const point& x, definiteness sign)
     {
         const auto& kernel = kernels_->second;
         kernel.launch(this->cells(), this->arrays()->with(x.data(), {kernel.as_argument(sign), {"hessian", hessian_}}));
-        this->terms().add_hessian(hessian_, [](idx j, idx k) { return hessian_slots<D>::at(j, k, j, k); });
+        this->springs().add_hessian(hessian_, [](idx j, idx k) { return hessian_slots<D>::at(j, k, j, k); });
     }
 
     std::shared_ptr<const kernels> kernels_;

@@ -78,6 +78,9 @@ public:
     {
     }
 
+    /// Other vertices that are not moved, as where it was made.
+    void keep_still(const std::vector<bool>& still) { scheduler_ = relaxation_scheduler<Element>(*layout_, still); }
+
     /// Relaxes x, coordinates as in layout.hpp. A map on which the energy is not finite stays as it is.
     result operator()(device_vector& x, const params& how = {})
     {

@@ -83,4 +83,24 @@ concept has_hessian = has_precondition<O> &&
     f.hessian_product(v, out);
 };
 
+/// A value of f, and the change that a quadratic model of it expects along some step.
+struct model_change
+{
+    double value, change;
+};
+
+/// What it takes to bring coordinates of a point to prescribed values: `linearize_towards(x, share, d, g)` does what
+/// `linearize(x, false)` does, and puts `share` of what x lacks at the prescribed coordinates into d, which is 0
+/// elsewhere, and the gradient of the model at x + d into g, which is 0 at the prescribed ones; it returns f(x) and the
+/// change of the model along d. `put(x)` gives prescribed coordinates their values to the last bit.
+template <class O>
+concept has_prescribed = has_hessian<O> &&
+    requires(O& f, typename O::point& x, double share, vector_of<O>& d, vector_of<O>& g)
+{
+    {
+        f.linearize_towards(x, share, d, g)
+        } -> std::same_as<model_change>;
+    f.put(x);
+};
+
 } // namespace taut::solve

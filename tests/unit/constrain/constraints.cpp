@@ -99,6 +99,53 @@ TEST_CASE("constraints: what cannot hold is refused with the vertices it concern
     CHECK_NOTHROW(c.pin_u(7, 0));
 }
 
+TEST_CASE("constraints: pins and springs are moved and taken back")
+{
+    const auto m = test::grid(2, 2);
+    constraints<triangle> c(m);
+    c.pin(0, {1, 2}).pin_u(1, 3).spring(5, {1, 1}, 2);
+    c.repin(0, {4, 5}).repin(1, 1, 6).repin(2, {7, 8}).respring(5, {2, 2}, 3).respring(6, {0, 0}, 1);
+    CHECK(c.pins().at(0).value == vec2(4, 5));
+    CHECK(c.held(1) == 3);
+    CHECK(c.pins().at(1).value == vec2(3, 6));
+    CHECK(c.held(2) == 3);
+    REQUIRE(c.springs().size() == 2);
+    CHECK(c.springs()[0].target == vec2(2, 2));
+    CHECK(c.springs()[0].weight == 3);
+    c.repin(std::vector<taut::idx>{0, 3}, std::vector<vec2>{{0, 0}, {1, 0}});
+    CHECK(c.pins().at(0).value == vec2(0, 0));
+    c.release(0).release(5).release(8); // the last one is not held
+    CHECK(c.held(0) == 0);
+    CHECK(c.springs().size() == 1);
+}
+
+TEST_CASE("constraints: moving pins keeps what cannot hold out, and leaves what was there")
+{
+    const auto m = test::grid(2, 2);
+    constraints<triangle> c(m);
+    c.pin(0, {1, 2}).spring(5, {1, 1}, 2);
+    check_refused([&] { c.repin(9, {0, 0}); }, constraint_fault::out_of_range, {9});
+    check_refused([&] { c.repin(0, {0, not_a_number}); }, constraint_fault::not_finite, {0});
+    check_refused([&] { c.repin(0, 2, 0.0); }, constraint_fault::no_coordinate, {0});
+    check_refused([&] { c.repin(5, {0, 0}); }, constraint_fault::idle_spring, {5});
+    check_refused(
+        [&] {
+            c.repin(std::vector<taut::idx>{1, 1}, std::vector<vec2>{{0, 0}, {1, 0}});
+        },
+        constraint_fault::contradictory, {1});
+    check_refused(
+        [&] {
+            c.repin(std::vector<taut::idx>{1, 2}, std::vector<vec2>{{0, 0}});
+        },
+        constraint_fault::wrong_count, {});
+    check_refused([&] { c.respring(5, {0, 0}, -1); }, constraint_fault::bad_weight, {5});
+    check_refused([&] { c.release(-1); }, constraint_fault::out_of_range, {-1});
+    CHECK(c.pins().size() == 1);
+    CHECK(c.pins().at(0).value == vec2(1, 2));
+    REQUIRE(c.springs().size() == 1);
+    CHECK(c.springs()[0].weight == 2);
+}
+
 TEST_CASE("constraints: sets are fixed where they are and moved by a transform")
 {
     const auto flat = test::grid(3, 3);

@@ -73,7 +73,8 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
     a.stopped = !run.clock.proceed();
     if (a.stopped) return a;
     if (start.coarse && run.iterates()) finest.relax();
-    a.solve = finest.minimize(limited(run, max_iterations), observer_on(run.clock, 0));
+    a.solve = finest.minimize(limited(run, max_iterations),
+                              observer_of(run, start, [&] { return numbers.undo(finest.download()); }));
     for (int& c : a.solve.capping) c = levels.order().cells.new_to_old[static_cast<std::size_t>(c)];
     const auto begin = start.coarse ? numbers.undo(a.arrival) : start.map.uv;
     a.arrival = finest.download();

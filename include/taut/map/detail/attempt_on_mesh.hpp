@@ -43,13 +43,30 @@ bool build_within(const queue& q, run_clock& clock, const Build& build)
     return true;
 }
 
-/// The user's observer, told where it is; on coarser levels it also keeps the time.
+/// The user's observer on a coarser level, where it also keeps the time.
 inline taut::observer observer_on(run_clock& clock, std::size_t level)
 {
     return [&clock, level](progress p)
     {
         p.level = static_cast<int>(level);
-        return level == 0 ? clock.ask(p) : clock.proceed(p);
+        return clock.proceed(p);
+    };
+}
+
+/// The user's observer on the mesh itself. now: the map of the run, centred, in the user's order.
+template <class Element>
+taut::observer observer_of(const map_run<Element>& run, const run_start& start, std::function<std::vector<vec2>()> now)
+{
+    return [&run, &start, now = std::move(now)](progress p)
+    {
+        p.coordinates = [&run, &start, &now]
+        {
+            auto uv = now();
+            for (vec2& point : uv) point = (point + start.centre) / run.in.unit;
+            run.held.impose(uv, 1);
+            return uv;
+        };
+        return run.clock.ask(p);
     };
 }
 
@@ -86,7 +103,8 @@ attempt attempt_on_mesh(const map_run<Element>& run, const run_start& start, pre
     a.stopped = !build_within(run.queue, run.clock, [&] { f.warm_up(x); });
     if (a.stopped) return a;
     run.clock.spent(&map_seconds::device);
-    a.solve = solve::minimize(f, x, limited(run, max_iterations), observer_on(run.clock, 0));
+    a.solve =
+        solve::minimize(f, x, limited(run, max_iterations), observer_of(run, start, [&] { return f.download(x); }));
     a.uv = restored(run, f.download(x), start.centre, start.map.uv);
     run.clock.spent(&map_seconds::solve);
     return certified(run.in, std::move(a));

@@ -19,28 +19,24 @@
 namespace taut
 {
 
-/// Point constraints of a mesh on a device, as an addition to what the kernels of elements give. A spring is counted
-/// with one of the elements at its vertex, so that sums, gathers and assemblies of elements carry it along. Coordinates
-/// that are held alone are a mask: the search directions of a solver are zero there.
+/// Springs at vertices of a mesh on a device, as an addition to what the kernels of elements give. A spring is counted
+/// with one of the elements at its vertex, so that sums, gathers and assemblies of elements carry it along.
 template <class Element>
-class constraint_terms
+class spring_terms
 {
 public:
     static constexpr int D = Element::dimension;
     static constexpr std::size_t corners = Element::corners;
 
-    /// c: in the user's numbers and units.
-    constraint_terms(queue q, const real_types& types, const layout<Element>& mesh_layout,
-                     const point_constraints<D>& c)
+    /// springs: in the user's numbers and units.
+    spring_terms(queue q, const real_types& types, const layout<Element>& mesh_layout,
+                 std::span<const directed_spring<D>> springs)
         : queue_(std::move(q)),
           types_(types),
           cell_stride_(static_cast<idx>(mesh_layout.cell_stride)),
           vertex_stride_(static_cast<idx>(mesh_layout.vertex_stride))
     {
-        if (!c.held.empty()) make_mask(held_marks<D>(mesh_layout.order.vertices.apply(c.held.bits())));
-        std::vector<directed_spring<D>> springs;
-        for (const spring<D>& s : c.springs) springs.push_back({s.vertex, s.target, vec<D>(s.weight)});
-        if (!springs.empty()) set_springs(mesh_layout, springs);
+        set_springs(mesh_layout, springs);
     }
 
     /// Other springs, in the user's numbers and units. mesh_layout: the same as before.
@@ -196,19 +192,6 @@ public:
             });
     }
 
-    /// v = 0 where a coordinate is held alone.
-    void mask(device_vector& v)
-    {
-        if (mask_.empty()) return;
-        queue_.submit(
-            [&](handler& h)
-            {
-                const auto free = mask_.read(h);
-                const auto g = v.data().read_write(h);
-                h.parallel_for("mask", mask_.size(), [&](auto i) { g[i] = free[i] * g[i]; });
-            });
-    }
-
 private:
     /// The springs as a kernel sees them.
     struct list
@@ -217,7 +200,7 @@ private:
         in_array<double> stiffness, target;
         sym<idx> n, cells, vertices;
 
-        list(const constraint_terms& c, handler& h)
+        list(const spring_terms& c, handler& h)
             : cell(c.cell_.read(h)),
               vertex(c.vertex_.read(h)),
               stiffness(c.stiffness_.read(h)),
@@ -234,22 +217,12 @@ private:
 
     range count() const { return {count_}; }
 
-    void make_mask(const held_marks<D>& held)
-    {
-        const auto stride = static_cast<std::size_t>(vertex_stride_);
-        std::vector<double> free(D * stride, 1);
-        for (std::size_t v = 0; v < held.size(); ++v)
-            for (std::size_t k = 0; k < D; ++k)
-                if (held.test(v, static_cast<int>(k))) free[k * stride + v] = 0;
-        mask_ = real_buffer(queue_, types_.vector, free);
-    }
-
     queue queue_;
     real_types types_;
     idx cell_stride_, vertex_stride_;
     std::size_t count_ = 0; ///< elements that carry springs
     buffer<idx> cell_, vertex_;
-    real_buffer stiffness_, mask_, target_;
+    real_buffer stiffness_, target_;
 };
 
 } // namespace taut

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include <taut/solve/full_objective.hpp>
+#include <taut/solve/params.hpp>
+#include <taut/solve/pcg.hpp>
+
+namespace taut::solve
+{
+
+/// How prescribed coordinates are brought to their values.
+struct prescribed_params
+{
+    /// Of the steps of the others: the system is dominated by the neighbours of what moves, so that a small gain does
+    /// not say that what is farther off has followed.
+    pcg_params pcg = {.gain = 0.01};
+
+    /// As in line_search_params.
+    double barrier_fraction = 0.9;
+
+    /// No step raises f by more than this part of it: after a steep rise the others are far from where they would be.
+    /// Range > 0.
+    double most_rise = 0.25;
+
+    /// The objective is asked to relax what cut a step that was shorter. Range [0, 1].
+    double relax_below = 0.5;
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        pcg.validate();
+        if (!(barrier_fraction > 0 && barrier_fraction < 1))
+            throw parameter_error("prescribed.barrier_fraction", "must be in (0, 1)");
+        if (!(most_rise > 0)) throw parameter_error("prescribed.most_rise", "must be positive");
+        if (!(relax_below >= 0 && relax_below <= 1))
+            throw parameter_error("prescribed.relax_below", "must be in [0, 1]");
+    }
+};
+
+/// How far prescribed coordinates have come.
+struct prescribed_report
+{
+    bool arrived = false;  ///< they have their values
+    bool crawling = false; ///< the last steps, of this run and those before, have hardly changed anything
+    double left = 0;       ///< of the gap
+    double value = 0;      ///< f at the last trial step that was taken
+    int iterations = 0;    ///< steps, those included that were not taken
+    int products = 0;      ///< Hessian products
+};
+
+/// Brings coordinates of a point to prescribed values, within the domain of f, while the others follow: Newton's steps
+/// with prescribed displacements (Dirichlet increments),
+///
+///     K_ff d_f = -g_f - K_fp d_p,    x <- x + a (d_f, d_p),
+///
+/// d_p towards the values, but at most as long as a radius that grows after full steps and shrinks after short ones.
+/// The length a is the best of four under min(1, a fraction of the first flip), by the merit function f + nu |what is
+/// missing| of sequential quadratic programming (Nocedal & Wright, 18.27), whose nu is such that the step may cost
+/// twice what the model expects (18.33, with rho = 1/2). It keeps its vectors and the radius from run to run.
+template <class Objective>
+    requires has_prescribed<Objective>
+class prescribed_newton
+{
+public:
+    using point = typename Objective::point;
+    using vector = vector_of<Objective>;
+
+    /// Refers to the objective.
+    explicit prescribed_newton(Objective& f, const prescribed_params& params = {})
+        : prescribed_(f),
+          f_(f),
+          params_(params),
+          pcg_(f_.space(), params.pcg),
+          next_(f_.make_point()),
+          d_(f_.space().make()),
+          g_(f_.space().make()),
+          follow_(f_.space().make())
+    {
+        params.validate();
+    }
+
+    /// x: in the domain; moved. gap: the length of what x lacks, in any norm, > 0. proceed() is asked before each step
+    /// but the first.
+    prescribed_report run(point& x, double gap, const std::function<bool(const prescribed_report&)>& proceed)
+    {
+        prescribed_report r{.left = gap};
+        radius_ = std::max(radius_, 0.05 * gap); // a new way is another try
+        do {
+            const auto [moved, fallen] = step(x, r);
+            slow_ = moved > 0.02 * r.left || fallen > 1e-3 * std::abs(r.value) ? 0 : slow_ + 1;
+            r.left = r.arrived ? 0 : r.left - moved;
+            r.crawling = slow_ >= patience;
+        } while (!r.arrived && !r.crawling && proceed(r));
+        if (r.crawling) slow_ = 0;
+        return r;
+    }
+
+private:
+    static constexpr int patience = 8; // steps
+
+    struct progress
+    {
+        double moved = 0, fallen = 0; ///< by how much the gap has become shorter, and f
+    };
+
+    progress step(point& x, prescribed_report& r)
+    {
+        const double share = std::min(1.0, radius_ / r.left), length = share * r.left;
+        const auto here = prescribed_.linearize_towards(x, share, d_, g_);
+        const auto model = pcg_.solve(
+            g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
+            [this](const vector& v, vector& out) { f_.precondition(v, out); }, follow_);
+        f_.space().axpby(1, follow_, 1, d_);
+        ++r.iterations;
+        r.products += model.steps;
+        const auto [taken, value] = longest(x, here.value, std::max(0.0, here.change - model.decrease));
+        r.value = value;
+        radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
+        if (taken == 0) return {};
+        f_.step(x, taken, d_, next_);
+        std::swap(x, next_);
+        r.arrived = taken == 1 && share == 1;
+        if (r.arrived) prescribed_.put(x);
+        if (taken < params_.relax_below) f_.relax(x);
+        return {taken * length, here.value - value};
+    }
+
+    struct trial
+    {
+        double step, value;
+    };
+
+    /// The trial step of the least merit, 0 if none has less than the point itself. rise: that the model expects of
+    /// the full step.
+    trial longest(const point& x, double value, double rise)
+    {
+        constexpr std::array<double, 4> a{1, 0.5, 0.25, 0.125};
+        std::array<double, 4> values;
+        const double unit = f_.capped_values(x, d_, params_.barrier_fraction, a, values);
+        const double noise = f_.rounding() * std::abs(value);
+        trial best{0, value};
+        double least = value + noise;
+        for (std::size_t i = 0; i < a.size(); ++i)
+        {
+            const double merit = values[i] - 2 * rise * unit * a[i];
+            if (!(merit < least) || values[i] > value + params_.most_rise * std::abs(value)) continue;
+            least = merit;
+            best = {unit * a[i], values[i]};
+        }
+        return best;
+    }
+
+    Objective& prescribed_;
+    full_objective<Objective> f_;
+    prescribed_params params_;
+    solve::pcg<space_of<Objective>> pcg_;
+    point next_;
+    vector d_, g_, follow_;                                   // d; the gradient that the others see; d of the others
+    double radius_ = std::numeric_limits<double>::infinity(); // of d at what is prescribed
+    int slow_ = 0;                                            // steps in a row that brought little
+};
+
+} // namespace taut::solve
