@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <taut/constrain/constraints.hpp>
+#include <taut/constrain/slide.hpp>
 #include <taut/core/held_marks.hpp>
 #include <taut/mesh/order.hpp>
 
@@ -30,14 +31,15 @@ std::vector<directed_spring<D>> directed(const std::vector<spring<D>>& springs)
 }
 
 /// What is asked of single vertices besides being pinned, which is the matter of the layout: coordinates that are held
-/// alone, and springs. Units are those of the map.
+/// alone, springs, and vertices that slide. Units are those of the map.
 template <int D>
 struct point_constraints
 {
     held_marks<D> held;             ///< one a vertex, or none
     std::vector<spring<D>> springs; ///< each adds weight * |x - target|^2 to the energy's mean
+    std::vector<slide<D>> slides{}; ///< at most one a vertex
 
-    bool empty() const { return held.empty() && springs.empty(); }
+    bool empty() const { return held.empty() && springs.empty() && slides.empty(); }
 
     /// For vertices in other numbers.
     point_constraints renumbered(const permutation& p) const
@@ -48,6 +50,11 @@ struct point_constraints
         {
             s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];
             r.springs.push_back(s);
+        }
+        for (slide<D> s : slides)
+        {
+            s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];
+            r.slides.push_back(s);
         }
         return r;
     }
@@ -70,6 +77,7 @@ struct point_constraints
         std::vector<bool> any(vertices, false);
         for (std::size_t v = 0; v < held.size(); ++v) any[v] = held.any(v);
         for (const auto& s : springs) any[static_cast<std::size_t>(s.vertex)] = true;
+        for (const auto& s : slides) any[static_cast<std::size_t>(s.vertex)] = true;
         return any;
     }
 };

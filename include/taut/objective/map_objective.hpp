@@ -18,6 +18,7 @@
 #include <taut/objective/element_arrays.hpp>
 #include <taut/objective/element_kernels.hpp>
 #include <taut/objective/held_terms.hpp>
+#include <taut/objective/sliding_terms.hpp>
 #include <taut/objective/spring_terms.hpp>
 #include <taut/solve/objective.hpp>
 
@@ -67,9 +68,11 @@ public:
           gather_(make_gather()),
           springs_(queue_, types, *layout_, directed(constraints.springs)),
           held_(queue_, types, *layout_),
+          sliding_(queue_, types, *layout_),
           gradient_scale_(characteristic_gradient(*layout_, energy, weights))
     {
         held_.hold(*layout_, constraints.held);
+        sliding_.slide(*layout_, constraints.slides);
     }
 
     const device_vectors& space() const { return space_; }
@@ -94,6 +97,7 @@ public:
     {
         springs_.set_springs(*layout_, directed(c.springs));
         held_.hold(*layout_, c.held);
+        sliding_.slide(*layout_, c.slides);
     }
 
     /// Where coordinates that are held besides those of pinned vertices are wanted, for linearize_towards() and put():
@@ -131,7 +135,7 @@ public:
     {
         element_gradients(x);
         gather_(corner_gradients_, g.data());
-        held_.mask(g);
+        mask(g);
     }
 
     /// f at x + a[i] d, four step lengths a launch, one wait in all.
@@ -233,7 +237,7 @@ protected:
         held_.add_product(hessian, d, corner_gradients_);
         gather_(corner_gradients_, g.data());
         const auto after = reductions_.dot(g.data(), d.data(), space_.size());
-        held_.mask(g);
+        mask(g);
         reductions_.fetch();
         return {reductions_.value(sum), (reductions_.value(before) + reductions_.value(after)) / 2};
     }
@@ -244,6 +248,19 @@ protected:
 
     spring_terms<Element>& springs() { return springs_; }
     held_terms<Element>& held() { return held_; }
+
+    /// v without what vertices may not do.
+    void mask(vector& v)
+    {
+        held_.mask(v);
+        sliding_.project(v);
+    }
+    /// The same of the Hessians of elements.
+    void mask_hessian(real_buffer& hessian)
+    {
+        sliding_.project_hessian(hessian);
+        held_.mask_hessian(hessian);
+    }
 
 private:
     /// Rows of free vertices only: the others get zero.
@@ -350,6 +367,7 @@ private:
     gather gather_;
     spring_terms<Element> springs_;
     held_terms<Element> held_;
+    sliding_terms<Element> sliding_;
     double gradient_scale_;
 };
 

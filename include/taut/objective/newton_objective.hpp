@@ -108,7 +108,7 @@ public:
         if (!exact) return;
         if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
         element_hessians(x, definiteness::indefinite);
-        this->held().mask_hessian(hessian_);
+        this->mask_hessian(hessian_);
         assemble_(hessian_, *indefinite_);
     }
 
@@ -130,7 +130,7 @@ public:
     void precondition(const vector& v, vector& out)
     {
         cycle_.apply(v, out);
-        this->held().mask(out);
+        this->mask(out);
     }
 
     /// What precondition() applies, with its matrices, for measurements.
@@ -154,7 +154,7 @@ private:
     /// The matrices of all levels, of the element Hessians without what is held.
     void assemble()
     {
-        this->held().mask_hessian(hessian_);
+        this->mask_hessian(hessian_);
         assemble_(hessian_, cycle_.matrix());
         cycle_.refresh();
     }
