@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// parameterize() for the compiled form.
+// parameterize() and sessions for the compiled form.
 #include <taut/map/parameterize.hpp>
+#include <taut/map/session.hpp>
 
 #include <taut/map/detail/parameterization.hpp>
+#include <taut/map/detail/session_run.hpp>
 
 template taut::map_result taut::parameterize(queue&, const mesh<triangle>&, const parameterize_params&);
+template taut::session::session(queue&, const mesh<triangle>&, const parameterize_params&);

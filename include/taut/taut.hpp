@@ -33,4 +33,5 @@
 #include <taut/io/write_obj.hpp>
 
 #include <taut/map/parameterize.hpp>
+#include <taut/map/session.hpp>
 #include <taut/untangle/untangle.hpp>

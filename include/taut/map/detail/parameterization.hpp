@@ -68,11 +68,23 @@ std::vector<vec2> free_draft(const map_run<Element>& run)
                     [&run](progress now)
                     {
                         now.level = std::max(now.level, 1); // it is not the map that was asked for
+                        now.coordinates = {};
                         return run.clock.ask(now);
                     });
     const map_run<Element> free(run.queue, run.in, params, clock);
     map_result draft = solved(free, {});
     return draft ? std::move(draft.uv) : std::vector<vec2>();
+}
+
+/// All of parameterize() but the counters. params: validated.
+template <class Element>
+map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock)
+{
+    const map_run<Element> run(q, surface, params, clock);
+    std::vector<vec2> draft;
+    if (wants_draft(run) && !clock.over()) draft = free_draft(run);
+    map_result result = solved(run, std::move(draft));
+    return in_user_units(run, placed(run, std::move(result)));
 }
 
 } // namespace detail
@@ -83,13 +95,7 @@ map_result parameterize(queue& q, const mesh<Element>& m, const parameterize_par
     const parameterize_params wanted = detail::validated(params);
     const queue_counters before = q.counters();
     detail::run_clock clock(wanted.time_limit, wanted.observer);
-    const detail::run_surface surface(m, wanted);
-    const detail::map_run<Element> run(q, surface, wanted, clock);
-
-    std::vector<vec2> draft;
-    if (detail::wants_draft(run) && !clock.over()) draft = detail::free_draft(run);
-    map_result result = detail::solved(run, std::move(draft));
-    result = detail::in_user_units(run, detail::placed(run, std::move(result)));
+    map_result result = detail::mapped<Element>(q, detail::run_surface(m, wanted), wanted, clock);
     result.report.counters = detail::counted_since(before, q.counters());
     return result;
 }

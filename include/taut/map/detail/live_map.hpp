@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/map/parameterize_params.hpp>
+#include <taut/measure/planar_size.hpp>
+#include <taut/objective/mesh_levels.hpp>
+#include <taut/objective/newton_objective.hpp>
+#include <taut/solve/minimize.hpp>
+#include <taut/solve/prescribed.hpp>
+
+namespace taut::detail
+{
+
+/// A map of a mesh on a device, with all that it takes to minimise its energy: order, tables of all levels, kernels,
+/// matrices. No vertex is pinned in the layout, so none of it knows who is held; that is a mask and can change.
+/// Vertices are in the user's order; lengths are those of the mesh.
+template <class Element>
+class live_map
+{
+public:
+    using map = std::vector<vec2>;
+
+    /// x: injective. params: validated.
+    live_map(queue q, const mesh<Element>& m, const parameterize_params& params, precision how, const map& x)
+        : live_map(q, mesh_levels<Element>(m, {}, {}, params.data), params, types_of(how))
+    {
+        load(x);
+    }
+
+    /// Takes an injective map in the place of the one at hand.
+    void load(const map& x)
+    {
+        centre_ = bounding_square(x).centre;
+        auto local = numbers_.apply(x);
+        for (vec2& p : local) p -= centre_;
+        objective_.upload(local, x_);
+    }
+
+    /// marks: who is held, one a vertex, or none.
+    void constrain(const held_marks<2>& marks, const std::vector<spring<2>>& springs)
+    {
+        auto c = point_constraints<2>{marks, springs}.renumbered(numbers_);
+        for (auto& s : c.springs) s.target -= centre_;
+        objective_.constrain(c);
+    }
+
+    /// targets: a map of which the held coordinates are read.
+    void aim(const map& targets)
+    {
+        auto local = numbers_.apply(targets);
+        for (vec2& p : local) p -= centre_;
+        objective_.aim(local);
+    }
+
+    /// Brings held coordinates, gap away in the worst case, to what aim() said.
+    solve::prescribed_report follow(double gap, const std::function<bool(const solve::prescribed_report&)>& proceed)
+    {
+        if (!steps_) steps_.emplace(objective_);
+        return steps_->run(x_, gap, proceed);
+    }
+
+    /// With what is held where it is.
+    solve::report minimize(const solve::params& how, const observer& ask)
+    {
+        return solve::minimize(objective_, x_, how, ask);
+    }
+
+    map coordinates() const
+    {
+        auto x = numbers_.undo(objective_.download(x_));
+        for (vec2& p : x) p += centre_;
+        return x;
+    }
+
+    /// What coordinates() gives where the device has what `x` says, to the last bit that it can tell.
+    map as_held(map x) const
+    {
+        for (vec2& p : x)
+            for (int k = 0; k < 2; ++k)
+            {
+                const double local = p[k] - centre_[k], scale = objective_.layout().scale;
+                p[k] = (single_ ? double(static_cast<float>(local * scale)) / scale : local) + centre_[k];
+            }
+        return x;
+    }
+
+private:
+    live_map(queue q, mesh_levels<Element> levels, const parameterize_params& params, const real_types& types)
+        : numbers_(levels.order().vertices),
+          objective_(q, newton_plan<Element>(levels, 0, lane_form::for_device(q.device())), params.energy,
+                     params.weights, std::make_shared<const newton_kernels<Element>>(q, params.energy, types)),
+          x_(objective_.make_point()),
+          single_(types.position == scalar_type::f32)
+    {
+    }
+
+    permutation numbers_;
+    vec2 centre_{0};
+    newton_objective<Element> objective_;
+    typename newton_objective<Element>::point x_;
+    bool single_; ///< the precision of positions
+    std::optional<solve::prescribed_newton<newton_objective<Element>>> steps_;
+};
+
+} // namespace taut::detail

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <taut/map/detail/session_body.hpp>
+#include <taut/map/parameterize_params.hpp>
+#include <taut/map/session_result.hpp>
+
+namespace taut
+{
+
+/// A map that stays open: it keeps the mesh, its order and hierarchy, the tables and kernels of all levels, and the
+/// last map, so that a call of solve() costs steps of Newton's method and nothing else. Pins may come, move and go
+/// between calls; who is pinned is a mask, of which no table depends.
+///
+///     taut::session s(queue, surface);
+///     auto [uv, report] = s.solve();                // as parameterize()
+///     s.pin(v, uv[v]);
+///     while (dragging) show(s.pin(v, mouse()).solve({.time = 12ms}).uv);
+///
+/// Each map that is returned is injective and certified as those of parameterize(). Pins are not put to their places
+/// but brought there through injective maps, so a map changes as much as its pins move: it does not jump to another
+/// minimum, nor wind twice around a vertex. What the budget leaves is reported, and the next call goes on.
+///
+/// Not to be used from two threads at once. Objects may be moved, not copied.
+class session
+{
+public:
+    /// Validates; the first map is made by the first solve(). params: as for parameterize(), of which `constraints` are
+    /// the first ones, and `time_limit` is for the first map. Element is triangle. Throws mesh_error, parameter_error
+    /// (also for a method other than Newton's), constraint_error for constraints of another mesh.
+    template <class Element>
+    session(queue& q, const mesh<Element>& m, const parameterize_params& params = {});
+
+    /// Pins vertex v to x, in the lengths of the map, or moves its pin there. Throws constraint_error, as
+    /// constraints::pin does, and all of the session is as before.
+    session& pin(idx v, const vec2& x)
+    {
+        return change([&](auto& c) { c.repin(v, x); });
+    }
+    /// The same for coordinate k alone.
+    session& pin(idx v, int k, double value)
+    {
+        return change([&](auto& c) { c.repin(v, k, value); });
+    }
+    session& pin_u(idx v, double u) { return pin(v, 0, u); }
+    session& pin_v(idx v, double value) { return pin(v, 1, value); }
+
+    /// Pins vertices to one place each, or moves their pins there; all of them, or, where it throws, none.
+    session& move(std::span<const idx> vertices, std::span<const vec2> places)
+    {
+        return change([&](auto& c) { c.repin(vertices, places); });
+    }
+
+    /// Pins vertices where a function takes them from where the last map has them. Throws also for no_position: there
+    /// is no map yet.
+    template <std::invocable<vec2> Transform>
+    session& move(std::span<const idx> vertices, const Transform& transform)
+    {
+        std::vector<vec2> places = body_->places_of(vertices);
+        for (vec2& p : places) p = transform(p);
+        return move(vertices, places);
+    }
+
+    /// Draws vertex v towards x, in the place of another spring that it has.
+    session& spring(idx v, const vec2& x, double weight)
+    {
+        return change([&](auto& c) { c.respring(v, x, weight); });
+    }
+
+    /// Takes back pin and spring of vertex v, if there are any.
+    session& release(idx v)
+    {
+        return change([&](auto& c) { c.release(v); });
+    }
+
+    /// What is asked at present.
+    const taut::constraints<triangle>& constraints() const { return body_->wanted; }
+
+    /// The last map, empty before there was one.
+    const std::vector<vec2>& uv() const { return body_->last.uv; }
+
+    /// Goes on from the last map, until it has converged or the budget ends; without one, makes the first map, as
+    /// parameterize() does. Throws parameter_error, device_error.
+    session_result solve(const session_budget& budget = {})
+    {
+        budget.validate();
+        return body_->solve(budget);
+    }
+
+private:
+    template <class F>
+    session& change(const F& f)
+    {
+        f(body_->wanted); // where it throws it changes nothing
+        body_->changed = true;
+        return *this;
+    }
+
+    std::unique_ptr<detail::session_body> body_;
+};
+
+} // namespace taut
+
+#ifndef TAUT_COMPILED
+#include <taut/map/detail/session_run.hpp>
+#endif
