@@ -120,10 +120,10 @@ void measure(queue& q, const std::string& name, const mesh<triangle>& m, int pin
     for (int frame = 1; frame <= how.frames + how.rest; ++frame)
     {
         if (frame <= how.frames) lead(frame);
-        const auto before = s.uv();
-        session_result r;
+        const auto before = s.x();
+        session_result<triangle> r;
         const double t = bench::seconds([&] { r = s.solve(how.budget); });
-        jump = std::max(jump, longest_move(before, r.uv));
+        jump = std::max(jump, longest_move(before, r.x));
         last_energy = r.report.energy;
         if (frame > how.frames && r.report.converged && rested < 0) rested = frame - how.frames;
         if (frame > how.frames) continue;

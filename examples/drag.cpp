@@ -29,7 +29,7 @@ try
     }
     const auto boundary = boundary_loops(surface).front();
     const taut::idx left = boundary[0], right = boundary[boundary.size() / 2], held = surface.vertex_count() / 2;
-    const auto place = [&](taut::idx v) { return s.uv()[static_cast<std::size_t>(v)]; };
+    const auto place = [&](taut::idx v) { return s.x()[static_cast<std::size_t>(v)]; };
     s.pin(left, place(left)).pin(right, place(right));
 
     const vec2 from = place(held), way = 0.1 * (place(right) - place(left));
@@ -41,7 +41,7 @@ try
     const auto rest = s.solve(); // until it has converged
     // [drag]
 
-    const bool exact = rest.uv[static_cast<std::size_t>(held)] == from + way;
+    const bool exact = rest.x[static_cast<std::size_t>(held)] == from + way;
     std::cout << "E " << rest.report.energy << (rest.report.converged ? ", converged, pin " : ", pin ")
               << (exact ? "exact" : "moved") << ", " << rest.report.flips.flipped << " flipped\n";
 }

@@ -26,6 +26,8 @@ struct progress
     /// returned, but not certified. Empty where there is no map of the whole surface. It costs a download where it is
     /// called, and nothing where it is not; to be called by the observer only.
     std::function<std::vector<vec2>()> coordinates = {};
+    /// The same of a volume.
+    std::function<std::vector<vec3>()> positions = {};
 };
 
 /// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with

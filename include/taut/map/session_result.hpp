@@ -32,7 +32,7 @@ struct session_budget
 /// Wall-clock seconds of the phases of one call.
 struct session_seconds
 {
-    double start = 0;       ///< the first map, and what is made once for all calls
+    double start = 0;       ///< the first map or shape, and what is made once for all calls
     double constrain = 0;   ///< lists of who is held, where that has changed, and where
     double follow = 0;      ///< steps that bring pins to their places
     double repair = 0;      ///< untangling, where such steps stuck
@@ -50,6 +50,7 @@ struct session_report
     std::vector<idx> ids;           ///< what the reason is about
     std::vector<std::string> notes; ///< what the library decided on its own
     bool converged = false;         ///< pins hold, and there is nothing left to gain
+    bool stopped = false;           ///< the budget, a limit or the observer ended the call
     bool pins_held = false;         ///< all held coordinates are where they should be, bit for bit
     idx farthest = -1;              ///< the vertex that is farthest from its pin; -1: pins hold
     double distance = 0;            ///< of that vertex from its pin
@@ -61,10 +62,11 @@ struct session_report
     queue_counters counters; ///< of this call
 };
 
-/// A map and its report; `auto [uv, report] = s.solve(...)`.
+/// Positions and a report; `auto [uv, report] = s.solve(...)`.
+template <class Element>
 struct session_result
 {
-    std::vector<vec2> uv; ///< one a vertex, in the user's order and lengths
+    std::vector<vec<Element::dimension>> x; ///< one a vertex, in the user's order and lengths
     session_report report;
 
     /// True if there is a map: it is certified.

@@ -23,21 +23,23 @@ inline bool is_scale_invariant(const any_energy& energy)
     return std::abs(at(3.0) - at(1.0)) < 1e-9 * std::abs(at(1.0));
 }
 
-/// The smallest box around some points: its centre and its larger side.
-struct bounding_square
+/// The smallest box around some points: its centre and its largest side.
+template <int D>
+struct bounding_box
 {
-    vec2 centre{0};
+    vec<D> centre{0.0};
     double size = 0;
 
-    explicit bounding_square(const std::vector<vec2>& points)
+    explicit bounding_box(const std::vector<vec<D>>& points)
     {
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        vec2 least(infinity), most(-infinity);
-        for (const vec2& p : points) least = glm::min(least, p), most = glm::max(most, p);
+        vec<D> least(infinity), most(-infinity);
+        for (const vec<D>& p : points) least = glm::min(least, p), most = glm::max(most, p);
         centre = least / 2.0 + most / 2.0; // the sum may overflow
-        size = std::max(most.x - least.x, most.y - least.y);
+        for (int k = 0; k < D; ++k) size = std::max(size, most[k] - least[k]);
     }
 };
+using bounding_square = bounding_box<2>;
 
 /// Scales by a power of two, so that the map's extent is that of a square with this area.
 inline void bring_to_size(std::vector<vec2>& uv, double area)

@@ -68,17 +68,17 @@ bool same_bits(double a, double b)
 }
 
 /// Everything that a session promises of what it returns.
-void check_promises(const mesh<triangle>& m, const session& s, const session_result& r)
+void check_promises(const mesh<triangle>& m, const session<triangle>& s, const session_result<triangle>& r)
 {
     REQUIRE(r);
-    CHECK(certify<2>(m.cells(), std::span<const vec2>(r.uv)));
-    CHECK(test::wound_vertices(m, r.uv).empty());
+    CHECK(certify<2>(m.cells(), std::span<const vec2>(r.x)));
+    CHECK(test::wound_vertices(m, r.x).empty());
     CHECK(r.report.flips.flipped + r.report.flips.branched == 0);
-    CHECK(s.uv() == r.uv);
+    CHECK(s.x() == r.x);
     bool held = true;
     for (const auto& [v, pin] : s.constraints().pins())
         for (int k = 0; k < 2; ++k)
-            if ((pin.held >> k & 1u) != 0) held = held && same_bits(r.uv[static_cast<std::size_t>(v)][k], pin.value[k]);
+            if ((pin.held >> k & 1u) != 0) held = held && same_bits(r.x[static_cast<std::size_t>(v)][k], pin.value[k]);
     CHECK(r.report.pins_held == held);
     CHECK((r.report.farthest >= 0) == !held);
     CHECK((r.report.distance > 0) == !held);
@@ -105,9 +105,9 @@ struct handles
     }
 };
 
-vec2 at(const session& s, idx v)
+vec2 at(const session<triangle>& s, idx v)
 {
-    return s.uv()[static_cast<std::size_t>(v)];
+    return s.x()[static_cast<std::size_t>(v)];
 }
 
 TEST_CASE("session: the first map is that of parameterize()")
@@ -115,15 +115,15 @@ TEST_CASE("session: the first map is that of parameterize()")
     queue q;
     const auto m = bump();
     session s(q, m);
-    CHECK(s.uv().empty());
+    CHECK(s.x().empty());
     const auto first = s.solve();
     const auto same = parameterize(q, m);
     check_promises(m, s, first);
-    CHECK(first.uv == same.uv);
+    CHECK(first.x == same.uv);
     CHECK(first.report.converged);
     CHECK(first.report.energy == same.report.solve.value);
     const auto again = s.solve();
-    CHECK(again.uv == first.uv);
+    CHECK(again.x == first.x);
     CHECK(again.report.steps == 0);
     CHECK(again.report.counters.launches == 0);
 }
@@ -137,20 +137,20 @@ TEST_CASE("session: a pin that is dragged holds bit for bit in valid maps that d
         CAPTURE(m.cells().size());
         session s(q, m);
         REQUIRE(s.solve());
-        const handles h(m, s.uv());
-        const double size = extent(s.uv());
+        const handles h(m, s.x());
+        const double size = extent(s.x());
         const vec2 from = at(s, h.middle);
         s.pin(h.left, at(s, h.left)).pin(h.right, at(s, h.right)).pin(h.middle, from);
         for (int frame = 1; frame <= 12; ++frame)
         {
             CAPTURE(frame);
-            const auto before = s.uv();
+            const auto before = s.x();
             const vec2 to = from + 0.004 * size * vec2(frame, frame / 2.0);
             const auto r = s.pin(h.middle, to).solve({.steps = 2});
             check_promises(m, s, r);
             CHECK(r.report.steps <= 2);
             CHECK(r.report.pins_held);
-            CHECK(longest_move(before, r.uv) < 0.05 * size);
+            CHECK(longest_move(before, r.x) < 0.05 * size);
         }
         const auto rest = s.solve();
         check_promises(m, s, rest);
@@ -167,7 +167,7 @@ TEST_CASE("session: where pins are changes nothing but numbers, and who is pinne
     const auto m = bump();
     session s(q, m);
     s.solve();
-    const handles h(m, s.uv());
+    const handles h(m, s.x());
     const vec2 from = at(s, h.middle);
     s.pin(h.left, at(s, h.left)).pin(h.right, at(s, h.right)).pin(h.middle, from + vec2(0.01, 0)).solve();
     s.release(h.right).pin(h.middle, from).solve(); // what drivers and caches meet late
@@ -194,15 +194,15 @@ TEST_CASE("session: a map that is only carried off stays congruent, however far"
     const auto m = bump();
     session s(q, m);
     const auto first = s.solve();
-    const handles h(m, s.uv());
-    const vec2 way = 20 * extent(s.uv()) * vec2(1, -0.5);
+    const handles h(m, s.x());
+    const vec2 way = 20 * extent(s.x()) * vec2(1, -0.5);
     const auto r = s.pin(h.middle, at(s, h.middle) + way).solve();
     check_promises(m, s, r);
     CHECK(r.report.converged);
     CHECK(r.report.energy == doctest::Approx(first.report.energy).epsilon(1e-6));
-    auto moved = first.uv;
+    auto moved = first.x;
     for (vec2& p : moved) p += way;
-    CHECK(longest_move(moved, r.uv) < 0.05 * extent(first.uv)); // it may turn
+    CHECK(longest_move(moved, r.x) < 0.05 * extent(first.x)); // it may turn
 }
 
 TEST_CASE("session: what the budget leaves is told and done by the next calls; released pins let the map go back")
@@ -211,8 +211,8 @@ TEST_CASE("session: what the budget leaves is told and done by the next calls; r
     const auto m = bump();
     session s(q, m);
     const double rest = s.solve().report.energy;
-    const handles h(m, s.uv());
-    const double size = extent(s.uv());
+    const handles h(m, s.x());
+    const double size = extent(s.x());
     const vec2 to = at(s, h.middle) + vec2(0.3 * size, 0.1 * size);
     s.pin(h.left, at(s, h.left)).pin(h.right, at(s, h.right)).pin(h.middle, to);
     auto r = s.solve({.steps = 1});
@@ -246,9 +246,9 @@ TEST_CASE("session: a time limit ends it; the map is valid and the next call goe
     const auto m = bump();
     session s(q, m);
     CHECK(s.solve({.time = std::chrono::duration<double>(0)}).report.outcome == outcome::stopped);
-    CHECK(s.uv().empty());
+    CHECK(s.x().empty());
     REQUIRE(s.solve());
-    const handles h(m, s.uv());
+    const handles h(m, s.x());
     s.pin(h.left, at(s, h.left)).pin(h.right, at(s, h.right));
     const auto r = s.pin(h.middle, at(s, h.middle) + vec2(0.05, 0)).solve({.time = std::chrono::duration<double>(0)});
     check_promises(m, s, r);
@@ -262,11 +262,11 @@ TEST_CASE("session: a pin outside of a pinned boundary is proved to be so; the m
     const auto m = bump();
     session s(q, m);
     const auto first = s.solve();
-    const handles h(m, s.uv());
+    const handles h(m, s.x());
     const auto loop = boundary_loops(m).front();
     for (const idx v : loop) s.pin(v, at(s, v));
     const vec2 home = at(s, h.middle);
-    auto r = s.pin(h.middle, home + vec2(3 * extent(first.uv), 0)).solve();
+    auto r = s.pin(h.middle, home + vec2(3 * extent(first.x), 0)).solve();
     check_promises(m, s, r);
     CHECK(!r.report.pins_held);
     CHECK(!r.report.converged);
@@ -290,11 +290,11 @@ TEST_CASE("session: many pins are moved together; coordinates alone, springs and
     const auto first = s.solve();
     check_promises(m, s, first);
     const auto loop = boundary_loops(m).front();
-    const auto flags = boundary_flags(first.uv.size(), boundary_loops(m));
-    const vec2 centre = at(s, handles(m, first.uv).middle);
+    const auto flags = boundary_flags(first.x.size(), boundary_loops(m));
+    const vec2 centre = at(s, handles(m, first.x).middle);
     std::vector<idx> inside;
     for (std::size_t v = 0; v < flags.size(); v += 9)
-        if (flags[v] == 0 && glm::distance(first.uv[v], centre) < 0.3 * extent(first.uv))
+        if (flags[v] == 0 && glm::distance(first.x[v], centre) < 0.3 * extent(first.x))
             inside.push_back(static_cast<idx>(v));
     REQUIRE(inside.size() > 5);
     const idx slider = inside.back(), drawn = inside[inside.size() - 2];
@@ -310,9 +310,9 @@ TEST_CASE("session: many pins are moved together; coordinates alone, springs and
     check_promises(m, s, r);
     CAPTURE(r.report.reason);
     CHECK(r.report.converged);
-    for (const idx v : loop) CHECK(at(s, v) == first.uv[static_cast<std::size_t>(v)]);
+    for (const idx v : loop) CHECK(at(s, v) == first.x[static_cast<std::size_t>(v)]);
     const double drawn_to = at(s, drawn).y;
-    CHECK(drawn_to > first.uv[static_cast<std::size_t>(drawn)].y);
+    CHECK(drawn_to > first.x[static_cast<std::size_t>(drawn)].y);
 
     r = s.pin_u(slider, at(s, slider).x - 0.03).spring(drawn, at(s, drawn) + vec2(0, 0.1), 500).solve();
     check_promises(m, s, r);
@@ -320,7 +320,7 @@ TEST_CASE("session: many pins are moved together; coordinates alone, springs and
     for (const idx v : inside) s.release(v);
     r = s.release(slider).release(drawn).solve();
     check_promises(m, s, r);
-    CHECK(longest_move(r.uv, first.uv) < 1e-3);
+    CHECK(longest_move(r.x, first.x) < 1e-3);
 }
 
 TEST_CASE("session: params are those of parameterize(): first pins, energy, weights, precision, unit square")
@@ -352,11 +352,11 @@ TEST_CASE("session: params are those of parameterize(): first pins, energy, weig
     }
     session square(q, m, {.placement = placement::unit_square});
     const auto first = square.solve();
-    CHECK(extent(first.uv) == doctest::Approx(1));
+    CHECK(extent(first.x) == doctest::Approx(1));
     const auto r = square.pin(h.middle, at(square, h.middle) + vec2(0.25, 0)).solve();
     check_promises(m, square, r);
     CHECK(r.report.converged);
-    CHECK(extent(r.uv) == doctest::Approx(1).epsilon(1e-2));
+    CHECK(extent(r.x) == doctest::Approx(1).epsilon(1e-2));
     CHECK(r.report.energy == doctest::Approx(first.report.energy).epsilon(1e-6));
 }
 
@@ -379,7 +379,7 @@ TEST_CASE("session: an observer sees maps of the way and can end the call")
                }});
     REQUIRE(s.solve());
     CHECK(maps > 0);
-    const handles h(m, s.uv());
+    const handles h(m, s.x());
     s.pin(h.left, at(s, h.left)).pin(h.right, at(s, h.right));
     maps = asked = 0;
     s.pin(h.middle, at(s, h.middle) + vec2(0.3, 0)).solve();
@@ -424,7 +424,7 @@ TEST_CASE("session: what cannot be is refused, and everything is as before")
     CHECK(s.constraints().empty());
     CHECK_THROWS_AS(s.solve({.steps = 0}), parameter_error);
     CHECK_THROWS_AS(s.solve({.time = std::chrono::duration<double>(-1)}), parameter_error);
-    CHECK(s.solve().uv == first.uv);
+    CHECK(s.solve().x == first.x);
     CHECK_THROWS_AS(session(q, m, {.solve = {.method = solve::method::lbfgs}}), parameter_error);
     CHECK_THROWS_AS(session(q, test::moebius(5)), mesh_error);
     const auto larger = test::grid(40, 40);
@@ -441,7 +441,7 @@ TEST_CASE("session: infeasible first pins are no map but a proof; once they are 
     const auto r = s.solve();
     CHECK(!r);
     CHECK(r.report.outcome == outcome::infeasible);
-    CHECK(r.uv.empty());
+    CHECK(r.x.empty());
     CHECK(!r.report.reason.empty());
     const auto good = s.release(t[2]).solve();
     check_promises(m, s, good);

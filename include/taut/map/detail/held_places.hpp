@@ -14,19 +14,21 @@ namespace taut::detail
 
 /// Who is held in a map that stays open, and where: pins, and the vertices of a fixed boundary. Lengths are those of
 /// the map.
+template <class Element>
 class held_places
 {
 public:
-    using map = std::vector<vec2>;
+    static constexpr int D = Element::dimension;
+    using map = std::vector<vec<D>>;
 
     held_places() = default; ///< of no map
     /// fixed: vertices that stay where `start` has them, unless they are pinned.
     held_places(const map& start, std::vector<idx> fixed) : start_(start), places_(start), fixed_(std::move(fixed)) {}
 
     /// Takes the pins in the place of those before; whether other coordinates are held than before.
-    bool take(const constraints<triangle>& wanted)
+    bool take(const constraints<Element>& wanted)
     {
-        held_marks<2> marks(places_.size());
+        held_marks<D> marks(places_.size());
         for (const idx v : fixed_)
         {
             marks[static_cast<std::size_t>(v)] = marks.every;
@@ -35,7 +37,7 @@ public:
         for (const auto& [v, pin] : wanted.pins())
         {
             marks[static_cast<std::size_t>(v)] |= pin.held;
-            for (int k = 0; k < 2; ++k)
+            for (int k = 0; k < D; ++k)
                 if ((pin.held >> k & 1u) != 0) places_[static_cast<std::size_t>(v)][k] = pin.value[k];
         }
         if (marks == marks_) return false;
@@ -43,7 +45,7 @@ public:
         return true;
     }
 
-    const held_marks<2>& marks() const { return marks_; }
+    const held_marks<D>& marks() const { return marks_; }
     const map& places() const { return places_; } ///< of held coordinates; the others mean nothing
 
     struct farthest
@@ -53,15 +55,18 @@ public:
     };
 
     /// The vertex whose held coordinates are farthest from their places in a map.
-    farthest gap(const map& x) const
+    farthest gap(const map& x) const { return gap(x, places_); }
+
+    /// The same from where they are in another map.
+    farthest gap(const map& x, const map& places) const
     {
         farthest f;
         for (std::size_t v = 0; v < marks_.size(); ++v)
         {
             if (!marks_.any(v)) continue;
-            vec2 d(0);
-            for (int k = 0; k < 2; ++k)
-                if (marks_.test(v, k)) d[k] = places_[v][k] - x[v][k];
+            vec<D> d(0.0);
+            for (int k = 0; k < D; ++k)
+                if (marks_.test(v, k)) d[k] = places[v][k] - x[v][k];
             if (const double length = glm::length(d); length > f.distance) f = {static_cast<idx>(v), length};
         }
         return f;
@@ -74,14 +79,14 @@ public:
     void impose(map& x, const map& rounded) const
     {
         for (std::size_t v = 0; v < marks_.size(); ++v)
-            for (int k = 0; k < 2; ++k)
+            for (int k = 0; k < D; ++k)
                 if (marks_.test(v, k) && x[v][k] == rounded[v][k]) x[v][k] = places_[v][k];
     }
 
 private:
     map start_, places_;
     std::vector<idx> fixed_;
-    held_marks<2> marks_;
+    held_marks<D> marks_;
 };
 
 } // namespace taut::detail

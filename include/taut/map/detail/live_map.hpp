@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/map/parameterize_params.hpp>
 #include <taut/measure/planar_size.hpp>
 #include <taut/objective/mesh_levels.hpp>
 #include <taut/objective/newton_objective.hpp>
+#include <taut/objective/precision.hpp>
 #include <taut/solve/minimize.hpp>
 #include <taut/solve/prescribed.hpp>
 
@@ -25,10 +25,12 @@ template <class Element>
 class live_map
 {
 public:
-    using map = std::vector<vec2>;
+    static constexpr int D = Element::dimension;
+    using map = std::vector<vec<D>>;
 
-    /// x: injective. params: validated.
-    live_map(queue q, const mesh<Element>& m, const parameterize_params& params, precision how, const map& x)
+    /// x: injective. params: of a map or a shape, validated.
+    template <class Params>
+    live_map(queue q, const mesh<Element>& m, const Params& params, precision how, const map& x)
         : live_map(q, mesh_levels<Element>(m, {}, {}, params.data), params, types_of(how))
     {
         load(x);
@@ -37,16 +39,16 @@ public:
     /// Takes an injective map in the place of the one at hand.
     void load(const map& x)
     {
-        centre_ = bounding_square(x).centre;
+        centre_ = bounding_box<D>(x).centre;
         auto local = numbers_.apply(x);
-        for (vec2& p : local) p -= centre_;
+        for (vec<D>& p : local) p -= centre_;
         objective_.upload(local, x_);
     }
 
     /// marks: who is held, one a vertex, or none.
-    void constrain(const held_marks<2>& marks, const std::vector<spring<2>>& springs)
+    void constrain(const held_marks<D>& marks, const std::vector<spring<D>>& springs)
     {
-        auto c = point_constraints<2>{marks, springs}.renumbered(numbers_);
+        auto c = point_constraints<D>{marks, springs}.renumbered(numbers_);
         for (auto& s : c.springs) s.target -= centre_;
         objective_.constrain(c);
     }
@@ -55,7 +57,7 @@ public:
     void aim(const map& targets)
     {
         auto local = numbers_.apply(targets);
-        for (vec2& p : local) p -= centre_;
+        for (vec<D>& p : local) p -= centre_;
         objective_.aim(local);
     }
 
@@ -75,15 +77,15 @@ public:
     map coordinates() const
     {
         auto x = numbers_.undo(objective_.download(x_));
-        for (vec2& p : x) p += centre_;
+        for (vec<D>& p : x) p += centre_;
         return x;
     }
 
     /// What coordinates() gives where the device has what `x` says, to the last bit that it can tell.
     map as_held(map x) const
     {
-        for (vec2& p : x)
-            for (int k = 0; k < 2; ++k)
+        for (vec<D>& p : x)
+            for (int k = 0; k < D; ++k)
             {
                 const double local = p[k] - centre_[k], scale = objective_.layout().scale;
                 p[k] = (single_ ? double(static_cast<float>(local * scale)) / scale : local) + centre_[k];
@@ -92,7 +94,8 @@ public:
     }
 
 private:
-    live_map(queue q, mesh_levels<Element> levels, const parameterize_params& params, const real_types& types)
+    template <class Params>
+    live_map(queue q, mesh_levels<Element> levels, const Params& params, const real_types& types)
         : numbers_(levels.order().vertices),
           objective_(q, newton_plan<Element>(levels, 0, lane_form::for_device(q.device())), params.energy,
                      params.weights, std::make_shared<const newton_kernels<Element>>(q, params.energy, types)),
@@ -102,7 +105,7 @@ private:
     }
 
     permutation numbers_;
-    vec2 centre_{0};
+    vec<D> centre_{0.0};
     newton_objective<Element> objective_;
     typename newton_objective<Element>::point x_;
     bool single_; ///< the precision of positions

@@ -16,36 +16,39 @@ namespace taut::detail
 
 /// What a session knows without a device: what is asked, and the last map. How it goes on is for a derived class, which
 /// only files that make a session compile.
+template <class Element>
 class session_body
 {
 public:
+    using map = std::vector<vec<Element::dimension>>;
+
     session_body() = default;
     session_body(const session_body&) = delete;
     session_body& operator=(const session_body&) = delete;
     virtual ~session_body() = default;
 
-    virtual session_result solve(const session_budget& budget) = 0;
+    virtual session_result<Element> solve(const session_budget& budget) = 0;
 
     /// Where the last map has vertices. Throws constraint_error.
-    std::vector<vec2> places_of(std::span<const idx> vertices) const
+    map places_of(std::span<const idx> vertices) const
     {
-        if (last.uv.empty())
+        if (last.x.empty())
             throw constraint_error(constraint_fault::no_position, {}, "there is no map yet; call solve() first");
         std::vector<idx> bad;
-        std::vector<vec2> places;
+        map places;
         for (const idx v : vertices)
-            if (v < 0 || static_cast<std::size_t>(v) >= last.uv.size())
+            if (v < 0 || static_cast<std::size_t>(v) >= last.x.size())
                 bad.push_back(v);
             else
-                places.push_back(last.uv[static_cast<std::size_t>(v)]);
+                places.push_back(last.x[static_cast<std::size_t>(v)]);
         refuse_vertices(constraint_fault::out_of_range, std::move(bad),
-                        "that the mesh does not have; it has " + std::to_string(last.uv.size()) + ", counted from 0");
+                        "that the mesh does not have; it has " + std::to_string(last.x.size()) + ", counted from 0");
         return places;
     }
 
-    constraints<triangle> wanted;
+    constraints<Element> wanted;
     bool changed = false; ///< wanted, since the last call of solve()
-    session_result last;
+    session_result<Element> last;
 };
 
 } // namespace taut::detail

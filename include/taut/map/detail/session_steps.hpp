@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/constrain/held_paths.hpp>
+#include <taut/map/detail/held_places.hpp>
+#include <taut/map/detail/live_map.hpp>
+#include <taut/map/detail/run_clock.hpp>
+#include <taut/map/detail/session_body.hpp>
+#include <taut/measure/describe_defects.hpp>
+#include <taut/untangle/proofs/infeasible.hpp>
+#include <taut/untangle/untangle_on_device.hpp>
+
+namespace taut::detail
+{
+
+/// A session at work: the map on the device that goes from the last map to what is asked. How the first map comes about
+/// is for derived classes. A template, as parameterize() is, so that only files that make a session compile it.
+template <class Element>
+class session_steps : public session_body<Element>
+{
+public:
+    static constexpr int D = Element::dimension;
+    using typename session_body<Element>::map;
+
+    session_result<Element> solve(const session_budget& budget) override
+    {
+        const queue_counters before = queue_.counters();
+        run_clock clock(last ? budget.time : std::min(budget.time, limit_), observer_);
+        seconds_ = {};
+        steps_left_ = budget.steps;
+        if (last)
+            advance(clock);
+        else
+            begin(clock);
+        last.report.stopped =
+            !last.report.converged && (steps_left_ <= 0 || clock.over() || clock.left().count() <= step_seconds_);
+        last.report.seconds = seconds_;
+        last.report.counters = counted_since(before, queue_.counters());
+        return last;
+    }
+
+protected:
+    using session_body<Element>::last, session_body<Element>::changed, session_body<Element>::wanted;
+
+    /// Params: of maps or shapes, validated. time_limit is for the first map.
+    template <class Params>
+    session_steps(queue q, const Params& params)
+        : queue_(std::move(q)),
+          solve_(params.solve),
+          untangling_(params.untangling),
+          observer_(params.observer),
+          limit_(params.time_limit)
+    {
+        if (solve_.method != solve::method::automatic && solve_.method != solve::method::newton)
+            throw parameter_error("solve.method", "must be automatic or newton: a session makes Newton's steps");
+    }
+
+    /// Makes the first map.
+    virtual void begin(run_clock& clock) = 0;
+
+    /// The mesh at rest, in the lengths of the run, and its ideal elements' measures.
+    virtual const mesh<Element>& rest() const = 0;
+    virtual std::span<const double> rest_measure() const = 0;
+
+    /// From the last map on.
+    void advance(run_clock& clock)
+    {
+        session_report& r = last.report;
+        r.steps = 0;
+        r.notes.clear();
+        if (!changed && r.converged) return;
+        if (changed)
+        {
+            constrain();
+            r.reason.clear();
+            r.ids.clear();
+        }
+        changed = r.converged = false;
+        clock.has_result(true);
+        book(clock, &session_seconds::constrain);
+        if (on_way_ && r.reason.empty()) follow(clock);
+        if (r.steps == 0 || (!on_way_ && may_step(clock))) minimise(clock);
+        take(clock);
+    }
+
+    /// Tells the map on the device who is held, if that has changed, and where.
+    void constrain()
+    {
+        auto springs = point_constraints<D>{{}, wanted.springs()}.scaled(lengths_).springs;
+        const bool other_marks = held_.take(wanted);
+        if (other_marks || !springs.empty() || !springs_.empty())
+        {
+            springs_ = std::move(springs);
+            live_->constrain(held_.marks(), springs_);
+        }
+        live_->aim(scaled(held_.places()));
+        on_way_ = held_.gap(last.x).vertex >= 0;
+    }
+
+    /// Takes another map in the place of the one on the device.
+    void load(const map& run_lengths)
+    {
+        live_->load(run_lengths);
+        live_->constrain(held_.marks(), springs_);
+        live_->aim(scaled(held_.places()));
+    }
+
+    bool may_step(run_clock& clock)
+    {
+        return steps_left_ > 0 && clock.left().count() > step_seconds_ && clock.proceed();
+    }
+
+    /// Brings held coordinates nearer to their places, in parts where bodies of them turn.
+    void follow(run_clock& clock)
+    {
+        const held_paths<D> paths(rest().cells(), marks(), last.x, held_.places());
+        const int parts = paths.parts();
+        bool goes_on = true;
+        for (int part = 1; goes_on && part <= parts; ++part)
+        {
+            map way = held_.places();
+            paths.place(static_cast<double>(part) / parts, way);
+            if (parts > 1) live_->aim(scaled(way));
+            goes_on = follow(clock, part == 1 ? last.x : user_coordinates(), way);
+        }
+        on_way_ = !goes_on;
+        book(clock, &session_seconds::follow);
+        if (goes_on || !stuck_ || !clock.proceed()) return;
+        repair(clock);
+        book(clock, &session_seconds::repair);
+    }
+
+    /// One part of the way from a map; whether it has been gone. stuck_: steps do not help.
+    bool follow(run_clock& clock, const map& from, const map& way)
+    {
+        const double gap = std::max(held_.gap(from, way).distance * lengths_, std::numeric_limits<double>::min());
+        double mark = clock.total();
+        bool feasible = true, asked = false;
+        const auto proceed = [&](const solve::prescribed_report& at)
+        {
+            step_seconds_ = clock.total() - std::exchange(mark, clock.total());
+            // Where it is hard to go on there may be no way.
+            if (!std::exchange(asked, asked || at.left > 0.5 * gap) && at.left > 0.5 * gap)
+                feasible = !proved(user_coordinates());
+            progress p = seen();
+            p.iteration = at.iterations;
+            p.value = at.value;
+            return feasible && at.iterations < steps_left_ && clock.left().count() > step_seconds_ && clock.proceed(p);
+        };
+        const auto found = live_->follow(gap, proceed);
+        steps_left_ -= found.iterations;
+        last.report.steps += found.iterations;
+        last.report.energy = found.value;
+        stuck_ = found.crawling && feasible;
+        return found.arrived;
+    }
+
+    /// A map with held coordinates at their places, whatever flips. draft: it is injective as it is.
+    untangle_problem<Element> problem(const map& x, bool draft) const
+    {
+        map there = x;
+        held_.impose(there);
+        return {rest(), scaled(std::move(there)), marks(), draft ? scaled(x) : map()};
+    }
+
+    /// Whether it is proved that no map has the held coordinates at their places; x: any map.
+    bool proved(const map& x)
+    {
+        if (!marks().any()) return false;
+        const auto proof = find_infeasibility(problem(x, false));
+        if (!proof) return false;
+        last.report.reason = proof.reason();
+        last.report.ids = proof.proofs.front().ids;
+        return true;
+    }
+
+    /// A map with held coordinates at their places and no defect, if untangling finds one.
+    untangle_result<Element> untangled(run_clock& clock, const map& x, bool draft)
+    {
+        auto how = untangling_;
+        how.time_limit = clock.left();
+        how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
+        return untangle(queue_, problem(x, draft), how);
+    }
+
+    /// Untangling, where steps do not bring held coordinates any nearer.
+    void repair(run_clock& clock)
+    {
+        auto found = untangled(clock, user_coordinates(), true);
+        if (!found) return;
+        load(found.map);
+        on_way_ = false;
+        last.report.notes.push_back("it was untangled with the pins at their places");
+    }
+
+    /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.
+    certificate certified(const map& x) const
+    {
+        auto flips = certify<D>(rest().cells(), std::span<const vec<D>>(x), rest_measure());
+        for (double* det : {&flips.min_det, &flips.max_det}) *det *= std::pow(lengths_, D);
+        return flips;
+    }
+
+    /// With what is held where it is.
+    void minimise(run_clock& clock)
+    {
+        auto how = solve_;
+        how.stopping.max_iterations = std::min(how.stopping.max_iterations, steps_left_);
+        how.stopping.time_limit = std::chrono::duration<double>(std::max(clock.left().count() - step_seconds_, 1e-9));
+        const auto found = live_->minimize(how,
+                                           [&](progress p)
+                                           {
+                                               const progress now = seen();
+                                               p.coordinates = now.coordinates;
+                                               p.positions = now.positions;
+                                               return clock.ask(p);
+                                           });
+        session_report& r = last.report;
+        r.steps += found.iterations;
+        r.energy = found.value;
+        r.gradient = found.gradient_norm;
+        r.converged = !on_way_ && is_converged(found.stop);
+        book(clock, &session_seconds::solve);
+    }
+
+    /// Makes the map on the device the last one, if it is certified; else goes back to the last one.
+    void take(run_clock& clock)
+    {
+        session_report& r = last.report;
+        auto x = user_coordinates();
+        held_.impose(x, unscaled(live_->as_held(scaled(held_.places()))));
+        auto flips = certified(x);
+        if (flips)
+        {
+            r.flips = std::move(flips);
+            last.x = std::move(x);
+        }
+        else
+        {
+            r.notes.push_back("in exact arithmetic the map had " + describe_defects<Element>(flips) +
+                              "; the last one is returned");
+            r.converged = false;
+            load(scaled(last.x));
+        }
+        const auto gap = held_.gap(last.x);
+        on_way_ = gap.vertex >= 0;
+        r.pins_held = !on_way_;
+        r.farthest = gap.vertex;
+        r.distance = gap.distance;
+        book(clock, &session_seconds::certificate);
+    }
+
+    static bool is_converged(solve::stop s) { return s == solve::stop::gradient || s == solve::stop::decrease; }
+
+    /// What an observer sees of the map.
+    progress seen() const
+    {
+        if constexpr (D == 2)
+            return {.coordinates = [this] { return user_coordinates(); }};
+        else
+            return {.positions = [this] { return user_coordinates(); }};
+    }
+
+    /// One a vertex, also where nothing is held.
+    held_marks<D> marks() const { return held_.marks().empty() ? held_marks<D>(last.x.size()) : held_.marks(); }
+
+    map user_coordinates() const { return unscaled(live_->coordinates()); }
+
+    /// In the lengths of the map.
+    map unscaled(map x) const
+    {
+        for (vec<D>& p : x) p /= lengths_;
+        return x;
+    }
+
+    /// In the lengths of the run.
+    map scaled(map x) const
+    {
+        for (vec<D>& p : x) p *= lengths_;
+        return x;
+    }
+
+    void book(run_clock& clock, double session_seconds::*phase) { seconds_.*phase += clock.lap(); }
+
+    queue queue_;
+    double lengths_ = 1; ///< of the run by those of the map
+    std::optional<live_map<Element>> live_;
+    held_places<Element> held_;
+    bool on_way_ = false; ///< held coordinates of the map on the device are not at their places
+    session_seconds seconds_;
+
+private:
+    solve::params solve_;
+    untangle_params untangling_;
+    taut::observer observer_;
+    std::chrono::duration<double> limit_;
+    std::vector<spring<D>> springs_; ///< in the lengths of the run
+    bool stuck_ = false;             ///< steps bring held coordinates no nearer to their places
+    double step_seconds_ = 0;        ///< of the last step
+    int steps_left_ = 0;
+};
+
+} // namespace taut::detail

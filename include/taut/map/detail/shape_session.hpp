@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/map/detail/session_steps.hpp>
+#include <taut/map/session.hpp>
+#include <taut/mesh/validate.hpp>
+
+namespace taut
+{
+
+namespace detail
+{
+
+/// The parameters with the energy that the data and parameters make of the user's. Throws parameter_error.
+template <class Element>
+deform_params<Element> validated(deform_params<Element> p)
+{
+    p.validate();
+    if (!p.parameters.empty()) p.energy = p.energy.with_parameters(p.parameters);
+    p.energy = p.energy.with_data(p.data.mean_attributes(), !p.data.directions.empty());
+    return p;
+}
+
+/// What session.hpp declares; include that one.
+///
+/// A session of a shape: it begins with the shape that is given, untangled if need be.
+template <class Element>
+class shape_session final : public session_steps<Element>
+{
+    using base = session_steps<Element>;
+    using base::last, base::wanted;
+
+public:
+    static constexpr int D = Element::dimension;
+    using typename base::map;
+
+    shape_session(const queue& q, const mesh<Element>& m, const deform_params<Element>& params)
+        : base(q, params),
+          params_(validated(params)),
+          start_(start_of(m, params_)),
+          rest_(in_run_lengths(m, params_.rest)),
+          ideal_(rest_)
+    {
+        require_deformable();
+        params_.data.validate(m.cells().size());
+        this->lengths_ = unit_scale(m);
+        wanted = params_.constraints.on(rest_);
+    }
+
+private:
+    void begin(run_clock& clock) override
+    {
+        session_report& r = last.report = {};
+        this->held_ = held_places<Element>(start_, {});
+        this->held_.take(wanted);
+        auto flips = this->certified(start_);
+        last.x = start_;
+        if (!flips)
+        {
+            auto found = this->untangled(clock, start_, false);
+            r.outcome = found.outcome == untangle_outcome::infeasible ? outcome::infeasible : outcome::gave_up;
+            r.reason = std::move(found.reason);
+            r.ids = std::move(found.ids);
+            if (!found)
+            {
+                last.x.clear();
+                return;
+            }
+            r.reason.clear();
+            r.notes.push_back("the shape had " + describe_defects<Element>(flips) + "; it was untangled");
+            start_ = this->unscaled(std::move(found.map));
+            flips = std::move(found.flips);
+        }
+        last.x = start_;
+        r.outcome = outcome::valid;
+        r.flips = std::move(flips);
+        if (this->proved(start_)) return;
+        const precision how = params_.precision != precision::automatic ? params_.precision
+                              : this->queue_.device().has_fp64()        ? precision::mixed
+                                                                        : precision::fp32;
+        this->live_.emplace(this->queue_, rest_, params_, how, this->scaled(start_));
+        this->load(this->scaled(start_)); // with what is held
+        this->changed = true;
+        this->seconds_.start = clock.lap();
+        this->advance(clock);
+    }
+
+    /// Any number of components, holes and handles; vertices without cells stay where they are.
+    void require_deformable() const
+    {
+        auto found =
+            check(rest_,
+                  {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
+        if constexpr (D == 3) // its hierarchy knows no facets
+            std::erase_if(found, [](const mesh_finding& f) { return f.fault == mesh_fault::non_manifold_vertex; });
+        if (!found.empty()) throw mesh_error(std::move(found.front()));
+        if constexpr (D == 2)
+            for (const vec3& p : rest_.points())
+                if (p.z != 0)
+                    throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
+    }
+
+    static map start_of(const mesh<Element>& m, const deform_params<Element>& params)
+    {
+        const std::size_t n = m.points().size();
+        if (!params.initial.empty() && params.initial.size() != n)
+            throw parameter_error("initial", std::to_string(params.initial.size()) + " positions for " +
+                                                 std::to_string(n) + " vertices");
+        if (!params.initial.empty()) return params.initial;
+        return map(m.points().begin(), m.points().end());
+    }
+
+    static mesh<Element> in_run_lengths(const mesh<Element>& m, const std::vector<vec3>& rest)
+    {
+        if (!rest.empty() && rest.size() != m.points().size())
+            throw parameter_error("rest", std::to_string(rest.size()) + " positions for " +
+                                              std::to_string(m.points().size()) + " vertices");
+        auto points = rest.empty() ? m.points() : rest;
+        const double unit = unit_scale(m);
+        for (vec3& p : points) p *= unit;
+        return {std::move(points), m.cells()};
+    }
+
+    const mesh<Element>& rest() const override { return rest_; }
+    std::span<const double> rest_measure() const override { return ideal_.measure; }
+
+    deform_params<Element> params_; ///< validated
+    map start_;
+    mesh<Element> rest_; ///< in the lengths of the run
+    ideal_elements<Element> ideal_;
+};
+
+} // namespace detail
+
+template <class Element>
+session<Element>::session(queue& q, const mesh<Element>& m,
+                          const deform_params<Element>& params) requires(!std::same_as<Element, triangle>)
+    : body_(std::make_unique<detail::shape_session<Element>>(q, m, params))
+{
+}
+
+template <class Element>
+template <std::same_as<deform_params<Element>> Params>
+session<Element>::session(queue& q, const mesh<Element>& m,
+                          const Params& params) requires std::same_as<Element, triangle>
+    : body_(std::make_unique<detail::shape_session<Element>>(q, m, params))
+{
+}
+
+} // namespace taut
