@@ -61,7 +61,8 @@ struct prescribed_report
 ///
 ///     K_ff d_f = -g_f - K_fp d_p,    x <- x + a (d_f, d_p),
 ///
-/// d_p towards the values, but at most as long as a radius that grows after full steps and shrinks after short ones.
+/// d_p towards the values, but at most as long as a radius that grows after full steps and shrinks after short ones,
+/// and 0 where the step before was short, until f falls no more.
 /// The length a is the best of four under min(1, a fraction of the first flip), by the merit function f + nu |what is
 /// missing| of sequential quadratic programming (Nocedal & Wright, 18.27), whose nu is such that the step may cost
 /// twice what the model expects (18.33, with rho = 1/2). It keeps its vectors and the radius from run to run.
@@ -104,7 +105,8 @@ public:
     }
 
 private:
-    static constexpr int patience = 8; // steps
+    static constexpr int patience = 8;       // steps
+    static constexpr double centring = 1e-2; // part of f that a step must gain for another one
 
     struct progress
     {
@@ -113,7 +115,7 @@ private:
 
     progress step(point& x, prescribed_report& r)
     {
-        const double share = std::min(1.0, radius_ / r.left), length = share * r.left;
+        const double share = centring_ ? 0 : std::min(1.0, radius_ / r.left), length = share * r.left;
         const auto here = prescribed_.linearize_towards(x, share, d_, g_);
         const auto model = pcg_.solve(
             g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
@@ -123,14 +125,16 @@ private:
         r.products += model.steps;
         const auto [taken, value] = longest(x, here.value, std::max(0.0, here.change - model.decrease));
         r.value = value;
-        radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
+        if (!centring_) radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
+        const double fallen = here.value - value;
+        centring_ = centring_ ? fallen > centring * std::abs(value) : taken < params_.relax_below;
         if (taken == 0) return {};
         f_.step(x, taken, d_, next_);
         std::swap(x, next_);
         r.arrived = taken == 1 && share == 1;
         if (r.arrived) prescribed_.put(x);
         if (taken < params_.relax_below) f_.relax(x);
-        return {taken * length, here.value - value};
+        return {taken * length, fallen};
     }
 
     struct trial
@@ -165,7 +169,8 @@ private:
     point next_;
     vector d_, g_, follow_;                                   // d; the gradient that the others see; d of the others
     double radius_ = std::numeric_limits<double>::infinity(); // of d at what is prescribed
-    int slow_ = 0;                                            // steps in a row that brought little
+    bool centring_ = false; // the next step leaves the prescribed coordinates where they are
+    int slow_ = 0;          // steps in a row that brought little
 };
 
 } // namespace taut::solve
