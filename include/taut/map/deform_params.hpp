@@ -6,9 +6,11 @@
 #include <vector>
 
 #include <taut/constrain/constraints.hpp>
+#include <taut/constrain/slide.hpp>
 #include <taut/core/observer.hpp>
 #include <taut/energy/any_energy.hpp>
 #include <taut/mesh/cell_data.hpp>
+#include <taut/mesh/wanted_shapes.hpp>
 #include <taut/objective/precision.hpp>
 #include <taut/solve/params.hpp>
 #include <taut/untangle/params.hpp>
@@ -40,6 +42,12 @@ struct deform_params
     /// The shape at rest, one position a vertex, if it is not that of the mesh: what no energy is paid for. Its
     /// elements are positive.
     std::vector<vec3> rest = {};
+
+    /// What elements are wanted to look like: `regular` ones, of the mean size, have no rest shape.
+    wanted_shapes shapes = wanted_shapes::rest;
+
+    /// Vertices that may move along a line or in a plane only, at most one each, none of them pinned in any coordinate.
+    std::vector<slide<D>> slides = {};
 
     /// The shape to begin with, if it is not that of the mesh: of the last step, say.
     std::vector<vec<D>> initial = {};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -166,5 +167,33 @@ struct ideal_elements
         if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_fault::inverted_cell, std::move(inverted)));
     }
 };
+
+/// Edge matrix of the regular triangle or tetrahedron of edge length 1, upper triangular.
+template <class Element>
+mat<Element::dimension> regular_ideal()
+{
+    mat<Element::dimension> W(1.0);
+    W[1][0] = 0.5;
+    W[1][1] = std::numbers::sqrt3 / 2;
+    if constexpr (Element::dimension == 3)
+    {
+        W[2][0] = 0.5;
+        W[2][1] = std::numbers::sqrt3 / 6;
+        W[2][2] = std::numbers::sqrt2 / std::numbers::sqrt3;
+    }
+    return W;
+}
+
+/// Regular elements, all of the same size, that have a measure together.
+template <class Element>
+ideal_elements<Element> regular_elements(std::size_t count, double measure)
+{
+    constexpr int D = Element::dimension;
+    const mat<D> W = regular_ideal<Element>();
+    double one = Element::measure_factor;
+    for (int k = 0; k < D; ++k) one *= W[k][k];
+    const double each = measure / static_cast<double>(count), edge = std::pow(each / one, 1.0 / D);
+    return {std::vector<mat<D>>(count, detail::invert_upper(W) / edge), std::vector<double>(count, each)};
+}
 
 } // namespace taut

@@ -68,6 +68,17 @@ public:
         return made;
     }
 
+    /// The finest level with other ideal elements, in the user's order.
+    std::shared_ptr<const layout<Element>> make_layout(const ideal_elements<Element>& wanted) const
+    {
+        const auto& cells = numbering_.order.cells;
+        auto made = std::make_shared<layout<Element>>(
+            finest_, identity_order(finest_), free_[0],
+            ideal_elements<Element>(cells.apply(wanted.inverse), cells.apply(wanted.measure)));
+        if (!data_.empty()) made->attach(data_, finest_);
+        return made;
+    }
+
     bool pinned() const { return free_[0] < static_cast<idx>(vertices(0)); }
     /// One flag a vertex.
     std::span<const char> fixed(std::size_t l) const { return fixed_[l]; }

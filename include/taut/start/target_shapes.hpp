@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include <taut/constrain/untangle_problem.hpp>
@@ -108,20 +107,9 @@ template <class Element>
 std::vector<target_shape<Element::dimension>> regular_shapes(const mesh<Element>& m, double measure)
 {
     constexpr int D = Element::dimension;
-    mat<D> W(1.0);
-    W[1][0] = 0.5;
-    W[1][1] = std::numbers::sqrt3 / 2;
-    if constexpr (D == 3)
-    {
-        W[2][0] = 0.5;
-        W[2][1] = std::numbers::sqrt3 / 6;
-        W[2][2] = std::numbers::sqrt2 / std::numbers::sqrt3;
-    }
-    double one = Element::measure_factor;
-    for (int k = 0; k < D; ++k) one *= W[k][k];
-    std::vector<target_shape<D>> shapes(m.cells().size(), {invert_upper(W), one});
-    normalize(shapes, measure);
-    return shapes;
+    const auto all = regular_elements<Element>(m.cells().size(), measure);
+    const double weight = 1 / static_cast<double>(m.cells().size());
+    return std::vector<target_shape<D>>(m.cells().size(), {all.inverse.front(), weight});
 }
 
 } // namespace taut::detail

@@ -11,7 +11,7 @@
 
 #include <taut/start/laid.hpp>
 #include <taut/untangle/epsilon_schedule.hpp>
-#include <taut/untangle/shapes.hpp>
+#include <taut/mesh/wanted_shapes.hpp>
 #include <taut/untangle/stage.hpp>
 
 namespace taut
@@ -30,7 +30,7 @@ struct newton_stage_params
 {
     std::string name;
     untangle_start start = untangle_start::best;
-    untangle_shapes shapes = untangle_shapes::rest;
+    wanted_shapes shapes = wanted_shapes::rest;
     double area_weight = 1; ///< of det + 1 / det against the shape of a triangle; 0: shape alone
 };
 
@@ -80,7 +80,7 @@ private:
         const double measure = detail::expected_measure(problem, state.initial());
         newton_ = state.make_newton({.rest = problem.rest,
                                      .held = problem.held,
-                                     .shapes = params_.shapes == untangle_shapes::rest
+                                     .shapes = params_.shapes == wanted_shapes::rest
                                                    ? detail::rest_shapes(problem.rest, measure)
                                                    : detail::regular_shapes(problem.rest, measure),
                                      .area_weight = params_.area_weight});

@@ -16,7 +16,7 @@
 #include <taut/mesh/boundary.hpp>
 #include <taut/start/harmonic.hpp>
 #include <taut/start/laid.hpp>
-#include <taut/untangle/shapes.hpp>
+#include <taut/mesh/wanted_shapes.hpp>
 #include <taut/untangle/stage.hpp>
 
 namespace taut
@@ -26,7 +26,7 @@ namespace taut
 struct pull_stage_params
 {
     std::string name;
-    untangle_shapes shapes = untangle_shapes::rest; ///< rest: as they are in the map that it starts from
+    wanted_shapes shapes = wanted_shapes::rest; ///< rest: as they are in the map that it starts from
     double area_weight = 1; ///< of det + 1 / det against the shape of a triangle; 0: shape alone
     /// Where the springs have jammed, go on with weak ones: held vertices that are not at their places go to random
     /// ones first, so that those that block each other's way get past each other.
@@ -73,7 +73,7 @@ private:
         if (!hold_boundary(state) && !hold_nothing(state)) return false;
         const double measure = detail::expected_measure(problem, state.initial());
         regularized_problem<triangle> pulled{.rest = problem.rest, .held = held_, .area_weight = params_.area_weight};
-        if (params_.shapes == untangle_shapes::regular)
+        if (params_.shapes == wanted_shapes::regular)
             pulled.shapes = detail::regular_shapes(problem.rest, measure);
         else
         {

@@ -37,7 +37,7 @@ using untangle_stages = std::vector<std::unique_ptr<untangle_stage<Element>>>;
 inline untangle_stages<triangle> host_stages(bool outline_pinned)
 {
     using enum untangle_start;
-    using enum untangle_shapes;
+    using enum wanted_shapes;
     untangle_stages<triangle> stages;
     const auto follow = [&](newton_stage_params p)
     { stages.push_back(std::make_unique<newton_stage<triangle>>(std::move(p))); };

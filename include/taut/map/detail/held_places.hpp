@@ -22,8 +22,11 @@ public:
     using map = std::vector<vec<D>>;
 
     held_places() = default; ///< of no map
-    /// fixed: vertices that stay where `start` has them, unless they are pinned.
-    held_places(const map& start, std::vector<idx> fixed) : start_(start), places_(start), fixed_(std::move(fixed)) {}
+    /// fixed: vertices that stay where `start` has them, unless they are pinned. slides: from there.
+    held_places(const map& start, std::vector<idx> fixed, std::vector<slide<D>> slides = {})
+        : start_(start), places_(start), fixed_(std::move(fixed)), slides_(std::move(slides))
+    {
+    }
 
     /// Takes the pins in the place of those before; whether other coordinates are held than before.
     bool take(const constraints<Element>& wanted)
@@ -46,6 +49,7 @@ public:
     }
 
     const held_marks<D>& marks() const { return marks_; }
+    const std::vector<slide<D>>& slides() const { return slides_; }
     const map& places() const { return places_; } ///< of held coordinates; the others mean nothing
 
     struct farthest
@@ -81,11 +85,17 @@ public:
         for (std::size_t v = 0; v < marks_.size(); ++v)
             for (int k = 0; k < D; ++k)
                 if (marks_.test(v, k) && x[v][k] == rounded[v][k]) x[v][k] = places_[v][k];
+        for (const auto& s : slides_) // which drift by roundings
+        {
+            const auto v = static_cast<std::size_t>(s.vertex);
+            x[v] = start_[v] + s.projection * (x[v] - start_[v]);
+        }
     }
 
 private:
     map start_, places_;
     std::vector<idx> fixed_;
+    std::vector<slide<D>> slides_;
     held_marks<D> marks_;
 };
 

@@ -28,10 +28,11 @@ public:
     static constexpr int D = Element::dimension;
     using map = std::vector<vec<D>>;
 
-    /// x: injective. params: of a map or a shape, validated.
+    /// x: injective. params: of a map or a shape, validated. wanted: the ideal elements, if they are not those of m.
     template <class Params>
-    live_map(queue q, const mesh<Element>& m, const Params& params, precision how, const map& x)
-        : live_map(q, mesh_levels<Element>(m, {}, {}, params.data), params, types_of(how))
+    live_map(queue q, const mesh<Element>& m, const Params& params, precision how, const map& x,
+             const ideal_elements<Element>* wanted = nullptr)
+        : live_map(q, mesh_levels<Element>(m, {}, {}, params.data), wanted, params, types_of(how))
     {
         load(x);
     }
@@ -45,10 +46,11 @@ public:
         objective_.upload(local, x_);
     }
 
-    /// marks: who is held, one a vertex, or none.
-    void constrain(const held_marks<D>& marks, const std::vector<spring<D>>& springs)
+    /// In the user's numbers; marks: who is held, one a vertex, or none.
+    void constrain(const held_marks<D>& marks, const std::vector<spring<D>>& springs,
+                   const std::vector<slide<D>>& slides)
     {
-        auto c = point_constraints<D>{marks, springs}.renumbered(numbers_);
+        auto c = point_constraints<D>{marks, springs, slides}.renumbered(numbers_);
         for (auto& s : c.springs) s.target -= centre_;
         objective_.constrain(c);
     }
@@ -95,13 +97,21 @@ public:
 
 private:
     template <class Params>
-    live_map(queue q, mesh_levels<Element> levels, const Params& params, const real_types& types)
+    live_map(queue q, const mesh_levels<Element>& levels, const ideal_elements<Element>* wanted, const Params& params,
+             const real_types& types)
         : numbers_(levels.order().vertices),
-          objective_(q, newton_plan<Element>(levels, 0, lane_form::for_device(q.device())), params.energy,
-                     params.weights, std::make_shared<const newton_kernels<Element>>(q, params.energy, types)),
+          objective_(q, plan(levels, wanted, lane_form::for_device(q.device())), params.energy, params.weights,
+                     std::make_shared<const newton_kernels<Element>>(q, params.energy, types)),
           x_(objective_.make_point()),
           single_(types.position == scalar_type::f32)
     {
+    }
+
+    static newton_plan<Element> plan(const mesh_levels<Element>& levels, const ideal_elements<Element>* wanted,
+                                     lane_form form)
+    {
+        if (!wanted) return {levels, 0, form};
+        return {levels.make_layout(*wanted), levels.cells(0), levels.transfers(0), levels.fixed(0), form};
     }
 
     permutation numbers_;

@@ -101,7 +101,7 @@ protected:
         if (other_marks || !springs.empty() || !springs_.empty())
         {
             springs_ = std::move(springs);
-            live_->constrain(held_.marks(), springs_);
+            live_->constrain(held_.marks(), springs_, held_.slides());
         }
         live_->aim(scaled(held_.places()));
         on_way_ = held_.gap(last.x).vertex >= 0;
@@ -111,7 +111,7 @@ protected:
     void load(const map& run_lengths)
     {
         live_->load(run_lengths);
-        live_->constrain(held_.marks(), springs_);
+        live_->constrain(held_.marks(), springs_, held_.slides());
         live_->aim(scaled(held_.places()));
     }
 
@@ -170,7 +170,10 @@ protected:
     {
         map there = x;
         held_.impose(there);
-        return {rest(), scaled(std::move(there)), marks(), draft ? scaled(x) : map()};
+        auto held = marks();
+        for (const auto& s : held_.slides())
+            held[static_cast<std::size_t>(s.vertex)] = held.every; // not while it untangles
+        return {rest(), scaled(std::move(there)), std::move(held), draft ? scaled(x) : map()};
     }
 
     /// Whether it is proved that no map has the held coordinates at their places; x: any map.

@@ -46,10 +46,11 @@ public:
           params_(validated(params)),
           start_(start_of(m, params_)),
           rest_(in_run_lengths(m, params_.rest)),
-          ideal_(rest_)
+          ideal_(ideals(rest_, params_.shapes))
     {
         require_deformable();
         params_.data.validate(m.cells().size());
+        require_slides();
         this->lengths_ = unit_scale(m);
         wanted = params_.constraints.on(rest_);
     }
@@ -58,7 +59,7 @@ private:
     void begin(run_clock& clock) override
     {
         session_report& r = last.report = {};
-        this->held_ = held_places<Element>(start_, {});
+        this->held_ = held_places<Element>(start_, {}, params_.slides);
         this->held_.take(wanted);
         auto flips = this->certified(start_);
         last.x = start_;
@@ -85,11 +86,22 @@ private:
         const precision how = params_.precision != precision::automatic ? params_.precision
                               : this->queue_.device().has_fp64()        ? precision::mixed
                                                                         : precision::fp32;
-        this->live_.emplace(this->queue_, rest_, params_, how, this->scaled(start_));
+        this->live_.emplace(this->queue_, rest_, params_, how, this->scaled(start_),
+                            params_.shapes == wanted_shapes::rest ? nullptr : &ideal_);
         this->load(this->scaled(start_)); // with what is held
         this->changed = true;
         this->seconds_.start = clock.lap();
         this->advance(clock);
+    }
+
+    void require_slides() const
+    {
+        std::vector<idx> bad;
+        for (const auto& s : params_.slides)
+            if (s.vertex < 0 || s.vertex >= rest_.vertex_count() || params_.constraints.held(s.vertex) != 0)
+                bad.push_back(s.vertex);
+        refuse_vertices(constraint_fault::contradictory, std::move(bad),
+                        "that the mesh does not have, or that is pinned, among the slides; leave it out");
     }
 
     /// Any number of components, holes and handles; vertices without cells stay where they are.
@@ -98,6 +110,9 @@ private:
         auto found =
             check(rest_,
                   {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
+        if (params_.shapes == wanted_shapes::regular) // which need no rest shape
+            std::erase_if(found, [](const mesh_finding& f)
+                          { return f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell; });
         if constexpr (D == 3) // its hierarchy knows no facets
             std::erase_if(found, [](const mesh_finding& f) { return f.fault == mesh_fault::non_manifold_vertex; });
         if (!found.empty()) throw mesh_error(std::move(found.front()));
@@ -105,6 +120,20 @@ private:
             for (const vec3& p : rest_.points())
                 if (p.z != 0)
                     throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
+    }
+
+    static ideal_elements<Element> ideals(const mesh<Element>& m, wanted_shapes shapes)
+    {
+        if (shapes == wanted_shapes::rest) return ideal_elements<Element>(m);
+        double total = 0;
+        for (idx c = 0; c < m.cell_count(); ++c)
+        {
+            const auto rest = m.rest(c);
+            typename Element::mapped_corners x;
+            for (std::size_t k = 0; k < x.size(); ++k) x[k] = vec<D>(rest[k]);
+            total += std::abs(Element::determinant(x)) * Element::measure_factor;
+        }
+        return regular_elements<Element>(m.cells().size(), total);
     }
 
     static map start_of(const mesh<Element>& m, const deform_params<Element>& params)

@@ -4,8 +4,8 @@
 namespace taut
 {
 
-/// What the elements are wanted to look like while a stage works.
-enum class untangle_shapes
+/// What elements are wanted to look like.
+enum class wanted_shapes
 {
     rest,   ///< like the elements at rest
     regular ///< all the same, with equal edges
