@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/constrain/boundary_slides.hpp>
+#include <taut/energy/shape_power.hpp>
+#include <taut/map/deform.hpp>
+#include <taut/measure/shape_quality.hpp>
+
+namespace taut
+{
+
+/// What the boundary of a mesh may do while it is smoothed.
+enum class smooth_boundary
+{
+    fixed,   ///< nothing
+    sliding, ///< move in its own flat parts and along the straight creases between them; what is curved stays
+    free     ///< all; the shape changes
+};
+
+/// How to smooth a mesh. Every field has a sensible default.
+template <class Element>
+struct smooth_params
+{
+    smooth_boundary boundary = smooth_boundary::sliding;
+
+    /// What elements are wanted to look like: regular, or as in `rest`.
+    wanted_shapes shapes = wanted_shapes::regular;
+
+    /// The shape at rest for wanted_shapes::rest, one position a vertex; none: that of the mesh.
+    std::vector<vec3> rest = {};
+
+    /// The energy, shape distortion by itself, is taken to this power: larger ones put the worst elements first, 1 the
+    /// mean. Range 1 to 8.
+    int worst_exponent = 2;
+
+    /// Vertices that stay where they are whatever the boundary does: interfaces, for instance.
+    std::vector<idx> fixed = {};
+
+    /// Sine of the angle up to which a boundary is flat or straight.
+    double flat = 1e-4;
+
+    taut::precision precision = precision::automatic;
+    untangle_params untangling = {};
+    solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
+    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+    taut::observer observer = {};
+
+    /// Throws parameter_error that names the field; deform_params says the rest.
+    void validate() const
+    {
+        if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
+        if (!(flat >= 0 && flat < 1)) throw parameter_error("flat", "must be in [0, 1)");
+    }
+};
+
+/// A smoothed mesh, its report, and the shapes of its elements; `auto [x, report, before, after] = smooth(...)`.
+template <class Element>
+struct smooth_result
+{
+    std::vector<vec<Element::dimension>> x; ///< one a vertex, in the user's order and lengths
+    session_report report;
+    shape_quality before, after; ///< after: only with coordinates
+
+    /// True if the mesh is certified: no element is inverted.
+    explicit operator bool() const { return report.outcome == outcome::valid; }
+};
+
+/// Moves the vertices of a volume, or a mesh of the plane (z = 0), to where its elements are best shaped, without
+/// inverting one; what is inverted is untangled first. Connectivity stays.
+/// Throws mesh_error, parameter_error, constraint_error for wrong ids, device_error.
+template <class Element>
+smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_params<Element>& params = {})
+{
+    params.validate();
+    using point = vec<Element::dimension>;
+    deform_params<Element> how;
+    how.energy = energy::shape_power{params.worst_exponent};
+    how.weights = energy::weighting::uniform;
+    how.shapes = params.shapes;
+    how.rest = params.rest;
+    how.precision = params.precision;
+    how.untangling = params.untangling;
+    how.solve = params.solve;
+    how.time_limit = params.time_limit;
+    how.observer = params.observer;
+    boundary_motion<Element> motion{taut::constraints<Element>(m), {}};
+    if (params.boundary == smooth_boundary::sliding) motion = sliding_boundary(m, params.flat);
+    std::vector<char> still(m.points().size(), 0);
+    for (const idx v : params.fixed)
+        if (v >= 0 && v < m.vertex_count())
+            still[static_cast<std::size_t>(v)] = 1;
+        else
+            throw constraint_error(constraint_fault::out_of_range, {v},
+                                   "fixed vertex " + std::to_string(v) + " of a mesh that has " +
+                                       std::to_string(m.vertex_count()) + ", counted from 0");
+    if (params.boundary == smooth_boundary::fixed)
+        for (const auto& facet : boundary_facets(m))
+            for (const idx v : facet) still[static_cast<std::size_t>(v)] = 1;
+    for (std::size_t v = 0; v < still.size(); ++v)
+        if (still[v]) motion.pins.repin(static_cast<idx>(v), point(m.points()[v]));
+    std::erase_if(motion.slides, [&](const auto& s) { return still[static_cast<std::size_t>(s.vertex)] != 0; });
+    how.constraints = std::move(motion.pins);
+    how.slides = std::move(motion.slides);
+
+    const std::vector<point> start(m.points().begin(), m.points().end());
+    smooth_result<Element> result;
+    result.before = measure_shapes<Element>(m.cells(), std::span<const point>(start));
+    auto found = deform(q, m, how);
+    result.x = std::move(found.x);
+    result.report = std::move(found.report);
+    if (!result.x.empty()) result.after = measure_shapes<Element>(m.cells(), std::span<const point>(result.x));
+    return result;
+}
+
+} // namespace taut
