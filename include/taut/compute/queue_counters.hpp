@@ -18,4 +18,16 @@ struct queue_counters
     double build_seconds = 0;        ///< host seconds spent compiling them
 };
 
+/// What a queue counted since `before`.
+inline queue_counters counted_since(const queue_counters& before, queue_counters now)
+{
+    now.launches -= before.launches;
+    now.waits -= before.waits;
+    now.bytes_read -= before.bytes_read;
+    now.bytes_written -= before.bytes_written;
+    now.builds -= before.builds;
+    now.build_seconds -= before.build_seconds;
+    return now;
+}
+
 } // namespace taut

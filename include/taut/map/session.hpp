@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <taut/compute/queue.hpp>
 #include <taut/map/deform_params.hpp>
 #include <taut/map/detail/session_body.hpp>
 #include <taut/map/parameterize_params.hpp>

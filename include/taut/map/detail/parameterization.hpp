@@ -96,7 +96,7 @@ map_result parameterize(queue& q, const mesh<Element>& m, const parameterize_par
     const queue_counters before = q.counters();
     detail::run_clock clock(wanted.time_limit, wanted.observer);
     map_result result = detail::mapped<Element>(q, detail::run_surface(m, wanted), wanted, clock);
-    result.report.counters = detail::counted_since(before, q.counters());
+    result.report.counters = counted_since(before, q.counters());
     return result;
 }
 

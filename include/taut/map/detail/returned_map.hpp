@@ -50,16 +50,4 @@ map_result in_user_units(const map_run<Element>& run, map_result r)
     return refused(std::move(r), why);
 }
 
-/// What a queue counted since `before`.
-inline queue_counters counted_since(const queue_counters& before, queue_counters now)
-{
-    now.launches -= before.launches;
-    now.waits -= before.waits;
-    now.bytes_read -= before.bytes_read;
-    now.bytes_written -= before.bytes_written;
-    now.builds -= before.builds;
-    now.build_seconds -= before.build_seconds;
-    return now;
-}
-
 } // namespace taut::detail

@@ -128,6 +128,11 @@ protected:
         bool goes_on = true;
         for (int part = 1; goes_on && part <= parts; ++part)
         {
+            if (part > 1 && !may_step(clock))
+            {
+                goes_on = stuck_ = false;
+                break;
+            }
             map way = held_.places();
             paths.place(static_cast<double>(part) / parts, way);
             if (parts > 1) live_->aim(scaled(way));

@@ -91,7 +91,9 @@ private:
         this->load(this->scaled(start_)); // with what is held
         this->changed = true;
         this->seconds_.start = clock.lap();
+        const auto notes = std::exchange(r.notes, {});
         this->advance(clock);
+        r.notes.insert(r.notes.begin(), notes.begin(), notes.end());
     }
 
     void require_slides() const

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include <support/meshes.hpp>
+#include <support/size.hpp>
+
+#include <taut/energy/isometric.hpp>
+#include <taut/energy/shape.hpp>
+#include <taut/map/deform.hpp>
+#include <taut/measure/rigid_motion.hpp>
+
+namespace
+{
+
+using namespace taut;
+using taut::idx;
+
+/// A bar of n tetrahedron cubes across, three times as long.
+mesh<tetrahedron> bar()
+{
+    const auto m = test::jittered_cube(test::sized(5, 3), 11);
+    auto points = m.points();
+    for (vec3& p : points) p.z *= 3;
+    return {std::move(points), m.cells()};
+}
+
+std::vector<idx> where(const mesh<tetrahedron>& m, auto&& inside)
+{
+    std::vector<idx> ids;
+    for (idx v = 0; v < m.vertex_count(); ++v)
+        if (inside(m.points()[static_cast<std::size_t>(v)])) ids.push_back(v);
+    return ids;
+}
+std::vector<idx> bottom(const mesh<tetrahedron>& m)
+{
+    return where(m, [](const vec3& p) { return p.z == 0; });
+}
+std::vector<idx> top(const mesh<tetrahedron>& m)
+{
+    return where(m, [](const vec3& p) { return p.z == 3; });
+}
+
+/// What is promised of every shape that comes back.
+template <class Element>
+void check_promises(const mesh<Element>& m, const taut::constraints<Element>& pins, const session_result<Element>& r)
+{
+    constexpr int D = Element::dimension;
+    REQUIRE(r);
+    CHECK(certify<D>(m.cells(), std::span<const vec<D>>(r.x)));
+    bool exact = true;
+    for (const auto& [v, pin] : pins.pins())
+        for (int k = 0; k < D; ++k)
+            if ((pin.held >> k & 1u) != 0)
+                exact = exact && std::memcmp(&r.x[static_cast<std::size_t>(v)][k], &pin.value[k], sizeof(double)) == 0;
+    CHECK(exact);
+    CHECK(r.report.pins_held);
+}
+
+rigid_motion<3> turn(double angle, const vec3& axis = {0, 0, 1})
+{
+    return {.from = vec3(0.5, 0.5, 3), .to = vec3(0.5, 0.5, 3), .axis = axis, .angle = angle};
+}
+
+} // namespace
+
+TEST_CASE("deform: a bar is twisted, stretched and bent without an inverted element, and converges")
+{
+    const auto m = bar();
+    queue q;
+    const auto full = turn(std::numbers::pi);
+    const auto bent = turn(std::numbers::pi / 2, {1, 0, 0});
+    const auto wanted = [&](int kind, const vec3& p)
+    {
+        return kind == 0   ? full(p)
+               : kind == 1 ? p + vec3(0, 0, 2)
+               : kind == 2 ? p - vec3(0, 0, 1.2)
+                           : bent(p) - vec3(0, 1, 1);
+    };
+    for (int kind = 0; kind < 4; ++kind)
+    {
+        CAPTURE(kind);
+        deform_params<tetrahedron> params{.constraints = taut::constraints(m).fix(bottom(m)).move(
+                                              top(m), [&](const vec3& p) { return wanted(kind, p); })};
+        const auto r = deform(q, m, params);
+        check_promises(m, params.constraints, r);
+        CHECK(r.report.converged);
+        CHECK(r.report.gradient < 1e-6);
+        CHECK(r.report.energy > 2);
+    }
+}
+
+TEST_CASE("deform: what is bent is no better for starting elsewhere, and the shape at rest costs nothing")
+{
+    const auto m = bar();
+    queue q;
+    deform_params<tetrahedron> params{.constraints =
+                                          taut::constraints(m).fix(bottom(m)).move(top(m), turn(0.7, {1, 0, 0}))};
+    const auto direct = deform(q, m, params);
+    deform_params<tetrahedron> half = params;
+    half.constraints = taut::constraints(m).fix(bottom(m)).move(top(m), turn(0.35, {1, 0, 0}));
+    params.initial = deform(q, m, half).x;
+    const auto second = deform(q, m, params);
+    check_promises(m, params.constraints, second);
+    CHECK(second.report.energy == doctest::Approx(direct.report.energy).epsilon(1e-7));
+
+    // The deformed shape with the first one as its rest goes back.
+    deform_params<tetrahedron> back{.constraints = taut::constraints(m).fix(bottom(m)),
+                                    .rest = m.points(),
+                                    .solve = {.stopping = {.gradient_tolerance = 1e-9}}};
+    const auto home = deform(q, mesh<tetrahedron>(direct.x, m.cells()), back);
+    CHECK(home.report.energy == doctest::Approx(2).epsilon(1e-9));
+    double off = 0;
+    for (std::size_t v = 0; v < home.x.size(); ++v) off = std::max(off, glm::distance(home.x[v], m.points()[v]));
+    CHECK(off < 1e-5);
+}
+
+TEST_CASE("deform: patch test, an affine map of the boundary is the affine map inside")
+{
+    const auto m = test::jittered_cube(test::sized(6, 4), 5);
+    queue q;
+    const mat3 A(1.1, 0.1, 0.0, -0.2, 0.9, 0.1, 0.05, 0.1, 1.2);
+    std::vector<idx> rim;
+    for (const auto& f : boundary_facets(m)) rim.insert(rim.end(), f.begin(), f.end());
+    std::sort(rim.begin(), rim.end());
+    rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+    for (const precision how : {precision::fp64, precision::mixed})
+    {
+        deform_params<tetrahedron> params{
+            .constraints = taut::constraints(m).move(rim, [&](const vec3& p) { return A * p + vec3(3); }),
+            .precision = how,
+            .solve = {.stopping = {.gradient_tolerance = 1e-12}}};
+        const auto r = deform(q, m, params);
+        check_promises(m, params.constraints, r);
+        double off = 0;
+        for (std::size_t v = 0; v < r.x.size(); ++v)
+            off = std::max(off, glm::distance(r.x[v], A * m.points()[v] + vec3(3)));
+        CHECK(off < (how == precision::fp64 ? 1e-10 : 1e-5));
+    }
+}
+
+TEST_CASE("deform: springs draw, single coordinates hold, vertices without cells stay, pieces apart are welcome")
+{
+    auto points = bar().points();
+    auto cells = bar().cells();
+    const auto n = static_cast<idx>(points.size());
+    const auto other = test::single_tetrahedron();
+    for (const vec3& p : other.points()) points.push_back(p + vec3(5, 0, 1));
+    for (auto t : other.cells())
+    {
+        for (idx& v : t) v += n;
+        cells.push_back(t);
+    }
+    points.emplace_back(-3, -3, -3);
+    const mesh<tetrahedron> m(points, cells);
+    queue q;
+    auto pins = taut::constraints(m).fix(bottom(m));
+    for (const idx v : top(m)) pins.pin(v, 2, 3.3);
+    pins.spring(n, {6, 1, 1}, 100.0);
+    const auto r = deform(q, m, deform_params<tetrahedron>{.constraints = pins});
+    check_promises(m, pins, r);
+    CHECK(r.x.back() == vec3(-3, -3, -3));
+    CHECK(glm::distance(r.x[static_cast<std::size_t>(n)], vec3(6, 1, 1)) < 1e-3);
+    const double edge = glm::distance(r.x[static_cast<std::size_t>(n)], r.x[static_cast<std::size_t>(n) + 1]);
+    CHECK(edge == doctest::Approx(1).epsilon(1e-5)); // the piece goes along
+}
+
+TEST_CASE("deform: what no shape can obey is refused with the elements")
+{
+    const auto m = bar();
+    queue q;
+    // A tetrahedron whose four corners are pinned and mirrored.
+    auto pins = taut::constraints(m);
+    const auto& t = m.cells()[5];
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+        vec3 p = m.points()[static_cast<std::size_t>(t[k])];
+        p.x = -p.x;
+        pins.pin(t[k], p);
+    }
+    const auto r = deform(q, m, deform_params<tetrahedron>{.constraints = pins});
+    CHECK(r.report.outcome == outcome::infeasible);
+    CHECK(std::find(r.report.ids.begin(), r.report.ids.end(), 5) != r.report.ids.end());
+    CHECK(r.report.seconds.follow == 0); // before it was tried
+}
+
+TEST_CASE("deform: a mesh that is tangled is untangled first, and one whose rest is inverted is refused")
+{
+    const auto m = bar();
+    queue q;
+    auto tangled = m.points();
+    for (const idx v : where(m, [](const vec3& p) { return p.z == 1.5 || (p.z > 1 && p.z < 2 && p.x > 0.3); }))
+        tangled[static_cast<std::size_t>(v)] = vec3(0.2, 0.2, 2.5);
+    REQUIRE(certify<3>(m.cells(), tangled).flipped > 0);
+    auto pins = taut::constraints(m).fix(bottom(m)).fix(top(m));
+    const auto r = deform(q, m, deform_params<tetrahedron>{.constraints = pins, .initial = tangled});
+    check_promises(m, pins, r);
+    CHECK(r.report.energy == doctest::Approx(2).epsilon(1e-6));
+    REQUIRE(!r.report.notes.empty());
+    CHECK(r.report.notes[0].find("untangled") != std::string::npos);
+    CHECK_THROWS_AS(deform(q, mesh<tetrahedron>(tangled, m.cells()), deform_params<tetrahedron>{}), mesh_error);
+}
+
+TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are named")
+{
+    const auto m = bar();
+    queue q;
+    const auto pins = taut::constraints(m).fix(bottom(m)).move(top(m), turn(3.0));
+    int asked = 0;
+    deform_params<tetrahedron> params{.constraints = pins, .observer = [&](const progress&) { return ++asked < 3; }};
+    const auto r = deform(q, m, params);
+    CHECK(r.report.outcome == outcome::stopped);
+    CHECK(!r.report.pins_held);
+    CHECK(r.report.distance > 0);
+    CHECK(certify<3>(m.cells(), r.x));
+
+    CHECK_THROWS_WITH_AS(deform(q, m, deform_params<tetrahedron>{.initial = {vec3(0)}}), doctest::Contains("initial"),
+                         parameter_error);
+    CHECK_THROWS_WITH_AS(deform(q, m, deform_params<tetrahedron>{.rest = {vec3(0)}}), doctest::Contains("rest"),
+                         parameter_error);
+    CHECK_THROWS_AS(deform(q, m, deform_params<tetrahedron>{.solve = {.method = solve::method::lbfgs}}),
+                    parameter_error);
+    CHECK_THROWS_AS(
+        deform(q, m, deform_params<tetrahedron>{.constraints = pins, .slides = {slide<3>::across(0, {0, 0, 1})}}),
+        constraint_error);
+}
+
+TEST_CASE("deform: a mesh of the plane goes through the same door, a surface in space does not")
+{
+    const auto m = test::grid(test::sized(12, 6), test::sized(12, 6));
+    queue q;
+    std::vector<idx> left, right;
+    for (idx v = 0; v < m.vertex_count(); ++v)
+    {
+        const vec3& p = m.points()[static_cast<std::size_t>(v)];
+        if (p.x == 0) left.push_back(v);
+        if (p.x == 1) right.push_back(v);
+    }
+    const rigid_motion<2> quarter{.from = {1, 0.5}, .to = {1, 1.2}, .angle = 1.5};
+    deform_params<triangle> params{.constraints = taut::constraints(m).fix(left).move(right, quarter)};
+    const auto r = deform(q, m, params);
+    check_promises(m, params.constraints, r);
+    CHECK(r.report.converged);
+    CHECK_THROWS_AS(deform(q, test::bumpy(5, 0.3, 1), deform_params<triangle>{}), parameter_error);
+}
+
+TEST_CASE("session: a volume follows a handle that is moved in many steps, injective at each")
+{
+    const auto m = bar();
+    queue q;
+    session s(q, m, {.constraints = taut::constraints(m).fix(bottom(m))});
+    REQUIRE(s.solve());
+    const auto handle = top(m);
+    const auto home = s.x();
+    for (int frame = 1; frame <= 12; ++frame)
+    {
+        std::vector<vec3> places;
+        for (const idx v : handle)
+            places.push_back(turn(0.15 * frame, {0, 1, 0})(home[static_cast<std::size_t>(v)]) +
+                             vec3(0.05 * frame, 0, 0));
+        const auto before = s.x();
+        const auto r = s.move(handle, places).solve({.steps = 2});
+        CHECK(certify<3>(m.cells(), r.x));
+        double jump = 0;
+        for (std::size_t v = 0; v < before.size(); ++v) jump = std::max(jump, glm::distance(before[v], r.x[v]));
+        CHECK(jump < 1);
+    }
+    const auto rest = s.solve();
+    check_promises(m, s.constraints(), rest);
+    CHECK(rest.report.converged);
+    const auto scratch = deform(q, m, deform_params<tetrahedron>{.constraints = s.constraints()});
+    CHECK(rest.report.energy == doctest::Approx(scratch.report.energy).epsilon(1e-3));
+}
