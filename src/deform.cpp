@@ -2,7 +2,7 @@
 // Sessions of shapes for the compiled form.
 #include <taut/map/session.hpp>
 
-#include <taut/map/detail/shape_session.hpp>
+#include <taut/map/detail/session/shape_session.hpp>
 
 template taut::session<taut::tetrahedron>::session(queue&, const mesh<tetrahedron>&, const deform_params<tetrahedron>&);
 template taut::session<taut::triangle>::session(queue&, const mesh<triangle>&, const deform_params<triangle>&);

@@ -3,7 +3,7 @@
 #include <taut/map/parameterize.hpp>
 #include <taut/map/session.hpp>
 
-#include <taut/map/detail/map_session.hpp>
+#include <taut/map/detail/session/map_session.hpp>
 #include <taut/map/detail/parameterization.hpp>
 
 template taut::map_result taut::parameterize(queue&, const mesh<triangle>&, const parameterize_params&);

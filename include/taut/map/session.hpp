@@ -9,7 +9,7 @@
 
 #include <taut/compute/queue.hpp>
 #include <taut/map/deform_params.hpp>
-#include <taut/map/detail/session_body.hpp>
+#include <taut/map/detail/session/session_body.hpp>
 #include <taut/map/parameterize_params.hpp>
 #include <taut/map/session_result.hpp>
 
@@ -123,6 +123,6 @@ private:
 } // namespace taut
 
 #ifndef TAUT_COMPILED
-#include <taut/map/detail/map_session.hpp>
-#include <taut/map/detail/shape_session.hpp>
+#include <taut/map/detail/session/map_session.hpp>
+#include <taut/map/detail/session/shape_session.hpp>
 #endif

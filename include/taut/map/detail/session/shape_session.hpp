@@ -2,14 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <taut/map/detail/session_steps.hpp>
-#include <taut/map/session.hpp>
+#include <taut/map/detail/session/session_steps.hpp>
 #include <taut/mesh/validate.hpp>
 
 namespace taut

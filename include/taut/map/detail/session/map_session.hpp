@@ -6,8 +6,7 @@
 #include <utility>
 
 #include <taut/map/detail/parameterization.hpp>
-#include <taut/map/detail/session_steps.hpp>
-#include <taut/map/session.hpp>
+#include <taut/map/detail/session/session_steps.hpp>
 
 namespace taut
 {

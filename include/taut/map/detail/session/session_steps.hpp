@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -12,10 +13,10 @@
 #include <vector>
 
 #include <taut/constrain/held_paths.hpp>
-#include <taut/map/detail/held_places.hpp>
-#include <taut/map/detail/live_map.hpp>
 #include <taut/map/detail/run_clock.hpp>
-#include <taut/map/detail/session_body.hpp>
+#include <taut/map/detail/session/held_places.hpp>
+#include <taut/map/detail/session/live_map.hpp>
+#include <taut/map/detail/session/session_body.hpp>
 #include <taut/measure/describe_defects.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 #include <taut/untangle/untangle_on_device.hpp>
