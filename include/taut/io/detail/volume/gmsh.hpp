@@ -41,6 +41,16 @@ public:
         in_.go_to(found->second);
     }
 
+    /// Throws io_error unless all of a section has been read.
+    void leave(std::string_view section)
+    {
+        in_.skip_space();
+        const char* const at = in_.position();
+        if (in_.word() == "$End" + std::string(section)) return;
+        in_.go_to(at);
+        in_.fail("$" + std::string(section) + " does not end here, where its counts say; correct them");
+    }
+
     bool version_4() const { return version_4_; }
     const number_encoding& encoding() const { return encoding_; }
 

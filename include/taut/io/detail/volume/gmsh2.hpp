@@ -24,7 +24,9 @@ public:
     void read()
     {
         read_nodes();
+        sections_.leave("Nodes");
         read_elements();
+        sections_.leave("Elements");
     }
 
 private:

@@ -33,7 +33,9 @@ public:
         }
         if (sections_.has("Entities")) read_entities();
         read_nodes();
+        sections_.leave("Nodes");
         read_elements();
+        sections_.leave("Elements");
     }
 
 private:
