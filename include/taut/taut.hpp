@@ -28,9 +28,11 @@
 #include <taut/io/pins.hpp>
 #include <taut/io/prob.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/read_volume.hpp>
 #include <taut/io/write_files.hpp>
 #include <taut/io/write_map.hpp>
 #include <taut/io/write_obj.hpp>
+#include <taut/io/write_volume.hpp>
 
 #include <taut/map/parameterize.hpp>
 #include <taut/map/session.hpp>

@@ -68,6 +68,9 @@ public:
 
     std::size_t map_dimension() const { return map_dimension_; }
 
+    /// Where the coordinates of the initial map start, in bytes from the first one.
+    std::vector<std::size_t> take_places() { return std::move(places_); }
+
     template <class Element>
     prob_file<Element> read_map()
     {
@@ -82,7 +85,12 @@ public:
         {
             start_item("vertex of the initial map", v, initial_count_);
             vec<D> x;
-            for (int k = 0; k < D; ++k) x[k] = read_coordinate();
+            for (int k = 0; k < D; ++k)
+            {
+                in_.skip_blanks();
+                places_.push_back(static_cast<std::size_t>(in_.position() - in_.start()));
+                x[k] = read_coordinate();
+            }
             end_line("a mapped vertex of " + std::to_string(D) + " coordinates");
             p.initial.push_back(x);
         }
@@ -187,6 +195,7 @@ private:
     scanner in_;
     std::vector<vec3> rest_;
     std::size_t initial_count_ = 0, map_dimension_ = 0;
+    std::vector<std::size_t> places_;
 };
 
 } // namespace detail

@@ -4,10 +4,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
+#include <taut/io/detail/byte_order.hpp>
 #include <taut/io/detail/ply_header.hpp>
 
 namespace taut::io::detail
@@ -50,21 +50,21 @@ public:
         switch (type)
         {
         case ply_type::int8:
-            return load<std::int8_t, std::uint8_t>();
+            return take<std::int8_t>();
         case ply_type::uint8:
-            return load<std::uint8_t, std::uint8_t>();
+            return take<std::uint8_t>();
         case ply_type::int16:
-            return load<std::int16_t, std::uint16_t>();
+            return take<std::int16_t>();
         case ply_type::uint16:
-            return load<std::uint16_t, std::uint16_t>();
+            return take<std::uint16_t>();
         case ply_type::int32:
-            return load<std::int32_t, std::uint32_t>();
+            return take<std::int32_t>();
         case ply_type::uint32:
-            return load<std::uint32_t, std::uint32_t>();
+            return take<std::uint32_t>();
         case ply_type::float32:
-            return static_cast<double>(load<float, std::uint32_t>());
+            return static_cast<double>(take<float>());
         case ply_type::float64:
-            return load<double, std::uint64_t>();
+            return take<double>();
         }
         return 0;
     }
@@ -74,21 +74,13 @@ public:
     file_place place() const { return {file_place::byte, static_cast<std::size_t>(at_ - begin_)}; }
 
 private:
-    template <class T, class Bits>
-    T load()
+    template <class T>
+    T take()
     {
         if (remaining() < sizeof(T)) throw io_error(path_, "the file ends too early", place());
-        Bits bits = 0;
-        std::memcpy(&bits, at_, sizeof bits);
-        if constexpr (Order != std::endian::native)
-        {
-            Bits reversed = 0;
-            for (std::size_t k = 0; k < sizeof bits; ++k)
-                reversed = static_cast<Bits>(reversed << 8 | (bits >> 8 * k & 0xff));
-            bits = reversed;
-        }
-        at_ += sizeof bits;
-        return std::bit_cast<T>(bits);
+        const T x = load<T>(at_, Order);
+        at_ += sizeof(T);
+        return x;
     }
 
     const std::string& path_;

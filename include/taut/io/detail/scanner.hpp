@@ -165,6 +165,17 @@ public:
         return value;
     }
 
+    /// The next n bytes, which are taken whatever they are. Throws io_error with the byte where there are fewer.
+    std::string_view bytes(std::size_t n)
+    {
+        if (n > remaining()) throw io_error(path_, "the file ends too early", byte_of(at_));
+        at_ += n;
+        return {at_ - n, n};
+    }
+
+    /// Goes to a position in the text.
+    void go_to(const char* position) { at_ = position; }
+
     /// What stands between an earlier position and this one.
     std::string_view since(const char* position) const { return {position, static_cast<std::size_t>(at_ - position)}; }
 
@@ -188,6 +199,12 @@ public:
         for (const char* p = begin_; p != position; ++p)
             if (*p == '\n' || (*p == '\r' && (p + 1 == end_ || p[1] != '\n'))) ++line;
         return {file_place::line, line};
+    }
+
+    /// The byte of a position in the text, counted from 0.
+    file_place byte_of(const char* position) const
+    {
+        return {file_place::byte, static_cast<std::size_t>(position - begin_)};
     }
 
     [[noreturn]] void fail(const std::string& what) const { throw io_error(path_, what, line_of(at_)); }

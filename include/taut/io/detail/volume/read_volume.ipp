@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <taut/io/detail/volume/formats.hpp>
+#include <taut/io/detail/volume/gmsh2.hpp>
+#include <taut/io/detail/volume/gmsh4.hpp>
+#include <taut/io/detail/volume/medit.hpp>
+#include <taut/io/detail/volume/problem.hpp>
+#include <taut/io/detail/volume/su2.hpp>
+#include <taut/io/detail/volume/tetgen.hpp>
+#include <taut/io/detail/volume/vtk.hpp>
+#include <taut/io/detail/volume/vtu.hpp>
+#include <taut/io/read_file.hpp>
+#include <taut/io/read_volume.hpp>
+
+namespace taut::io
+{
+
+namespace detail
+{
+
+inline void read_gmsh(volume_file& file)
+{
+    volume_builder to(file);
+    gmsh_sections sections(to);
+    if (sections.version_4())
+        gmsh4_reader(to, sections).read();
+    else
+        gmsh2_reader(to, sections).read();
+    sections.finish_groups();
+    to.finish();
+}
+
+/// Fills in what the bytes of a file say.
+inline void read_volume_bytes(volume_file& file, volume_format format)
+{
+    file.format = name_of(format);
+    switch (format)
+    {
+    case volume_format::medit:
+        return medit_reader(file).read();
+    case volume_format::gmsh:
+        return read_gmsh(file);
+    case volume_format::vtk:
+        return vtk_reader(file).read();
+    case volume_format::vtu:
+        return vtu_reader(file).read();
+    case volume_format::tetgen:
+        return tetgen_reader(file).read();
+    case volume_format::su2:
+        return su2_reader(file).read();
+    case volume_format::problem:
+        return problem_reader(file).read();
+    case volume_format::automatic:
+        break;
+    }
+    const bool binary_medit = small_extension(file.path) == ".meshb";
+    throw io_error(file.path, binary_medit
+                                  ? "binary MEDIT files are not read; convert it to .mesh"
+                                  : "unknown kind of file; volumes are read from .mesh, .msh, .vtk, .vtu, "
+                                    ".node with .ele, .su2 and .prob, from other names if the format is given");
+}
+
+} // namespace detail
+
+TAUT_INLINE volume_file read_volume_file(const std::filesystem::path& path, volume_format format)
+{
+    if (format == volume_format::automatic) format = detail::volume_format_of_name(path);
+    volume_file file;
+    file.path = path.string();
+    if (format == volume_format::tetgen)
+    {
+        const auto beside = [&](const char* extension)
+        { return std::filesystem::path(path).replace_extension(extension); };
+        file.path = beside(".node").string();
+        file.companions.push_back({".ele", read_file(beside(".ele"))});
+        std::error_code unknown;
+        if (std::filesystem::exists(beside(".face"), unknown))
+            file.companions.push_back({".face", read_file(beside(".face"))});
+    }
+    if (format != volume_format::automatic) file.bytes = read_file(file.path);
+    detail::read_volume_bytes(file, format);
+    return file;
+}
+
+TAUT_INLINE mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format)
+{
+    return tetrahedra_of(read_volume_file(path, format));
+}
+
+TAUT_INLINE volume_file parse_volume(std::string bytes, volume_format format, const std::string& name)
+{
+    volume_file file;
+    file.path = name;
+    file.bytes = std::move(bytes);
+    detail::read_volume_bytes(file, format);
+    return file;
+}
+
+TAUT_INLINE volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces,
+                                     const std::string& name)
+{
+    volume_file file;
+    file.path = name;
+    file.bytes = std::move(nodes);
+    file.companions.push_back({".ele", std::move(elements)});
+    if (!faces.empty()) file.companions.push_back({".face", std::move(faces)});
+    detail::read_volume_bytes(file, volume_format::tetgen);
+    return file;
+}
+
+} // namespace taut::io

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <taut/config.hpp>
+#include <taut/io/volume_file.hpp>
+
+namespace taut::io
+{
+
+/// The kinds of files that volumes are read from. automatic: as the extension says, in either case.
+enum class volume_format
+{
+    automatic,
+    medit,  ///< .mesh, text
+    gmsh,   ///< .msh 2.x and 4.1, text and binary
+    vtk,    ///< .vtk, legacy, text and binary, unstructured grids
+    vtu,    ///< .vtu, text and appended raw
+    tetgen, ///< .node and .ele, and .face if there is one; given by either name
+    su2,    ///< .su2
+    problem ///< .prob: the points are those of the initial map
+};
+
+/// Reads a volume mesh, or a planar mesh, with its groups.
+/// Throws io_error with line or byte: unreadable, unknown, malformed, or what coordinates alone cannot be exchanged in
+/// (higher order, polyhedra, compressed or base64 data, partitions, several pieces).
+volume_file read_volume_file(const std::filesystem::path& path, volume_format format = volume_format::automatic);
+
+/// The tetrahedra alone. Throws mesh_error as tetrahedra_of().
+mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format = volume_format::automatic);
+
+/// The same from the bytes of a file. name: in errors. Of any format but TetGen.
+volume_file parse_volume(std::string bytes, volume_format format, const std::string& name = "volume data");
+
+/// The same from the text of a .node file, of its .ele file and, unless that is empty, of its .face file.
+volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces = {},
+                         const std::string& name = "volume data");
+
+} // namespace taut::io
+
+#ifndef TAUT_COMPILED
+#include <taut/io/detail/volume/read_volume.ipp>
+#endif

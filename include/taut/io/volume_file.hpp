@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/config.hpp>
+#include <taut/core/error.hpp>
+#include <taut/mesh/mesh.hpp>
+
+namespace taut::io
+{
+
+/// Kinds of cells. Corners are in VTK's order, whatever a file has:
+/// quad: around. tetrahedron: corner 3 sees 0, 1, 2 turn counter-clockwise. pyramid: so does corner 4 the base 0..3.
+/// wedge: triangles 0, 1, 2 and 3, 4, 5, the normal of 0, 1, 2 pointing away from 3, 4, 5 (gmsh, MEDIT and SU2 files
+/// have it the other way round). hexahedron: quads 0..3 and 4..7, the normal of 0..3 pointing to 4..7.
+enum class cell_kind
+{
+    vertex,
+    line,
+    triangle,
+    quad,
+    tetrahedron,
+    pyramid,
+    wedge,
+    hexahedron
+};
+
+struct cell_shape
+{
+    int dimension;
+    int corners;
+    const char *name, *names;
+};
+
+constexpr cell_shape shape_of(cell_kind kind)
+{
+    constexpr std::array<cell_shape, 8> shapes = {{{0, 1, "vertex", "vertices"},
+                                                   {1, 2, "line", "lines"},
+                                                   {2, 3, "triangle", "triangles"},
+                                                   {2, 4, "quad", "quads"},
+                                                   {3, 4, "tetrahedron", "tetrahedra"},
+                                                   {3, 5, "pyramid", "pyramids"},
+                                                   {3, 6, "wedge", "wedges"},
+                                                   {3, 8, "hexahedron", "hexahedra"}}};
+    return shapes[static_cast<std::size_t>(kind)];
+}
+
+/// Cells of one kind that follow each other in a file.
+struct cell_block
+{
+    cell_kind kind;
+    std::vector<idx> corners; ///< shape_of(kind).corners a cell: positions in the points, never numbers of the file
+
+    std::size_t size() const { return corners.size() / static_cast<std::size_t>(shape_of(kind).corners); }
+
+    std::span<const idx> cell(std::size_t c) const
+    {
+        const auto n = static_cast<std::size_t>(shape_of(kind).corners);
+        return std::span<const idx>(corners).subspan(n * c, n);
+    }
+};
+
+/// The vertices of what a file names together.
+struct volume_group
+{
+    std::string name;
+    int dimension;             ///< of what is named: 0 vertices, 1 lines, 2 faces, 3 volumes
+    std::vector<idx> vertices; ///< ascending, each once
+};
+
+/// A group that is not there, or a name that several have. what() lists those there are.
+class group_error : public error
+{
+public:
+    group_error(std::string name, const std::string& what) : error(what), name_(std::move(name)) {}
+    const std::string& name() const noexcept { return name_; }
+
+private:
+    std::string name_;
+};
+
+/// Where the bytes of a file have its coordinates, and how.
+struct coordinate_places
+{
+    bool text = true;                        ///< decimal numbers; else IEEE 754
+    bool single = false;                     ///< the file declares single precision
+    std::endian order = std::endian::native; ///< of binary coordinates
+    int per_point = 3;                       ///< 3, or 2 in a planar file
+    std::vector<std::size_t> offsets;        ///< the first byte of each, one point after the other, ascending
+};
+
+/// A part of a mesh that has a file of its own beside the main one: TetGen's .ele and .face.
+struct companion_file
+{
+    std::string extension;
+    std::string bytes;
+};
+
+/// What a file of a volume mesh, or of a planar triangle mesh, says, and its bytes. Points and cells are in the order
+/// of the file, unreferenced points included.
+struct volume_file
+{
+    std::string path;   ///< as it was given
+    std::string format; ///< "MEDIT", "gmsh", "VTK", "VTU", "TetGen", "SU2" or "problem"
+    int dimension = 3;  ///< 2: two coordinates a point, or no volume cell and all z equal
+    std::vector<vec3> points;
+    std::vector<vec3> rest; ///< problems: the rest shape, of which the points are a map; else empty: points at rest
+    std::vector<cell_block> cells;
+    std::vector<volume_group> groups;
+    std::vector<std::string> notes; ///< what groups were not read from, in sentences
+    std::string bytes;              ///< all of the file
+    std::vector<companion_file> companions;
+    coordinate_places places;
+
+    /// The group of a name. A number alone finds the one group whose name ends in ":" and it. Throws group_error.
+    const volume_group& find_group(std::string_view name) const;
+};
+
+/// The tetrahedra at rest, cells in the order of the file. A few may be inverted: which, validate() tells.
+/// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty), or if nine of ten or
+/// more are inverted (inverted_cell): then they are turned, and what() states the convention of the format.
+mesh<tetrahedron> tetrahedra_of(const volume_file& file);
+
+/// The triangles of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
+/// are no triangles, or the file is of dimension 3.
+mesh<triangle> triangles_of(const volume_file& file);
+
+/// Cells as tetrahedra that overlap: one a corner with three edges, which these edges span.
+struct corner_simplices
+{
+    mesh<tetrahedron> simplices;
+    std::vector<idx> cells; ///< the cell of each, counted over all cells of the file
+};
+
+/// A tetrahedron for itself, 4 a pyramid (at the corners of its base), 6 a wedge, 8 a hexahedron; cells below dimension
+/// 3 have none. That all are positive is necessary for a hexahedron, wedge or pyramid to be valid, not sufficient.
+/// Throws mesh_error as tetrahedra_of does, for each kind by itself.
+corner_simplices corner_simplices_of(const volume_file& file);
+
+} // namespace taut::io
+
+#ifndef TAUT_COMPILED
+#include <taut/io/detail/volume/volume_file.ipp>
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <taut/config.hpp>
+#include <taut/io/volume_file.hpp>
+#include <taut/io/write_files.hpp>
+
+namespace taut::io
+{
+
+/// The points as a reader gets them who keeps to the precision that the file declares: rounded to single where it
+/// does, else as they are. Text itself holds every digit in any case.
+/// points: one a point of the file.
+std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points);
+
+/// The bytes of the file with other coordinates. A coordinate that has not changed, bit for bit, keeps its bytes;
+/// others are the shortest decimal that reads back the same double, or binary as the file has it.
+/// points: one a point of the file; z = that of the file where it has two coordinates.
+/// Throws parameter_error: another number of points, a coordinate that is not finite (also after rounding), a z that
+/// the file has no place for.
+std::string with_points(const volume_file& file, std::span<const vec3> points);
+
+/// The files that make up a mesh with other coordinates, for write_files: one, for TetGen PATH.node and its companions
+/// PATH.ele, PATH.face. Both arguments must outlive the result.
+/// Throws parameter_error as with_points(); io_error where an output is an input, or the extension another format's.
+std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
+                                          std::span<const vec3> points);
+
+/// Writes them; they appear together or not at all. Throws io_error, parameter_error.
+void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);
+
+} // namespace taut::io
+
+#ifndef TAUT_COMPILED
+#include <taut/io/detail/volume/write_volume.ipp>
+#endif

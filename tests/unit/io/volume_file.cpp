@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+#include <taut/io/read_volume.hpp>
+#include <taut/io/write_volume.hpp>
+
+#include "support/temporary_folder.hpp"
+#include "support/volume_texts.hpp"
+
+namespace
+{
+
+using namespace taut;
+using io::cell_kind;
+using io::volume_format;
+
+io::volume_file medit_file(const test::volume_sample& s)
+{
+    return io::parse_volume(test::medit_text(s), volume_format::medit, "a.mesh");
+}
+
+TEST_CASE("groups: found by name, or by a number that one name ends in; else what there is is listed")
+{
+    io::volume_file file;
+    file.path = "a.mesh";
+    CHECK_THROWS_WITH_AS(file.find_group("wing"), "a.mesh: no group 'wing'; the file has no groups", io::group_error);
+    file.groups = {{"wing", 2, {1}}, {"triangles:3", 2, {2}}, {"tetrahedra:3", 3, {4}}, {"vertices:13", 0, {5}}};
+    CHECK(file.find_group("wing").vertices == std::vector<idx>{1});
+    CHECK(file.find_group("13").name == "vertices:13");
+    CHECK_THROWS_WITH_AS(file.find_group("3"),
+                         "a.mesh: several groups end in '3'; there are wing, triangles:3, tetrahedra:3, vertices:13",
+                         io::group_error);
+    CHECK_THROWS_WITH_AS(file.find_group("wings"), doctest::Contains("no group 'wings'; there are wing, "),
+                         io::group_error);
+}
+
+TEST_CASE("tetrahedra: all turned is the order of the file, a few are inverted cells")
+{
+    auto s = test::small_volume(false);
+    CHECK(io::tetrahedra_of(medit_file(s)).cell_count() == 2);
+    std::swap(s.cells[1].corners[0], s.cells[1].corners[1]);
+    CHECK(io::tetrahedra_of(medit_file(s)).cell_count() == 2); // one of two
+    std::swap(s.cells[2].corners[0], s.cells[2].corners[1]);
+    CHECK_THROWS_WITH_AS(io::tetrahedra_of(medit_file(s)),
+                         "a.mesh: all 2 tetrahedra are turned: in MEDIT files corner 3 sees 0, 1, 2 turn "
+                         "counter-clockwise; write them in this order",
+                         mesh_error);
+    CHECK_THROWS_WITH_AS(io::tetrahedra_of(medit_file(test::small_volume(true))),
+                         "a.mesh: cell 3 is a pyramid; this takes tetrahedra alone, split it into such", io::io_error);
+}
+
+TEST_CASE("corner simplices: each corner of each kind, all positive, with the cell they belong to")
+{
+    const auto s = test::small_volume(true);
+    for (const auto& file : {medit_file(s), io::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk)})
+    {
+        const auto corners = io::corner_simplices_of(file);
+        CHECK(corners.simplices.cell_count() == 2 * 1 + 4 + 6 + 8);
+        REQUIRE(corners.cells.size() == 20);
+        CHECK(corners.cells.front() == 1); // the triangle comes first
+        CHECK(corners.cells.back() == 5);
+        for (idx c = 0; c < corners.simplices.cell_count(); ++c)
+            CHECK(tetrahedron::determinant(corners.simplices.rest(c)) > 0);
+    }
+    CHECK_THROWS_AS(io::corner_simplices_of(medit_file(test::small_square())), mesh_error);
+}
+
+TEST_CASE("corner simplices: a kind that is turned is named with the convention of the format")
+{
+    auto s = test::small_volume(true);
+    auto& wedge = s.cells[4].corners;
+    wedge = {wedge[0], wedge[2], wedge[1], wedge[3], wedge[5], wedge[4]};
+    const auto refuses = [](const io::volume_file& file, const char* message)
+    { CHECK_THROWS_WITH_AS(io::corner_simplices_of(file), doctest::Contains(message), mesh_error); };
+    refuses(medit_file(s), "all 1 wedges are turned: in MEDIT files the normal of corners 0, 1, 2 points to 3, 4, 5 "
+                           "(these have it as VTK does)");
+    refuses(io::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk), "as gmsh and MEDIT do");
+    s = test::small_volume(true);
+    auto& hexahedron = s.cells[3].corners;
+    std::rotate(hexahedron.begin(), hexahedron.begin() + 4, hexahedron.end());
+    refuses(medit_file(s), "all 1 hexahedra are turned: in MEDIT files corners 4, 5, 6, 7 see 0, 1, 2, 3 turn");
+}
+
+TEST_CASE("writing: coordinates that stay keep their text, others are the shortest that read back")
+{
+    const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices 2\n", tail = "\nTriangles 0\nEnd\n";
+    const auto file = io::parse_volume(head + "+1.500 -0.0 1e+00 7\n\t.5   2. 0.1000000000000000055\t7 # x" + tail,
+                                       volume_format::medit);
+    CHECK(io::with_points(file, file.points) == file.bytes);
+    auto points = file.points;
+    points[0].y = 0.0; // another sign
+    points[1].x = 1. / 3;
+    points[1].y = 1e-300;
+    CHECK(io::with_points(file, points) ==
+          head + "+1.500 0 1e+00 7\n\t0.3333333333333333   1e-300 0.1000000000000000055\t7 # x" + tail);
+}
+
+TEST_CASE("writing: single precision rounds, and says to what")
+{
+    const auto s = test::small_volume(false);
+    auto points = s.points;
+    points[1].x = 0.1;
+    for (const bool text : {true, false})
+    {
+        const auto file =
+            io::parse_volume(test::vtk_text(s, {.text = text, .single = true}, 3), volume_format::vtk, "a.vtk");
+        const auto rounded = io::rounded_to_file(file, points);
+        CHECK(rounded[1].x == static_cast<double>(0.1f));
+        const auto back = io::parse_volume(io::with_points(file, points), volume_format::vtk);
+        CHECK(back.points[1].x == (text ? 0.1 : static_cast<double>(0.1f)));
+        CHECK(io::rounded_to_file(back, back.points) == rounded);
+        points[1].x = 1e300;
+        if (!text) CHECK_THROWS_AS(io::with_points(file, points), parameter_error);
+        points[1].x = 0.1;
+    }
+    const auto twice = io::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk);
+    CHECK(io::rounded_to_file(twice, points) == points);
+}
+
+TEST_CASE("writing: what a file cannot hold is refused")
+{
+    const auto file = medit_file(test::small_volume(false));
+    auto points = file.points;
+    points[2].y = NAN;
+    CHECK_THROWS_WITH_AS(io::with_points(file, points), doctest::Contains("point 2 has a coordinate"), parameter_error);
+    points.pop_back();
+    CHECK_THROWS_WITH_AS(io::with_points(file, points), doctest::Contains("4 for the 5 of the file"), parameter_error);
+    const auto planar = io::parse_volume(test::medit_text(test::small_square(), 2), volume_format::medit);
+    points = planar.points;
+    points[1].z = 1;
+    CHECK_THROWS_WITH_AS(io::with_points(planar, points), doctest::Contains("point 1 has left the plane"),
+                         parameter_error);
+}
+
+TEST_CASE("writing: no output is an input, nor of another format")
+{
+    const test::temporary_folder folder;
+    const std::string text = test::medit_text(test::small_volume(false));
+    folder.write(folder / "in.mesh", text);
+    std::filesystem::create_symlink(folder / "in.mesh", folder / "link.mesh");
+    const auto file = io::read_volume_file(folder / "in.mesh");
+    for (const char* name : {"in.mesh", "link.mesh"})
+        CHECK_THROWS_WITH_AS(io::write_volume(folder / name, file, file.points), doctest::Contains("is the input"),
+                             io::io_error);
+    CHECK_THROWS_WITH_AS(io::write_volume(folder / "out.vtk", file, file.points),
+                         doctest::Contains("the format of its input, MEDIT"), io::io_error);
+    CHECK(folder.entries() == 2);
+    io::write_volume(folder / "out.mesh", file, file.points);
+    CHECK(folder.read(folder / "out.mesh") == text);
+}
+
+} // namespace

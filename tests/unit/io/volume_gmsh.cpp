@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+#include <taut/io/read_volume.hpp>
+
+#include "support/volume_texts.hpp"
+
+namespace
+{
+
+using namespace taut;
+
+io::volume_file read_gmsh(const std::string& bytes)
+{
+    return io::parse_volume(bytes, io::volume_format::gmsh, "a.msh");
+}
+
+std::string replace_once(std::string text, const std::string& from, const std::string& to)
+{
+    return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_CASE("gmsh: physical groups have their names, or dimension and tag")
+{
+    const auto s = test::small_volume(false);
+    for (const bool text : {true, false})
+        for (const auto& bytes : {test::gmsh2_text(s, {text}), test::gmsh4_text(s, {text})})
+        {
+            const auto file = read_gmsh(bytes);
+            REQUIRE(file.groups.size() == 3);
+            CHECK(file.find_group("the wall").vertices == std::vector<idx>{0, 1, 2});
+            CHECK(file.find_group("the wall").dimension == 2);
+            CHECK(file.find_group("body").vertices == std::vector<idx>{0, 1, 2, 3});
+            CHECK(file.find_group("physical:3:2").vertices == std::vector<idx>{0, 1, 2, 4});
+        }
+}
+
+TEST_CASE("gmsh: without physical groups the entities are groups; a name of several dimensions gets them")
+{
+    const auto s = test::small_volume(false);
+    std::string text = test::gmsh2_text(s, {});
+    for (const char* tags : {" 2 7 47", " 2 1 41", " 2 2 42"})
+        text = replace_once(text, tags, std::string(" 2 0") + (tags + 4));
+    const auto file = read_gmsh(text);
+    CHECK(file.find_group("entity:2:47").vertices == std::vector<idx>{0, 1, 2});
+    CHECK(file.find_group("entity:3:41").vertices == std::vector<idx>{0, 1, 2, 3});
+
+    const auto both = read_gmsh(replace_once(test::gmsh2_text(s, {}), "\"body\"", "\"the wall\""));
+    CHECK(both.find_group("the wall:2").vertices == std::vector<idx>{0, 1, 2});
+    CHECK(both.find_group("the wall:3").vertices == std::vector<idx>{0, 1, 2, 3});
+    CHECK_THROWS_AS(both.find_group("the wall"), io::group_error);
+}
+
+TEST_CASE("gmsh: errors tell the line, or the byte, and the remedy")
+{
+    const auto s = test::small_volume(false);
+    const std::string text = test::gmsh2_text(s, {}), fourth = test::gmsh4_text(s, {});
+    const auto refuses = [](const std::string& bytes, const char* message)
+    { CHECK_THROWS_WITH_AS(read_gmsh(bytes), doctest::Contains(message), io::io_error); };
+    refuses("", "there is no $MeshFormat");
+    refuses(replace_once(text, "2.2 0 8", "4.0 0 8"),
+            "line 2: this version of the format is not read; save as 2.2 or 4.1");
+    refuses(replace_once(text, "2.2 0 8", "2.2 0 4"), "numbers of 4 bytes");
+    refuses(replace_once(text, "$EndElements", ""), "no $EndElements behind this");
+    refuses(replace_once(text, "\n2 4 2 1", "\n2 11 2 1"), "element type 11 is not one of first order");
+    refuses(replace_once(text, "\n2 4 2 1 41", "\n2 4 4 1 41 1 5"), "a mesh in partitions");
+    refuses(replace_once(text, "\n117 ", "\n120 "), "two points have the number 120");
+    refuses(replace_once(text, "\n117 ", "\n118 "), "no point has the number 117");
+    refuses(replace_once(text, "$Nodes\n5", "$Nodes\n5000000"), "more than the rest of the file can hold");
+    refuses(replace_once(text, "$Nodes", "$Knots"), "no $EndKnots");
+    refuses(replace_once(text, "$Elements\n3", "$Elements\n2"), "$Elements does not end here, where its counts say");
+    refuses(replace_once(fourth, "$EndEntities\n", "$EndEntities\n$PartitionedEntities\n$EndPartitionedEntities\n"),
+            "save it without them");
+    refuses(replace_once(fourth, "0 0 0 0.5", "nan 0 0 0.5"), "point 0 has a coordinate that is not finite");
+    const std::string binary = test::gmsh2_text(s, {.text = false});
+    refuses(replace_once(binary, std::string("\1\0\0\0", 4), "abcd"), "order of bytes");
+}
+
+} // namespace

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+#include <taut/io/read_volume.hpp>
+#include <taut/io/write_volume.hpp>
+
+#include "support/temporary_folder.hpp"
+#include "support/volume_promises.hpp"
+#include "support/volume_texts.hpp"
+
+namespace
+{
+
+using namespace taut;
+using io::cell_kind;
+
+TEST_CASE("TetGen: nodes, elements and faces, counted from any number; markers and attributes are groups")
+{
+    const auto s = test::small_volume(false);
+    for (const int first : {0, 1, 12})
+    {
+        const std::string elements = test::tetgen_cells(s, cell_kind::tetrahedron, first);
+        const auto read = [&](const std::string& nodes)
+        { return io::parse_tetgen(nodes, elements, test::tetgen_cells(s, cell_kind::triangle, first)); };
+        const auto file = read(test::tetgen_nodes(s, first));
+        CHECK(file.points == s.points);
+        CHECK(io::tetrahedra_of(file).cells()[1] == std::array<idx, 4>{0, 2, 1, 4});
+        CHECK(file.find_group("points:1").vertices == std::vector<idx>{1, 3});
+        CHECK(file.find_group("faces:7").vertices == std::vector<idx>{0, 1, 2});
+        CHECK(file.find_group("tetrahedra:2").vertices == std::vector<idx>{0, 1, 2, 4});
+        CHECK(test::broken_promise(file, read) == "");
+    }
+}
+
+TEST_CASE("TetGen: two dimensions are triangles, as Triangle writes them")
+{
+    const auto file = io::parse_tetgen("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n", "2 3 0\n1 1 2 3\n2 1 3 4\n");
+    CHECK(file.dimension == 2);
+    CHECK(io::triangles_of(file).cell_count() == 2);
+    CHECK(io::with_points(file, std::vector<vec3>{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {0, 1, 0}}) ==
+          "4 2 0 0\n1 0 0\n2 2 0\n3 1 1\n4 0 1\n");
+}
+
+TEST_CASE("TetGen: either name reads and writes all files")
+{
+    const test::temporary_folder folder;
+    const auto s = test::small_volume(false);
+    folder.write(folder / "in.node", test::tetgen_nodes(s));
+    folder.write(folder / "in.ele", test::tetgen_cells(s, cell_kind::tetrahedron));
+    const auto file = io::read_volume_file(folder / "in.ele");
+    CHECK(file.companions.size() == 1);
+    auto points = file.points;
+    points[3].z = 0.125;
+    io::write_volume(folder / "out.ele", file, points);
+    CHECK(folder.read(folder / "out.ele") == folder.read(folder / "in.ele"));
+    CHECK(io::read_volume_file(folder / "out.node").points == points);
+    CHECK(folder.entries() == 4);
+
+    folder.write(folder / "in.face", test::tetgen_cells(s, cell_kind::triangle));
+    const auto three = io::read_volume_file(folder / "in.node");
+    io::write_volume(folder / "three.node", three, three.points);
+    CHECK(folder.read(folder / "three.face") == folder.read(folder / "in.face"));
+    CHECK(folder.read(folder / "three.node") == folder.read(folder / "in.node"));
+    CHECK_THROWS_WITH_AS(io::write_volume(folder / "in.ele", three, points), doctest::Contains("is the input"),
+                         io::io_error);
+    std::filesystem::remove(folder / "in.ele");
+    CHECK_THROWS_AS(io::read_volume_file(folder / "in.node"), io::io_error);
+}
+
+TEST_CASE("TetGen: errors name the file and the line")
+{
+    const auto s = test::small_volume(false);
+    const std::string nodes = test::tetgen_nodes(s);
+    const auto refuses = [](const std::string& points, const std::string& elements, const char* message) {
+        CHECK_THROWS_WITH_AS(io::parse_tetgen(points, elements, {}, "a.node"), doctest::Contains(message),
+                             io::io_error);
+    };
+    refuses("4 5 0 0\n", "0 4 0\n", "a.node, line 1: dimension 5; it must be 2 or 3");
+    refuses("0 3 0 0\n", "0 4 0\n", "no points");
+    refuses(nodes, "1 10 0\n1 1 2 3 4 1 1 1 1 1 1\n", "a.ele, line 1: 10 corners an element");
+    refuses(nodes, "1 4 0\n1 1 2 3 6\n", "a.ele, line 2: no point has the number 6");
+    refuses(nodes, "2 4 0\n1 1 2 3 4\n", "the file ends before");
+    refuses("2 3 0 0\n1 0 0 0\n1 0 0 1\n", "1 4 0\n", "two points have the number 1");
+    refuses("2 3 0 0\n1 0 0 0\n2 0 inf 1\n", "1 4 0\n", "point 1 has a coordinate that is not finite");
+}
+
+} // namespace

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+#include <taut/io/read_volume.hpp>
+
+#include "support/volume_texts.hpp"
+
+namespace
+{
+
+using namespace taut;
+using io::volume_format;
+
+std::string exchange(std::string text, const std::string& from, const std::string& to)
+{
+    return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_CASE("VTK, VTU: integers of points and cells are groups by value")
+{
+    const auto s = test::small_volume(false);
+    for (const bool text : {true, false})
+        for (const auto& [format, bytes] : {std::pair(volume_format::vtk, test::vtk_text(s, {text}, 3)),
+                                            std::pair(volume_format::vtk, test::vtk_text(s, {text}, 5)),
+                                            std::pair(volume_format::vtu, test::vtu_text(s, {text}))})
+        {
+            const auto file = io::parse_volume(bytes, format);
+            CHECK(file.find_group("part:7").vertices == std::vector<idx>{0, 1, 2});
+            CHECK(file.find_group("part:7").dimension == 2);
+            CHECK(file.find_group("part:2").vertices == std::vector<idx>{0, 1, 2, 4});
+            CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
+            CHECK(file.find_group("side:1").dimension == 0);
+            CHECK(file.notes.empty());
+        }
+}
+
+TEST_CASE("VTK: attributes that are not known, or number things, make no groups, which is said")
+{
+    const auto s = test::small_volume(false);
+    const std::string text = test::vtk_text(s, {}, 3);
+    const auto file = io::parse_volume(exchange(text, "VECTORS push float", "SPECIAL push float"), volume_format::vtk);
+    REQUIRE(file.notes.size() == 1);
+    CHECK(file.notes[0].find("'SPECIAL'") != std::string::npos);
+    CHECK(file.find_group("part:1").vertices.size() == 4);
+
+    test::volume_sample many;
+    for (int v = 0; v < 400; ++v)
+    {
+        many.points.emplace_back(v, 0, 0);
+        many.cells.push_back({io::cell_kind::vertex, {v}, v});
+    }
+    const auto numbered = io::parse_volume(test::vtk_text(many, {}, 3), volume_format::vtk);
+    CHECK(numbered.groups.size() == 2); // side:0, side:1
+    REQUIRE(numbered.notes.size() == 1);
+    CHECK(numbered.notes[0].find("'part' has more than 256 different values") != std::string::npos);
+}
+
+TEST_CASE("VTK: lookup tables, scalars without a table and metadata within fields are passed over")
+{
+    const auto s = test::small_volume(false);
+    std::string text = test::vtk_text(s, {}, 3);
+    text = exchange(text, "LOOKUP_TABLE default\n", "");
+    std::string tensors;
+    for (int k = 0; k < 45; ++k) tensors += " 1";
+    text = exchange(text, "POINT_DATA 5\n",
+                    "LOOKUP_TABLE mine 2\n0 0 0 1\n1 1 1 1\nPOINT_DATA 5\nCOLOR_SCALARS c 1\n0 0.5 1 0 0\n"
+                    "TENSORS t float\n" +
+                        tensors + "\n");
+    text = exchange(text, "side 1 5 int\n",
+                    "first 1 1 float\n3\nMETADATA\nINFORMATION 1\nNAME L2 LOCATION x\nDATA 2 0 1\n\nside 1 5 int\n");
+    text = exchange(text, "FIELD FieldData 1\nfirst", "FIELD FieldData 2\nfirst");
+    const auto file = io::parse_volume(text, volume_format::vtk);
+    CHECK(file.notes.empty());
+    CHECK(file.find_group("part:1").vertices.size() == 4);
+    CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
+}
+
+TEST_CASE("VTK: errors tell the line")
+{
+    const std::string text = test::vtk_text(test::small_volume(false), {}, 3);
+    const auto refuses = [](const std::string& bytes, const char* message)
+    {
+        CHECK_THROWS_WITH_AS(io::parse_volume(bytes, volume_format::vtk, "a.vtk"), doctest::Contains(message),
+                             io::io_error);
+    };
+    refuses("solid", "line 1: not a VTK file");
+    refuses(exchange(text, "ASCII", "HEX"), "line 3: neither ASCII nor BINARY");
+    refuses(exchange(text, "UNSTRUCTURED_GRID", "POLYDATA"), "line 4: no DATASET UNSTRUCTURED_GRID");
+    refuses(exchange(text, "5 double", "5 int"), "points of integers cannot be moved");
+    refuses(exchange(text, "5 double", "5 half"), "line 8: unknown type 'half'");
+    refuses(exchange(text, "\n3 0 2 1", "\n3 0 2 9"), "point 9 of 5; they count from 0");
+    refuses(exchange(text, "\n3 0 2 1", "\n9 0 2 1"), "has 9 corners");
+    refuses(exchange(text, "CELL_TYPES 3\n5", "CELL_TYPES 3\n9"), "cell 0, a quad, ends at corner 3 instead of 4");
+    refuses(exchange(text, "CELL_TYPES 3\n5", "CELL_TYPES 3\n42"), "polyhedra cannot be read; split them");
+    refuses(exchange(text, "CELL_TYPES 3\n5", "CELL_TYPES 3\n24"),
+            "cells of higher order; save the mesh in first order");
+    refuses(exchange(text, "CELL_TYPES 3", "CELL_TYPES 2"), "2 cell types for 3 cells");
+    refuses(exchange(text, "POINTS 5", "POINTS 50000000"), "more than the rest of the file can hold");
+    refuses(exchange(text, "0.001", "inf"), "line 12: point 3 has a coordinate that is not finite");
+}
+
+TEST_CASE("VTU: errors tell the line and the remedy")
+{
+    const auto s = test::small_volume(false);
+    const std::string text = test::vtu_text(s, {}), raw = test::vtu_text(s, {.text = false});
+    const auto refuses = [](const std::string& bytes, const char* message)
+    {
+        CHECK_THROWS_WITH_AS(io::parse_volume(bytes, volume_format::vtu, "a.vtu"), doctest::Contains(message),
+                             io::io_error);
+    };
+    refuses("", "there is no <VTKFile>");
+    refuses(exchange(text, "type=\"UnstructuredGrid\"", "type=\"PolyData\""), "line 3: not an UnstructuredGrid");
+    refuses(exchange(text, "format=\"ascii\">0 0 0\n", "format=\"binary\">AAAA"),
+            "base64 data; save the mesh with ascii");
+    refuses(exchange(raw, "encoding=\"raw\"", "encoding=\"base64\""), "base64 data; save the mesh with ascii");
+    refuses(exchange(raw, "version=\"1.0\" byte", "compressor=\"vtkZLibDataCompressor\" byte"),
+            "compressed data; save the mesh uncompressed");
+    refuses(exchange(text, "</Piece>", "</Piece><Piece NumberOfPoints='0' NumberOfCells='0'></Piece>"),
+            "a second piece; merge them");
+    refuses(exchange(text, "NumberOfPoints=\"5\"", "NumberOfPoints=\"6\""), "the file ends before a number");
+    refuses(exchange(text, "NumberOfPoints=\"5\"", "NumberOfPoints=\"four\""), "no NumberOfPoints");
+    refuses(exchange(text, "Name=\"offsets\"", "Name=\"ends\""), "no array offsets in <Cells>");
+    refuses(exchange(text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\""), "points need three components");
+    refuses(exchange(raw, "offset=\"0\"", "offset=\"99999\""), "no offset");
+    refuses(exchange(text, "\">5 10 10</DataArray>", "\">5 10 42</DataArray>"), "polyhedra");
+
+    // What is wrong with an attribute alone costs its groups.
+    const auto file =
+        io::parse_volume(exchange(text, "format=\"ascii\">0 1 0 1 0<", "format=\"binary\">AAAA<"), volume_format::vtu);
+    REQUIRE(file.notes.size() == 1);
+    CHECK(file.notes[0].find("no groups were made of 'side': base64 data") != std::string::npos);
+}
+
+} // namespace
