@@ -25,8 +25,8 @@ struct directed_spring
 template <int D>
 struct point_constraints
 {
-    held_marks<D> held;             ///< one a vertex, or none
-    std::vector<spring<D>> springs; ///< each adds weight * |x - target|^2 to the energy's mean
+    held_marks<D> held;                      ///< one a vertex, or none
+    std::vector<directed_spring<D>> springs; ///< what they add is added to the energy's mean
 
     bool empty() const { return held.empty() && springs.empty(); }
 
@@ -35,7 +35,7 @@ struct point_constraints
     {
         point_constraints r;
         if (!held.empty()) r.held = held_marks<D>(p.apply(held.bits()));
-        for (spring<D> s : springs)
+        for (directed_spring<D> s : springs)
         {
             s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];
             r.springs.push_back(s);
@@ -50,7 +50,7 @@ struct point_constraints
         for (auto& s : r.springs)
         {
             s.target *= factor;
-            s.weight /= factor * factor;
+            s.stiffness /= factor * factor;
         }
         return r;
     }

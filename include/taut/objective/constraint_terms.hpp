@@ -38,9 +38,7 @@ public:
           vertex_stride_(static_cast<idx>(mesh_layout.vertex_stride))
     {
         if (!c.held.empty()) make_mask(held_marks<D>(mesh_layout.order.vertices.apply(c.held.bits())));
-        std::vector<directed_spring<D>> springs;
-        for (const spring<D>& s : c.springs) springs.push_back({s.vertex, s.target, vec<D>(s.weight)});
-        if (!springs.empty()) set_springs(mesh_layout, springs);
+        if (!c.springs.empty()) set_springs(mesh_layout, c.springs);
     }
 
     /// Other springs, in the user's numbers and units. mesh_layout: the same as before.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <taut/map/detail/fitted_start.hpp>
+#include <taut/map/detail/drawn_start.hpp>
 #include <taut/map/detail/given_map.hpp>
 #include <taut/start/conformal.hpp>
 
@@ -20,6 +21,12 @@ run_start made_start(const map_run<Element>& run)
     {
         start.stopped = true;
         return start;
+    }
+    if (drawn_start<Element>::applies(run))
+    {
+        start = drawn_start<Element>(run).make();
+        if (!start.useless || start.stopped) return start;
+        start = run_start();
     }
     if (run.params.start == start_method::conformal && run.params.boundary == boundary_mode::free)
         start.map = conformal_start(run.in.surface, run.in.sides);

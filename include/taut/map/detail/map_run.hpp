@@ -62,6 +62,14 @@ struct map_run
     /// Without iterations the start is returned as it is.
     bool iterates() const { return params.solve.stopping.max_iterations > 0; }
 
+    /// The precision of the first attempt.
+    taut::precision first_precision() const
+    {
+        if (params.precision != precision::automatic) return params.precision;
+        if (!queue.device().has_fp64()) return precision::fp32;
+        return levels ? precision::mixed : precision::fp64;
+    }
+
     /// Whether a start that is not given is made on coarser levels.
     bool starts_coarse() const
     {
