@@ -14,40 +14,29 @@
 namespace taut::detail
 {
 
-/// A start for constraints that hold all of the boundary and vertices inside it, from coarse to fine. Every level holds
-/// the boundary; springs draw the other vertices to their places, stiffer on each finer level and then step by step on
-/// the mesh itself, until they can be put there without a flip. The energy is a barrier, so all maps on the way are
-/// injective, and vertices are dragged as a whole with what is around them, which ends in better minima than
+/// A start that obeys pins, from coarse to fine. Springs draw pinned vertices to their places, stiffer on each finer
+/// level and then step by step on the mesh itself, until all of them can be put there without a flip. A boundary that
+/// is pinned as a whole is held from the beginning, and only what is inside is drawn. The energy is a barrier, so all
+/// maps on the way are injective, and what is around a pin is dragged along, which ends in better minima than
 /// untangling does.
 template <class Element>
 class drawn_start
 {
 public:
-    /// Refers to the run.
+    /// run: one that draws pins; referred to.
     explicit drawn_start(const map_run<Element>& run)
         : run_(run),
-          outline_(run.in.surface.points().size(), false),
-          places_(outline_.size(), vec2(0)),
-          levels_(run.in.surface, flagged_outline(), {.proceed = [&run] { return run.clock.proceed(); }},
-                  run.params.data, run.held.touched(outline_.size())),
-          pull_(run.held.pull(outline_))
+          bound_(run.held.outline_pinned(run.in.surface, run.in.sides)),
+          anchored_(anchors()),
+          places_(anchored_.size(), vec2(0)),
+          centre_(run.held.centre()),
+          levels_(run.in.surface, bound_ ? anchored_ : std::vector<bool>(),
+                  {.proceed = [&run] { return run.clock.proceed(); }}, run.params.data,
+                  run.held.touched(anchored_.size())),
+          pull_(run.held.pull(anchored_))
     {
         run.held.impose(places_, run.in.unit);
-        std::vector<vec2> held;
-        for (std::size_t v = 0; v < places_.size(); ++v)
-            if (outline_[v]) held.push_back(places_[v]);
-        const bounding_square around(held);
-        centre_ = around.centre;
-        reach_ = around.size / 2;
         run.clock.spent(&map_seconds::hierarchy);
-    }
-
-    /// Whether the constraints of a run are of the kind.
-    static bool applies(const map_run<Element>& run)
-    {
-        return run.levels && run.held.constrained() && run.params.boundary == boundary_mode::free &&
-               run.params.energy.barrier() && run.held.outline_pinned(run.in.surface, run.in.sides) &&
-               (run.params.start == start_method::coarse || run.params.start == start_method::automatic);
     }
 
     /// The start; `useless` where there is none.
@@ -57,15 +46,17 @@ public:
         start.useless = true;
         if (find_infeasibility(run_.held.problem(run_.in.surface, places_))) return start; // as untangling will say
         nested_params descent = descent_of(run_);
-        descent.first_map = [this](std::size_t l) { return within_outline(l); };
+        descent.first_map = [this](std::size_t l) { return first_map(l); };
         descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
         const std::size_t first = descent.first_level(levels_);
+        if (levels_.vertices(first) > most_vertices) return start;
         using plan = typename level_solver<Element>::plan;
         const auto form = lane_form::for_device(run_.queue.device());
         made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels_, first - k, form); });
         const auto take = [&](std::size_t l) { return plans.take(first - l); };
 
         std::optional<level_solver<Element>> solver;
+        std::vector<vec2> arrival;
         const bool built = build_within(run_.queue, run_.clock,
                                         [&]
                                         {
@@ -73,15 +64,16 @@ public:
                                                            types_of(run_.first_precision()));
                                             solver->warm_up();
                                         });
-        if (built) run_.clock.spent(&map_seconds::device);
-        nested_iteration nested(levels_, *solver, descent);
-        const auto arrival = built ? nested.run([this](std::size_t l) { return observer_on(run_.clock, l); }, take)
-                                   : std::vector<vec2>();
-        start.levels = nested.reports();
-        run_.clock.spent(&map_seconds::start);
+        if (built)
+        {
+            run_.clock.spent(&map_seconds::device);
+            nested_iteration nested(levels_, *solver, descent);
+            arrival = nested.run([this](std::size_t l) { return observer_on(run_.clock, l); }, take);
+            start.levels = nested.reports();
+            run_.clock.spent(&map_seconds::start);
+        }
         if (!arrival.empty())
-            draw({*solver, take(0), arrival, {.held = {}, .springs = springs(0, first_stiffness(0))}},
-                 solver->energy_at_rest(), start);
+            draw({*solver, take(0), arrival, {.held = {}, .springs = springs(0, first_stiffness(0))}}, start);
         start.stopped = !run_.clock.proceed();
         return start;
     }
@@ -89,15 +81,17 @@ public:
 private:
     using level = typename level_solver<Element>::level;
 
-    const std::vector<bool>& flagged_outline()
+    std::vector<bool> anchors() const
     {
-        for (const auto& loop : boundary_loops(run_.in.surface, run_.in.sides))
-            for (const idx v : loop) outline_[static_cast<std::size_t>(v)] = true;
-        return outline_;
+        std::vector<bool> flags(run_.in.surface.points().size(), false);
+        if (bound_)
+            for (const auto& loop : boundary_loops(run_.in.surface, run_.in.sides))
+                for (const idx v : loop) flags[static_cast<std::size_t>(v)] = true;
+        return flags;
     }
 
-    /// Of all springs together, in units of a mean energy a squared half of the outline's size.
-    static double first_stiffness(std::size_t level) { return 256 / std::pow(growth, static_cast<double>(level)); }
+    /// Of all springs together, in units of a mean energy a squared half of the map's size.
+    static double first_stiffness(std::size_t l) { return 256 / std::pow(growth, static_cast<double>(l)); }
 
     /// In the numbers of a level, about the centre.
     std::vector<directed_spring<2>> springs(std::size_t l, double stiffness) const
@@ -112,41 +106,53 @@ private:
         const auto asked = run_.held.beyond_pins(centre_).springs;
         all.insert(all.end(), asked.begin(), asked.end());
         for (auto& s : all) s.vertex = there[static_cast<std::size_t>(s.vertex)];
+        std::erase_if(all, [](const auto& s) { return s.vertex < 0; });
         return all;
     }
 
-    /// A map of a level that obeys the outline alone.
-    start_map within_outline(std::size_t l)
+    /// A map of a level that obeys what is anchored, and is as near to the pins as a similarity brings it if nothing
+    /// is.
+    start_map first_map(std::size_t l)
     {
         const mesh<triangle> surface = levels_.level(l);
-        untangle_problem<triangle> problem{surface, std::vector<vec2>(surface.points().size(), vec2(0)),
-                                           held_marks<2>(surface.points().size())};
         const auto there = levels_.places(l);
-        for (std::size_t v = 0; v < there.size(); ++v)
-        {
-            if (!outline_[v]) continue;
-            problem.initial[static_cast<std::size_t>(there[v])] = places_[v] - centre_;
-            problem.held[static_cast<std::size_t>(there[v])] = held_marks<2>::every;
-        }
         start_map map;
-        map.uv = untangle(problem, {.stages = {"harmonic", "newton"}, .rounds = 1}).map;
-        map.assess(surface, ideal_elements<triangle>(surface));
+        if (bound_)
+            map.uv = within_outline(surface, there);
+        else
+            map.uv = robust_start(surface, descent_of(run_).start).uv;
         origins_.assign(there.size(), vec2(0));
         for (std::size_t v = 0; v < there.size(); ++v)
-            if (there[v] >= 0) origins_[v] = map.uv[static_cast<std::size_t>(there[v])] + centre_;
+            if (there[v] >= 0) origins_[v] = map.uv[static_cast<std::size_t>(there[v])];
+        if (!bound_) run_.held.bring_near(origins_);
+        for (std::size_t v = 0; v < there.size(); ++v)
+            if (there[v] >= 0) map.uv[static_cast<std::size_t>(there[v])] = origins_[v] - centre_;
+        reach_ = bounding_square(map.uv).size / 2;
+        map.assess(surface, ideal_elements<triangle>(surface));
         return map;
     }
 
-    /// Stiffens the springs until what they draw can be put to its place.
-    void draw(level finest, double base, run_start& start)
+    std::vector<vec2> within_outline(const mesh<triangle>& surface, const std::vector<idx>& there) const
     {
-        solve::params some{.method = solve::method::newton};
-        some.stopping = {.decrease_tolerance = 5e-3, .decrease_count = 1, .max_iterations = 3};
-        some.stopping.base = base;
+        const std::size_t n = surface.points().size();
+        untangle_problem<triangle> problem{surface, std::vector<vec2>(n, vec2(0)), held_marks<2>(n)};
+        for (std::size_t v = 0; v < there.size(); ++v)
+        {
+            if (!anchored_[v]) continue;
+            problem.initial[static_cast<std::size_t>(there[v])] = places_[v];
+            problem.held[static_cast<std::size_t>(there[v])] = held_marks<2>::every;
+        }
+        return untangle(problem, {.stages = {"harmonic", "newton"}, .rounds = 1}).map;
+    }
+
+    /// Stiffens the springs, a step of Newton's method each time, until what they draw can be put to its place.
+    void draw(level finest, run_start& start)
+    {
+        const solve::params step{.method = solve::method::newton, .stopping = {.max_iterations = 1}};
         untangle_stage_report did{"draw"};
         finest.relax();
         double stiffness = first_stiffness(0);
-        for (int stride = 0; run_.clock.proceed(); ++stride, stiffness *= growth)
+        for (int stride = 0; start.useless; ++stride, stiffness *= growth)
         {
             auto uv = centred(levels_.order().vertices.undo(finest.download()), -centre_);
             run_.held.impose(uv, run_.in.unit);
@@ -156,11 +162,11 @@ private:
                 start.useless = false;
                 break;
             }
-            if (stride == strides) return;
+            if (stride == strides || !run_.clock.proceed()) return;
             if (stride > 0) finest.set_springs(springs(0, stiffness));
-            did.iterations += finest.minimize(some, observer_on(run_.clock, 1)).iterations; // no map of the run yet
+            if (finest.minimize(step, observer_on(run_.clock, 1)).iterations == 0) return; // no map of the run yet
+            ++did.iterations;
         }
-        if (start.useless) return;
         start.map.assess(run_.in.surface, run_.in.ideal);
         start.pin_origins = run_.held.pinned_points(origins_);
         start.centre = bounding_square(start.map.uv).centre;
@@ -170,16 +176,18 @@ private:
         start.untangling.push_back(std::move(did));
     }
 
+    static constexpr std::size_t most_vertices = 12000; // of the first map, which is made on the host
     static constexpr double growth = 4;
     static constexpr int strides = 14; // with stiffer springs rounding would decide
 
     const map_run<Element>& run_;
-    std::vector<bool> outline_;
+    bool bound_; ///< all of the boundary is pinned
+    std::vector<bool> anchored_;
     std::vector<vec2> places_; ///< where vertices are held
+    vec2 centre_;
     mesh_levels<Element> levels_;
     std::vector<directed_spring<2>> pull_;
-    vec2 centre_{0};
-    double reach_ = 1;
+    double reach_ = 1;          ///< half the size of the first map
     std::vector<vec2> origins_; ///< of all vertices, as far as they are on the first level
 };
 

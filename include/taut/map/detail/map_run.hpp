@@ -70,11 +70,19 @@ struct map_run
         return levels ? precision::mixed : precision::fp64;
     }
 
-    /// Whether a start that is not given is made on coarser levels.
-    bool starts_coarse() const
+    /// Whether a start that is not given is made on coarser levels: of nothing that is held, as part of an attempt.
+    bool starts_coarse() const { return may_start_coarse() && !held.constrained(); }
+
+    /// The same where pins are to be drawn to their places there.
+    bool draws_pins() const
     {
-        return levels && !held.constrained() &&
-               (params.start == start_method::coarse || params.start == start_method::automatic);
+        return may_start_coarse() && held.pinned() && params.boundary == boundary_mode::free && params.energy.barrier();
+    }
+
+private:
+    bool may_start_coarse() const
+    {
+        return levels && (params.start == start_method::coarse || params.start == start_method::automatic);
     }
 };
 
