@@ -11,6 +11,7 @@
 
 #include <taut/constrain/point_constraints.hpp>
 #include <taut/constrain/untangle_problem.hpp>
+#include <taut/measure/planar_size.hpp>
 #include <taut/measure/similarity.hpp>
 #include <taut/mesh/boundary.hpp>
 
@@ -35,7 +36,40 @@ public:
         for (const auto& [v, pin] : wanted_.pins()) marks_[static_cast<std::size_t>(v)] |= pin.held;
     }
 
+    /// One flag a vertex of which anything is asked: coarser surfaces should have it. Springs that are many are left
+    /// out; those whose vertices happen to be there will do.
+    std::vector<bool> touched(std::size_t vertices) const
+    {
+        std::vector<bool> any(vertices, false);
+        for (std::size_t v = 0; v < marks_.size(); ++v) any[v] = marks_.any(v);
+        const auto springs = wanted_.springs();
+        if (springs.size() <= vertices / 10)
+            for (const auto& s : springs) any[static_cast<std::size_t>(s.vertex)] = true;
+        return any;
+    }
+
+    /// Springs of stiffness 1 to where pinned vertices have to be, along the coordinates that are held; of the vertices
+    /// for which `left_out` has no flag.
+    std::vector<directed_spring<2>> pull(const std::vector<bool>& left_out) const
+    {
+        std::vector<directed_spring<2>> springs;
+        for (const auto& [v, pin] : wanted_.pins())
+            if (!left_out[static_cast<std::size_t>(v)])
+                springs.push_back({v, pin.value * unit_, vec2(pin.held & 1u, pin.held >> 1u & 1u)});
+        return springs;
+    }
+
+    /// The middle of the places of pinned vertices; the origin without any.
+    vec2 centre() const
+    {
+        std::vector<vec2> places;
+        for (const auto& [v, p] : wanted_.pins())
+            if (p.held == marks_.every) places.push_back(p.value * unit_);
+        return places.empty() ? vec2(0) : detail::bounding_square(places).centre;
+    }
+
     bool constrained() const { return !wanted_.empty(); }
+    bool pinned() const { return !wanted_.pins().empty(); }
 
     /// One a vertex; none if nothing is held.
     const held_marks<2>& marks() const { return marks_; }
@@ -111,7 +145,7 @@ public:
     {
         point_constraints<2> r;
         if (auto alone = marks_.without_pinned(); alone.any()) r.held = std::move(alone);
-        r.springs = wanted_.springs();
+        for (const auto& s : wanted_.springs()) r.springs.push_back({s.vertex, s.target, vec2(s.weight)});
         r = r.scaled(unit_);
         for (auto& s : r.springs) s.target -= centre;
         return r;

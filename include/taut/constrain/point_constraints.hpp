@@ -35,9 +35,9 @@ std::vector<directed_spring<D>> directed(const std::vector<spring<D>>& springs)
 template <int D>
 struct point_constraints
 {
-    held_marks<D> held;             ///< one a vertex, or none
-    std::vector<spring<D>> springs; ///< each adds weight * |x - target|^2 to the energy's mean
-    std::vector<slide<D>> slides{}; ///< at most one a vertex
+    held_marks<D> held;                      ///< one a vertex, or none
+    std::vector<directed_spring<D>> springs; ///< what they add is added to the energy's mean
+    std::vector<slide<D>> slides{};          ///< at most one a vertex
 
     bool empty() const { return held.empty() && springs.empty() && slides.empty(); }
 
@@ -46,7 +46,7 @@ struct point_constraints
     {
         point_constraints r;
         if (!held.empty()) r.held = held_marks<D>(p.apply(held.bits()));
-        for (spring<D> s : springs)
+        for (directed_spring<D> s : springs)
         {
             s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];
             r.springs.push_back(s);
@@ -66,7 +66,7 @@ struct point_constraints
         for (auto& s : r.springs)
         {
             s.target *= factor;
-            s.weight /= factor * factor;
+            s.stiffness /= factor * factor;
         }
         return r;
     }

@@ -66,7 +66,7 @@ public:
           limit_(queue_, types.vector, std::array{1.0}),
           corner_gradients_(queue_, types.position, (D + 1) * D * layout_->cell_stride),
           gather_(make_gather()),
-          springs_(queue_, types, *layout_, directed(constraints.springs)),
+          springs_(queue_, types, *layout_, constraints.springs),
           held_(queue_, types, *layout_),
           sliding_(queue_, types, *layout_),
           gradient_scale_(characteristic_gradient(*layout_, energy, weights))
@@ -95,7 +95,7 @@ public:
     /// Other constraints, in the user's numbers and units, in the place of those that it was made with.
     void constrain(const point_constraints<D>& c)
     {
-        springs_.set_springs(*layout_, directed(c.springs));
+        springs_.set_springs(*layout_, c.springs);
         held_.hold(*layout_, c.held);
         sliding_.slide(*layout_, c.slides);
     }

@@ -23,9 +23,11 @@ class mesh_levels
 {
 public:
     /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level. data: of the cells of m; coarser
-    /// levels have the means. Throws mesh_error, parameter_error.
+    /// levels have the means. kept: other vertices that are on every level, or empty. Throws mesh_error,
+    /// parameter_error.
     explicit mesh_levels(const mesh<Element>& m, const std::vector<bool>& pinned = {},
-                         const hierarchy_params& params = {}, const cell_data& data = {})
+                         const hierarchy_params& params = {}, const cell_data& data = {},
+                         const std::vector<bool>& kept = {})
         : numbering_(m, pinned), finest_(permute(m, numbering_.order))
     {
         data.validate(m.cells().size());
@@ -36,6 +38,12 @@ public:
         {
             keep.assign(finest_.points().size(), 0);
             std::fill(keep.begin() + numbering_.free_count, keep.end(), char(1));
+        }
+        if (!kept.empty())
+        {
+            keep.resize(finest_.points().size(), 0);
+            for (std::size_t v = 0; v < kept.size(); ++v)
+                if (kept[v]) keep[static_cast<std::size_t>(numbering_.order.vertices.old_to_new[v])] = 1;
         }
         hierarchy_ = make_hierarchy(finest_, keep, params);
         for (const auto& level : hierarchy_.levels)
@@ -54,6 +62,17 @@ public:
 
     /// Between the user's numbers and those of the finest level.
     const mesh_order& order() const noexcept { return numbering_.order; }
+
+    /// The numbers on a level of all of the user's vertices; -1 for those that it lacks.
+    std::vector<idx> places(std::size_t l) const
+    {
+        std::vector<idx> place(order().vertices.new_to_old.size(), -1);
+        const auto& chosen = hierarchy_.levels[l].vertices;
+        for (std::size_t i = 0; i < chosen.size(); ++i)
+            place[static_cast<std::size_t>(order().vertices.new_to_old[static_cast<std::size_t>(chosen[i])])] =
+                static_cast<idx>(i);
+        return place;
+    }
 
     /// A level as a mesh of its own.
     mesh<Element> level(std::size_t l) const { return l == 0 ? finest_ : level_mesh(hierarchy_, l, finest_.points()); }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -75,6 +76,9 @@ public:
         }
 
         std::vector<vec<D>> download() const { return objective_.download(x_); }
+
+        /// Other springs, in the level's numbers.
+        void set_springs(std::span<const directed_spring<D>> springs) { objective_.set_springs(springs); }
 
         /// Spreads out what caps the first step: meant for maps that come from a coarser level.
         void relax() { objective_.relax(x_); }

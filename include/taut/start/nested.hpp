@@ -24,6 +24,10 @@ struct nested_params
 {
     std::size_t start_vertices = 1000; ///< the start map is made on the finest level with at most so many
     robust_start_params start = {};
+    /// A first map of a level in place of that of robust_start, where it has to obey constraints.
+    std::function<start_map(std::size_t level)> first_map = {};
+    /// Springs on a level, in its numbers; their vertices are on all levels, and move by minimisation alone.
+    std::function<std::vector<directed_spring<2>>(std::size_t level)> springs = {};
     /// `base` is set to the energy at rest: surfaces that are nearly developable are worth the digits above it.
     solve::stopping_params stopping = {
         .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .decrease_count = 1, .max_iterations = 100};
@@ -62,11 +66,13 @@ public:
                           const std::function<level_solver<triangle>::plan(std::size_t level)>& plan)
     {
         const std::size_t first = params_.first_level(levels_);
-        start_ = robust_start(levels_.level(first), params_.start);
+        start_ = params_.first_map ? params_.first_map(first) : robust_start(levels_.level(first), params_.start);
         if (!start_.flips) return fail("the coarse start has " + describe_defects<triangle>(start_.flips));
         auto uv = std::move(start_.uv);
+        const std::vector<char> still = still_vertices();
         const auto stopped = [this] { return params_.start.proceed && !params_.start.proceed(); };
-        if (params_.start.fixed_boundary) detail::scale_outline(levels_.hierarchy(), first, levels_.points(), uv);
+        if (params_.start.fixed_boundary && !params_.first_map)
+            detail::scale_outline(levels_.hierarchy(), first, levels_.points(), uv);
         for (std::size_t l = first; l > 0; --l)
         {
             if (stopped()) return fail("it was stopped");
@@ -74,8 +80,8 @@ public:
             if (stopped()) return fail("it was stopped");
             if (reports_.back().solve.stop == solve::stop::not_finite_start)
                 return fail("the energy is not finite on level " + std::to_string(l));
-            auto finer = detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv),
-                                           {.fixed = levels_.pinned() ? levels_.fixed(0) : std::span<const char>()});
+            auto finer =
+                detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv), {.fixed = still});
             if (!std::isfinite(finer.energy))
                 return fail("not all vertices could be reinserted on level " + std::to_string(l - 1));
             uv = std::move(finer.uv);
@@ -89,10 +95,23 @@ public:
     const std::vector<level_report>& reports() const { return reports_; }
 
 private:
+    /// Flags of the vertices that reinsertion may not move; none at all where the map may be scaled, too.
+    std::vector<char> still_vertices() const
+    {
+        std::vector<char> still;
+        if (levels_.pinned()) still.assign(levels_.fixed(0).begin(), levels_.fixed(0).end());
+        if (!params_.springs) return still;
+        still.resize(levels_.vertices(0), char(0));
+        for (const auto& s : params_.springs(0)) still[static_cast<std::size_t>(s.vertex)] = 1;
+        return still;
+    }
+
     std::vector<vec2> minimised(std::size_t l, level_solver<triangle>::plan host, const std::vector<vec2>& uv,
                                 bool relax, const observer& ask)
     {
-        level_solver<triangle>::level level(solver_, std::move(host), uv);
+        point_constraints<2> asked;
+        if (params_.springs) asked.springs = params_.springs(l);
+        level_solver<triangle>::level level(solver_, std::move(host), uv, asked);
         if (relax && params_.stopping.max_iterations > 0) level.relax();
         auto stopping = params_.stopping;
         if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;

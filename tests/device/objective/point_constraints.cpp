@@ -34,9 +34,9 @@ struct setting
         wanted.held = held_marks<2>(n);
         wanted.held[n / 2] = 1;
         wanted.held[n / 3] = 2;
-        wanted.springs = {{static_cast<taut::idx>(n / 4), vec2(0.4, -0.1), 3.0},
-                          {static_cast<taut::idx>(n / 4 + 1), vec2(-0.2, 0.3), 0.5},
-                          {static_cast<taut::idx>(n - 1), vec2(1.0, 1.5), 40.0}};
+        wanted.springs = {{static_cast<taut::idx>(n / 4), vec2(0.4, -0.1), vec2(3.0)},
+                          {static_cast<taut::idx>(n / 4 + 1), vec2(-0.2, 0.3), vec2(0.5, 0.7)},
+                          {static_cast<taut::idx>(n - 1), vec2(1.0, 1.5), vec2(40.0)}};
     }
 
     newton_objective<triangle> objective(const point_constraints<2>& constraints)
@@ -55,7 +55,7 @@ struct setting
         for (const auto& s : wanted.springs)
         {
             const vec2 gap = x[static_cast<std::size_t>(s.vertex)] - s.target;
-            sum += s.weight * glm::dot(gap, gap);
+            sum += glm::dot(s.stiffness, gap * gap);
         }
         return sum;
     }

@@ -9,15 +9,6 @@
 namespace taut::detail
 {
 
-/// The precision of the first attempt.
-template <class Element>
-precision first_precision(const map_run<Element>& run)
-{
-    if (run.params.precision != precision::automatic) return run.params.precision;
-    if (!run.queue.device().has_fp64()) return precision::fp32;
-    return run.levels ? precision::mixed : precision::fp64;
-}
-
 /// False where float, and not the caller, ended the run above the tolerance.
 inline bool accurate(const solve::report& r, double tolerance)
 {
@@ -38,7 +29,7 @@ attempt attempt_in_turns(const map_run<Element>& run, const run_start& start)
     };
     const auto& stopping = run.params.solve.stopping;
     const bool chosen = run.params.precision == precision::automatic;
-    const precision how = first_precision(run);
+    const precision how = run.first_precision();
     attempt first = once(how, stopping.max_iterations, {});
     if (first.certified && (!chosen || accurate(first.solve, stopping.gradient_tolerance))) return first;
     if (first.stopped || how == precision::fp64 || !run.queue.device().has_fp64()) return first;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/map/detail/drawn_start.hpp>
 #include <taut/map/detail/fitted_start.hpp>
 #include <taut/map/detail/given_map.hpp>
 #include <taut/start/conformal.hpp>
@@ -11,7 +12,12 @@
 namespace taut::detail
 {
 
-/// A start that the method asked for makes on the mesh itself.
+/// A map as of a run without the constraints; none if that has no valid one. Defined in parameterization.hpp.
+template <class Element>
+std::vector<vec2> free_draft(const map_run<Element>& run);
+
+/// The first of these that works: springs draw pins to their places on levels; where the boundary is free, a map as of
+/// a run without the constraints, brought near to them; the start that the method asked for, on the mesh itself.
 template <class Element>
 run_start made_start(const map_run<Element>& run)
 {
@@ -20,6 +26,20 @@ run_start made_start(const map_run<Element>& run)
     {
         start.stopped = true;
         return start;
+    }
+    if (run.draws_pins())
+    {
+        start = drawn_start<Element>(run).make();
+        if (!start.useless || start.stopped) return start;
+        start = run_start();
+    }
+    if (run.held.constrained() && run.params.initial.empty() && run.params.boundary == boundary_mode::free &&
+        !run.held.outline_pinned(run.in.surface, run.in.sides))
+    {
+        start.map.uv = free_draft(run);
+        if (!start.map.uv.empty()) return fitted_start(run, std::move(start), false);
+        start.stopped = !run.clock.proceed();
+        if (start.stopped) return start;
     }
     if (run.params.start == start_method::conformal && run.params.boundary == boundary_mode::free)
         start.map = conformal_start(run.in.surface, run.in.sides);
@@ -43,21 +63,16 @@ run_start given_start(const map_run<Element>& run)
     return fitted_start(run, std::move(start), true);
 }
 
-/// The start of a run: from the draft if there is one, else from the user's coordinates, unless another one is better,
-/// else made on coarser levels or on the mesh itself.
+/// The start of a run: from the user's coordinates, unless another one is better, else made on coarser levels or on the
+/// mesh itself.
 template <class Element>
-run_start choose_start(const map_run<Element>& run, std::vector<vec2> draft)
+run_start choose_start(const map_run<Element>& run)
 {
     run_start start;
     if (run.clock.over())
     {
         start.stopped = true;
         return start;
-    }
-    if (!draft.empty())
-    {
-        start.map.uv = std::move(draft);
-        return fitted_start(run, std::move(start), false);
     }
     if (!run.params.initial.empty())
     {

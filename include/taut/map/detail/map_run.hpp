@@ -62,11 +62,27 @@ struct map_run
     /// Without iterations the start is returned as it is.
     bool iterates() const { return params.solve.stopping.max_iterations > 0; }
 
-    /// Whether a start that is not given is made on coarser levels.
-    bool starts_coarse() const
+    /// The precision of the first attempt.
+    taut::precision first_precision() const
     {
-        return levels && !held.constrained() &&
-               (params.start == start_method::coarse || params.start == start_method::automatic);
+        if (params.precision != precision::automatic) return params.precision;
+        if (!queue.device().has_fp64()) return precision::fp32;
+        return levels ? precision::mixed : precision::fp64;
+    }
+
+    /// Whether a start that is not given is made on coarser levels: of nothing that is held, as part of an attempt.
+    bool starts_coarse() const { return may_start_coarse() && !held.constrained(); }
+
+    /// The same where pins are to be drawn to their places there.
+    bool draws_pins() const
+    {
+        return may_start_coarse() && held.pinned() && params.boundary == boundary_mode::free && params.energy.barrier();
+    }
+
+private:
+    bool may_start_coarse() const
+    {
+        return levels && (params.start == start_method::coarse || params.start == start_method::automatic);
     }
 };
 

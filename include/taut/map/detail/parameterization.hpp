@@ -33,11 +33,11 @@ run_start second_start(const map_run<Element>& run, const run_start& coarse, con
 }
 
 /// The phases between a run that is prepared and a map that is placed: start, attempts to minimise it, certificate.
-/// The map is in the lengths of the run. draft: as of free_draft(), or none.
+/// The map is in the lengths of the run.
 template <class Element>
-map_result solved(const map_run<Element>& run, std::vector<vec2> draft)
+map_result solved(const map_run<Element>& run)
 {
-    const run_start start = choose_start(run, std::move(draft));
+    const run_start start = choose_start(run);
     if (!start.ready()) return unsolved_result(run, start);
     attempt first = attempt_in_turns(run, start);
     if (first.certified || first.stopped || !start.coarse) return solved_result(run, start, std::move(first));
@@ -49,15 +49,7 @@ map_result solved(const map_run<Element>& run, std::vector<vec2> draft)
     return solved_result(run, second, attempt_in_turns(run, second));
 }
 
-/// Whether the constraints leave the boundary free: the best map without them is then nearest to the best with them.
-template <class Element>
-bool wants_draft(const map_run<Element>& run)
-{
-    return run.held.constrained() && run.params.initial.empty() && run.params.boundary == boundary_mode::free &&
-           !run.held.outline_pinned(run.in.surface, run.in.sides);
-}
-
-/// A map as of a run without the constraints, to begin the run with; none if that has no valid one.
+// Declared in choose_start.hpp.
 template <class Element>
 std::vector<vec2> free_draft(const map_run<Element>& run)
 {
@@ -72,7 +64,7 @@ std::vector<vec2> free_draft(const map_run<Element>& run)
                         return run.clock.ask(now);
                     });
     const map_run<Element> free(run.queue, run.in, params, clock);
-    map_result draft = solved(free, {});
+    map_result draft = solved(free);
     return draft ? std::move(draft.uv) : std::vector<vec2>();
 }
 
@@ -81,10 +73,7 @@ template <class Element>
 map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock)
 {
     const map_run<Element> run(q, surface, params, clock);
-    std::vector<vec2> draft;
-    if (wants_draft(run) && !clock.over()) draft = free_draft(run);
-    map_result result = solved(run, std::move(draft));
-    return in_user_units(run, placed(run, std::move(result)));
+    return in_user_units(run, placed(run, solved(run)));
 }
 
 } // namespace detail

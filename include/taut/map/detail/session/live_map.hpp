@@ -47,7 +47,7 @@ public:
     }
 
     /// In the user's numbers; marks: who is held, one a vertex, or none.
-    void constrain(const held_marks<D>& marks, const std::vector<spring<D>>& springs,
+    void constrain(const held_marks<D>& marks, const std::vector<directed_spring<D>>& springs,
                    const std::vector<slide<D>>& slides)
     {
         auto c = point_constraints<D>{marks, springs, slides}.renumbered(numbers_);

@@ -97,7 +97,7 @@ protected:
     /// Tells the map on the device who is held, if that has changed, and where.
     void constrain()
     {
-        auto springs = point_constraints<D>{{}, wanted.springs()}.scaled(lengths_).springs;
+        auto springs = point_constraints<D>{{}, directed(wanted.springs())}.scaled(lengths_).springs;
         const bool other_marks = held_.take(wanted);
         if (other_marks || !springs.empty() || !springs_.empty())
         {
@@ -313,9 +313,9 @@ private:
     untangle_params untangling_;
     taut::observer observer_;
     std::chrono::duration<double> limit_;
-    std::vector<spring<D>> springs_; ///< in the lengths of the run
-    bool stuck_ = false;             ///< steps bring held coordinates no nearer to their places
-    double step_seconds_ = 0;        ///< of the last step
+    std::vector<directed_spring<D>> springs_; ///< in the lengths of the run
+    bool stuck_ = false;                      ///< steps bring held coordinates no nearer to their places
+    double step_seconds_ = 0;                 ///< of the last step
     int steps_left_ = 0;
 };
 

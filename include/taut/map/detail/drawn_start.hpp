@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <taut/core/detail/made_ahead.hpp>
+#include <taut/map/detail/attempt_on_levels.hpp>
+#include <taut/untangle/untangle_host.hpp>
+
+namespace taut::detail
+{
+
+/// A start that obeys pins, from coarse to fine. Springs draw pinned vertices to their places, stiffer on each finer
+/// level and then step by step on the mesh itself, until all of them can be put there without a flip. A boundary that
+/// is pinned as a whole is held from the beginning, and only what is inside is drawn. The energy is a barrier, so all
+/// maps on the way are injective, and what is around a pin is dragged along, which ends in better minima than
+/// untangling does.
+template <class Element>
+class drawn_start
+{
+public:
+    /// run: one that draws pins; referred to.
+    explicit drawn_start(const map_run<Element>& run)
+        : run_(run),
+          bound_(run.held.outline_pinned(run.in.surface, run.in.sides)),
+          anchored_(anchors()),
+          places_(anchored_.size(), vec2(0)),
+          centre_(run.held.centre()),
+          levels_(run.in.surface, bound_ ? anchored_ : std::vector<bool>(),
+                  {.proceed = [&run] { return run.clock.proceed(); }}, run.params.data,
+                  run.held.touched(anchored_.size())),
+          pull_(run.held.pull(anchored_))
+    {
+        run.held.impose(places_, run.in.unit);
+        run.clock.spent(&map_seconds::hierarchy);
+    }
+
+    /// The start; `useless` where there is none.
+    run_start make()
+    {
+        run_start start;
+        start.useless = true;
+        if (find_infeasibility(run_.held.problem(run_.in.surface, places_))) return start; // as untangling will say
+        nested_params descent = descent_of(run_);
+        descent.first_map = [this](std::size_t l) { return first_map(l); };
+        descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
+        const std::size_t first = descent.first_level(levels_);
+        if (levels_.vertices(first) > most_vertices) return start;
+        using plan = typename level_solver<Element>::plan;
+        const auto form = lane_form::for_device(run_.queue.device());
+        made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels_, first - k, form); });
+        const auto take = [&](std::size_t l) { return plans.take(first - l); };
+
+        std::optional<level_solver<Element>> solver;
+        std::vector<vec2> arrival;
+        const bool built = build_within(run_.queue, run_.clock,
+                                        [&]
+                                        {
+                                            solver.emplace(run_.queue, levels_, run_.params.energy, run_.params.weights,
+                                                           types_of(run_.first_precision()));
+                                            solver->warm_up();
+                                        });
+        if (built)
+        {
+            run_.clock.spent(&map_seconds::device);
+            nested_iteration nested(levels_, *solver, descent);
+            arrival = nested.run([this](std::size_t l) { return observer_on(run_.clock, l); }, take);
+            start.levels = nested.reports();
+            run_.clock.spent(&map_seconds::start);
+        }
+        if (!arrival.empty())
+            draw({*solver, take(0), arrival, {.held = {}, .springs = springs(0, first_stiffness(0))}}, start);
+        start.stopped = !run_.clock.proceed();
+        return start;
+    }
+
+private:
+    using level = typename level_solver<Element>::level;
+
+    std::vector<bool> anchors() const
+    {
+        std::vector<bool> flags(run_.in.surface.points().size(), false);
+        if (bound_)
+            for (const auto& loop : boundary_loops(run_.in.surface, run_.in.sides))
+                for (const idx v : loop) flags[static_cast<std::size_t>(v)] = true;
+        return flags;
+    }
+
+    /// Of all springs together, in units of a mean energy a squared half of the map's size.
+    static double first_stiffness(std::size_t l) { return 256 / std::pow(growth, static_cast<double>(l)); }
+
+    /// In the numbers of a level, about the centre.
+    std::vector<directed_spring<2>> springs(std::size_t l, double stiffness) const
+    {
+        const auto there = levels_.places(l);
+        auto all = pull_;
+        for (auto& s : all)
+        {
+            s.target -= centre_;
+            s.stiffness *= stiffness / (static_cast<double>(pull_.size()) * reach_ * reach_);
+        }
+        const auto asked = run_.held.beyond_pins(centre_).springs;
+        all.insert(all.end(), asked.begin(), asked.end());
+        for (auto& s : all) s.vertex = there[static_cast<std::size_t>(s.vertex)];
+        std::erase_if(all, [](const auto& s) { return s.vertex < 0; });
+        return all;
+    }
+
+    /// A map of a level that obeys what is anchored, and is as near to the pins as a similarity brings it if nothing
+    /// is.
+    start_map first_map(std::size_t l)
+    {
+        const mesh<triangle> surface = levels_.level(l);
+        const auto there = levels_.places(l);
+        start_map map;
+        if (bound_)
+            map.uv = within_outline(surface, there);
+        else
+            map.uv = robust_start(surface, descent_of(run_).start).uv;
+        origins_.assign(there.size(), vec2(0));
+        for (std::size_t v = 0; v < there.size(); ++v)
+            if (there[v] >= 0) origins_[v] = map.uv[static_cast<std::size_t>(there[v])];
+        if (!bound_) run_.held.bring_near(origins_);
+        for (std::size_t v = 0; v < there.size(); ++v)
+            if (there[v] >= 0) map.uv[static_cast<std::size_t>(there[v])] = origins_[v] - centre_;
+        reach_ = bounding_square(map.uv).size / 2;
+        map.assess(surface, ideal_elements<triangle>(surface));
+        return map;
+    }
+
+    std::vector<vec2> within_outline(const mesh<triangle>& surface, const std::vector<idx>& there) const
+    {
+        const std::size_t n = surface.points().size();
+        untangle_problem<triangle> problem{surface, std::vector<vec2>(n, vec2(0)), held_marks<2>(n)};
+        for (std::size_t v = 0; v < there.size(); ++v)
+        {
+            if (!anchored_[v]) continue;
+            problem.initial[static_cast<std::size_t>(there[v])] = places_[v];
+            problem.held[static_cast<std::size_t>(there[v])] = held_marks<2>::every;
+        }
+        return untangle(problem, {.stages = {"harmonic", "newton"}, .rounds = 1}).map;
+    }
+
+    /// Stiffens the springs, a step of Newton's method each time, until what they draw can be put to its place.
+    void draw(level finest, run_start& start)
+    {
+        const solve::params step{.method = solve::method::newton, .stopping = {.max_iterations = 1}};
+        untangle_stage_report did{"draw"};
+        finest.relax();
+        double stiffness = first_stiffness(0);
+        for (int stride = 0; start.useless; ++stride, stiffness *= growth)
+        {
+            auto uv = centred(levels_.order().vertices.undo(finest.download()), -centre_);
+            run_.held.impose(uv, run_.in.unit);
+            if (certify<2>(run_.in.surface.cells(), uv))
+            {
+                start.map.uv = std::move(uv);
+                start.useless = false;
+                break;
+            }
+            if (stride == strides || !run_.clock.proceed()) return;
+            if (stride > 0) finest.set_springs(springs(0, stiffness));
+            if (finest.minimize(step, observer_on(run_.clock, 1)).iterations == 0) return; // no map of the run yet
+            ++did.iterations;
+        }
+        start.map.assess(run_.in.surface, run_.in.ideal);
+        start.pin_origins = run_.held.pinned_points(origins_);
+        start.centre = bounding_square(start.map.uv).centre;
+        run_.clock.has_result(true);
+        run_.clock.spent(&map_seconds::untangle);
+        did.seconds = run_.clock.seconds.untangle;
+        start.untangling.push_back(std::move(did));
+    }
+
+    static constexpr std::size_t most_vertices = 12000; // of the first map, which is made on the host
+    static constexpr double growth = 4;
+    static constexpr int strides = 14; // with stiffer springs rounding would decide
+
+    const map_run<Element>& run_;
+    bool bound_; ///< all of the boundary is pinned
+    std::vector<bool> anchored_;
+    std::vector<vec2> places_; ///< where vertices are held
+    vec2 centre_;
+    mesh_levels<Element> levels_;
+    std::vector<directed_spring<2>> pull_;
+    double reach_ = 1;          ///< half the size of the first map
+    std::vector<vec2> origins_; ///< of all vertices, as far as they are on the first level
+};
+
+} // namespace taut::detail
