@@ -153,7 +153,7 @@ private:
         last.report.energy = found.value;
         on_way_ = !found.arrived;
         book(clock, &session_seconds::follow);
-        if (!found.crawling || !feasible || !clock.proceed()) return;
+        if (!found.crawling || !feasible || !may_step(clock)) return;
         repair(clock);
         book(clock, &session_seconds::repair);
     }
@@ -178,17 +178,29 @@ private:
         return true;
     }
 
-    /// Untangling, where steps do not bring held coordinates any nearer.
+    /// Untangling, where steps do not bring held coordinates any nearer, if the budget would last for some twenty steps
+    /// more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps.
     void repair(run_clock& clock)
     {
-        auto how = params_.untangling;
-        how.time_limit = clock.left();
-        how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
-        auto found = repaired(queue_, problem(), how);
+        const auto lasts = [&](int steps)
+        { return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_; };
+        if (!lasts(20)) return;
+        int before = 0, now = 0; // iterations of untanglings that have ended, and of the one at work
+        const repair_limits limits{.whole = lasts(100),
+                                   .time = std::min(clock.left(), std::chrono::duration<double>(1000 * step_seconds_)),
+                                   .ask = [&](const progress& p)
+                                   {
+                                       if (p.iteration < now) before += now;
+                                       now = p.iteration;
+                                       return before + now < steps_left_ && clock.ask({.iterate = false});
+                                   }};
+        const auto found = repaired(queue_, problem(), params_.untangling, limits);
+        steps_left_ -= std::min(before + now, steps_left_);
+        last.report.steps += before + now;
         if (!found) return;
-        load(found->map);
+        load(*found);
         on_way_ = false;
-        last.report.notes.push_back(found->note);
+        last.report.notes.push_back("steps stuck; the map was untangled with the pins at their places");
     }
 
     /// With what is held where it is.
