@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <taut/solve/full_objective.hpp>
@@ -30,6 +31,11 @@ struct prescribed_params
     /// Range > 0.
     double most_rise = 0.25;
 
+    /// Nor is f above its value at the start of a run by more than this part of that, times the share of the gap that
+    /// is closed: what costs more is a jam, where f grows beyond all bounds and the coordinates come no nearer.
+    /// Range > 0.
+    double most_cost = 10;
+
     /// The objective is asked to relax what cut a step that was shorter. Range [0, 1].
     double relax_below = 0.5;
 
@@ -40,6 +46,7 @@ struct prescribed_params
         if (!(barrier_fraction > 0 && barrier_fraction < 1))
             throw parameter_error("prescribed.barrier_fraction", "must be in (0, 1)");
         if (!(most_rise > 0)) throw parameter_error("prescribed.most_rise", "must be positive");
+        if (!(most_cost > 0)) throw parameter_error("prescribed.most_cost", "must be positive");
         if (!(relax_below >= 0 && relax_below <= 1))
             throw parameter_error("prescribed.relax_below", "must be in [0, 1]");
     }
@@ -93,10 +100,13 @@ public:
     prescribed_report run(point& x, double gap, const std::function<bool(const prescribed_report&)>& proceed)
     {
         prescribed_report r{.left = gap};
+        gap_ = gap;
+        start_.reset();
         radius_ = std::max(radius_, 0.05 * gap); // a new way is another try
         do {
             const auto [moved, fallen] = step(x, r);
-            slow_ = moved > 0.02 * r.left || fallen > 1e-3 * std::abs(r.value) ? 0 : slow_ + 1;
+            const bool useful = moved > 0.02 * r.left || fallen > 1e-3 * std::abs(r.value);
+            slow_ = useful ? 0 : slow_ + 1;
             r.left = r.arrived ? 0 : r.left - moved;
             r.crawling = slow_ >= patience;
         } while (!r.arrived && !r.crawling && proceed(r));
@@ -117,13 +127,14 @@ private:
     {
         const double share = centring_ ? 0 : std::min(1.0, radius_ / r.left), length = share * r.left;
         const auto here = prescribed_.linearize_towards(x, share, d_, g_);
+        if (!start_) start_ = here.value;
         const auto model = pcg_.solve(
             g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
             [this](const vector& v, vector& out) { f_.precondition(v, out); }, follow_);
         f_.space().axpby(1, follow_, 1, d_);
         ++r.iterations;
         r.products += model.steps;
-        const auto [taken, value] = longest(x, here.value, std::max(0.0, here.change - model.decrease));
+        const auto [taken, value] = longest(x, here.value, std::max(0.0, here.change - model.decrease), share, r.left);
         r.value = value;
         if (!centring_) radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
         const double fallen = here.value - value;
@@ -137,6 +148,9 @@ private:
         return {taken * length, fallen};
     }
 
+    /// The most that f may be where so much of the gap is left.
+    double costliest(double left) const { return *start_ + params_.most_cost * (1 - left / gap_) * std::abs(*start_); }
+
     struct trial
     {
         double step, value;
@@ -144,18 +158,20 @@ private:
 
     /// The trial step of the least merit, 0 if none has less than the point itself. rise: that the model expects of
     /// the full step.
-    trial longest(const point& x, double value, double rise)
+    trial longest(const point& x, double value, double rise, double share, double left)
     {
         constexpr std::array<double, 4> a{1, 0.5, 0.25, 0.125};
         std::array<double, 4> values;
         const double unit = f_.capped_values(x, d_, params_.barrier_fraction, a, values);
         const double noise = f_.rounding() * std::abs(value);
+        const double steepest = value + params_.most_rise * std::abs(value);
         trial best{0, value};
         double least = value + noise;
         for (std::size_t i = 0; i < a.size(); ++i)
         {
             const double merit = values[i] - 2 * rise * unit * a[i];
-            if (!(merit < least) || values[i] > value + params_.most_rise * std::abs(value)) continue;
+            if (!(merit < least) || values[i] > std::min(steepest, costliest(left * (1 - share * unit * a[i]))))
+                continue;
             least = merit;
             best = {unit * a[i], values[i]};
         }
@@ -169,6 +185,8 @@ private:
     point next_;
     vector d_, g_, follow_;                                   // d; the gradient that the others see; d of the others
     double radius_ = std::numeric_limits<double>::infinity(); // of d at what is prescribed
+    double gap_ = 0;                                          // at the start of the run
+    std::optional<double> start_;                             // f there
     bool centring_ = false; // the next step leaves the prescribed coordinates where they are
     int slow_ = 0;          // steps in a row that brought little
 };

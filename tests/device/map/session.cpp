@@ -281,6 +281,35 @@ TEST_CASE("session: a pin outside of a pinned boundary is proved to be so; the m
     CHECK(r.report.energy == doctest::Approx(first.report.energy).epsilon(1e-5));
 }
 
+TEST_CASE("session: a pin in another one's way stops it in a map of bounded energy, and with time it gets past")
+{
+    queue q;
+    const auto m = bump();
+    session s(q, m);
+    const double free = s.solve().report.energy;
+    const handles h(m, s.x());
+    const double size = extent(s.x());
+    const vec2 from = at(s, h.middle);
+    idx other = h.left;
+    for (idx v = 0; v < m.vertex_count(); ++v)
+        if (v != h.middle && std::abs(glm::distance(at(s, v), from) - 0.15 * size) <
+                                 std::abs(glm::distance(at(s, other), from) - 0.15 * size))
+            other = v;
+    const vec2 way = at(s, other) - from;
+    s.pin(h.left, at(s, h.left)).pin(h.right, at(s, h.right)).pin(other, at(s, other));
+    session_result r;
+    for (int frame = 1; frame <= 24; ++frame)
+    {
+        r = s.pin(h.middle, from + way * (frame / 14.0)).solve({.steps = 4});
+        check_promises(m, s, r);
+        CHECK(r.report.energy < 100 * free);
+    }
+    for (int call = 0; call < 5 && !r.report.pins_held; ++call) r = s.solve();
+    check_promises(m, s, r);
+    CHECK(r.report.pins_held);
+    CHECK(at(s, other) == from + way);
+}
+
 TEST_CASE("session: many pins are moved together; coordinates alone, springs and a fixed boundary hold, too")
 {
     queue q;

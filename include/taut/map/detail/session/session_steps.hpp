@@ -16,6 +16,7 @@
 #include <taut/map/detail/run_clock.hpp>
 #include <taut/map/detail/session/held_places.hpp>
 #include <taut/map/detail/session/live_map.hpp>
+#include <taut/map/detail/session/repair.hpp>
 #include <taut/map/detail/session/session_body.hpp>
 #include <taut/measure/describe_defects.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
@@ -141,7 +142,7 @@ protected:
         }
         on_way_ = !goes_on;
         book(clock, &session_seconds::follow);
-        if (goes_on || !stuck_ || !clock.proceed()) return;
+        if (goes_on || !stuck_ || !may_step(clock)) return;
         repair(clock);
         book(clock, &session_seconds::repair);
     }
@@ -194,22 +195,37 @@ protected:
     }
 
     /// A map with held coordinates at their places and no defect, if untangling finds one.
-    untangle_result<Element> untangled(run_clock& clock, const map& x, bool draft)
+    untangle_result<Element> untangled(run_clock& clock, const map& x)
     {
         auto how = untangling_;
         how.time_limit = clock.left();
         how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
-        return untangle(queue_, problem(x, draft), how);
+        return untangle(queue_, problem(x, false), how);
     }
 
-    /// Untangling, where steps do not bring held coordinates any nearer.
+    /// Untangling, where steps do not bring held coordinates any nearer, if the budget would last for some twenty steps
+    /// more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps.
     void repair(run_clock& clock)
     {
-        auto found = untangled(clock, user_coordinates(), true);
+        const auto lasts = [&](int steps)
+        { return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_; };
+        if (!lasts(20)) return;
+        int before = 0, now = 0; // iterations of untanglings that have ended, and of the one at work
+        const repair_limits limits{.whole = lasts(100),
+                                   .time = std::min(clock.left(), std::chrono::duration<double>(1000 * step_seconds_)),
+                                   .ask = [&](const progress& p)
+                                   {
+                                       if (p.iteration < now) before += now;
+                                       now = p.iteration;
+                                       return before + now < steps_left_ && clock.ask({.iterate = false});
+                                   }};
+        const auto found = repaired(queue_, problem(user_coordinates(), true), untangling_, limits);
+        steps_left_ -= std::min(before + now, steps_left_);
+        last.report.steps += before + now;
         if (!found) return;
-        load(found.map);
+        load(*found);
         on_way_ = false;
-        last.report.notes.push_back("it was untangled with the pins at their places");
+        last.report.notes.push_back("steps stuck; the map was untangled with the pins at their places");
     }
 
     /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.

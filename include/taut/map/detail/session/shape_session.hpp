@@ -65,7 +65,7 @@ private:
         last.x = start_;
         if (!flips)
         {
-            auto found = this->untangled(clock, start_, false);
+            auto found = this->untangled(clock, start_);
             r.outcome = found.outcome == untangle_outcome::infeasible ? outcome::infeasible : outcome::gave_up;
             r.reason = std::move(found.reason);
             r.ids = std::move(found.ids);
