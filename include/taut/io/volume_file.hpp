@@ -19,8 +19,8 @@ namespace taut::io
 
 /// Kinds of cells. Corners are in VTK's order, whatever a file has:
 /// quad: around. tetrahedron: corner 3 sees 0, 1, 2 turn counter-clockwise. pyramid: so does corner 4 the base 0..3.
-/// wedge: triangles 0, 1, 2 and 3, 4, 5, the normal of 0, 1, 2 pointing away from 3, 4, 5 (gmsh, MEDIT and SU2 files
-/// have it the other way round). hexahedron: quads 0..3 and 4..7, the normal of 0..3 pointing to 4..7.
+/// wedge: triangles 0, 1, 2 and 3, 4, 5, the normal of 0, 1, 2 pointing away from 3, 4, 5 (gmsh and MEDIT files have
+/// it the other way round). hexahedron: quads 0..3 and 4..7, the normal of 0..3 pointing to 4..7.
 enum class cell_kind
 {
     vertex,
