@@ -17,7 +17,7 @@
 namespace taut::test
 {
 
-/// A cell, its corners in the order of gmsh, MEDIT and SU2, and a number that a file keeps for it.
+/// A cell, its corners in the order of gmsh and MEDIT, and a number that a file keeps for it.
 struct volume_cell
 {
     io::cell_kind kind;
@@ -356,12 +356,13 @@ inline std::string su2_text(const volume_sample& s, int dimension = 3, const std
             ++markers;
     out.say("% a comment" + end + "NDIME= ").put(dimension).row().say("NELEM=").put(elements).row();
     std::size_t e = 0;
-    for (const auto& c : s.cells)
+    for (std::size_t i = 0; i < s.cells.size(); ++i)
     {
+        const auto& c = s.cells[i];
         const bool marker = io::shape_of(c.kind).dimension != dimension;
         if (marker) below.say("MARKER_TAG= side" + std::to_string(c.tag) + end + "MARKER_ELEMS= 1" + end);
         (marker ? below : out).put(vtk_number(c.kind));
-        for (const idx v : c.corners) (marker ? below : out).put(v);
+        for (const idx v : s.vtk_corners(i)) (marker ? below : out).put(v);
         if (marker)
             below.row();
         else

@@ -10,19 +10,6 @@
 namespace taut::io
 {
 
-/// The kinds of files that volumes are read from. automatic: as the extension says, in either case.
-enum class volume_format
-{
-    automatic,
-    medit,  ///< .mesh, text
-    gmsh,   ///< .msh 2.x and 4.1, text and binary
-    vtk,    ///< .vtk, legacy, text and binary, unstructured grids
-    vtu,    ///< .vtu, text and appended raw
-    tetgen, ///< .node and .ele, and .face if there is one; given by either name
-    su2,    ///< .su2
-    problem ///< .prob: the points are those of the initial map
-};
-
 /// Reads a volume mesh, or a planar mesh, with its groups.
 /// Throws io_error with line or byte: unreadable, unknown, malformed, or what coordinates alone cannot be exchanged in
 /// (higher order, polyhedra, compressed or base64 data, partitions, several pieces).

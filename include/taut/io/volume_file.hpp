@@ -17,10 +17,23 @@
 namespace taut::io
 {
 
+/// The kinds of files that volumes are read from. automatic: as the extension says, in either case.
+enum class volume_format
+{
+    automatic,
+    medit,  ///< .mesh, text
+    gmsh,   ///< .msh 2.x and 4.1, text and binary
+    vtk,    ///< .vtk, legacy, text and binary, unstructured grids
+    vtu,    ///< .vtu, text and appended raw
+    tetgen, ///< .node and .ele, and .face if there is one; given by either name
+    su2,    ///< .su2
+    problem ///< .prob: the points are those of the initial map
+};
+
 /// Kinds of cells. Corners are in VTK's order, whatever a file has:
 /// quad: around. tetrahedron: corner 3 sees 0, 1, 2 turn counter-clockwise. pyramid: so does corner 4 the base 0..3.
-/// wedge: triangles 0, 1, 2 and 3, 4, 5, the normal of 0, 1, 2 pointing away from 3, 4, 5 (gmsh, MEDIT and SU2 files
-/// have it the other way round). hexahedron: quads 0..3 and 4..7, the normal of 0..3 pointing to 4..7.
+/// wedge: triangles 0, 1, 2 and 3, 4, 5, the normal of 0, 1, 2 pointing away from 3, 4, 5 (gmsh and MEDIT files have
+/// it the other way round). hexahedron: quads 0..3 and 4..7, the normal of 0..3 pointing to 4..7.
 enum class cell_kind
 {
     vertex,

@@ -17,7 +17,7 @@
 namespace taut::io::detail
 {
 
-/// The other of the two orders of a wedge's corners: VTK's, and that of gmsh, MEDIT and SU2.
+/// The other of the two orders of a wedge's corners: VTK's, and that of gmsh and MEDIT.
 constexpr std::array<std::size_t, 6> turned_wedge = {0, 2, 1, 3, 5, 4};
 
 /// What the readers of volumes have in common: they fill a file that has its bytes.
@@ -94,7 +94,7 @@ public:
         all.insert(all.end(), corners.begin(), corners.end());
     }
 
-    /// Adds a cell whose corners are in the order of gmsh, MEDIT and SU2.
+    /// Adds a cell whose corners are in the order of gmsh and MEDIT.
     void add_cell(cell_kind kind, std::span<const idx> corners)
     {
         if (kind != cell_kind::wedge) return add_vtk_cell(kind, corners);

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <taut/io/read_volume.hpp>
+#include <taut/io/volume_file.hpp>
 
 namespace taut::io::detail
 {

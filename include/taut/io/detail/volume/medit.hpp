@@ -78,7 +78,8 @@ private:
         if (d != 2 && d != 3) in_.fail("dimension " + std::to_string(d) + "; it must be 2 or 3");
         to_.set_places({}, version == 1, static_cast<int>(d));
         if (!go_to("Vertices")) in_.fail("no Vertices; a mesh needs some");
-        const std::size_t n = from_.count(number_type::int64, "the number of vertices", 2 * (d + 1));
+        const std::size_t n =
+            from_.count(number_type::int64, "the number of vertices", static_cast<std::size_t>(2 * (d + 1)));
         to_.reserve_points(n);
         tagged_vertices groups;
         for (std::size_t v = 0; v < n; ++v)

@@ -14,7 +14,8 @@
 namespace taut::io::detail
 {
 
-/// Reads SU2's .su2: lines KEY= VALUE, behind some of which items follow, one a line; comments from %. What stands
+/// Reads SU2's .su2: lines KEY= VALUE, behind some of which items follow, one a line; comments from %. Kinds and
+/// corners are VTK's. What stands
 /// behind the numbers of an item is passed over.
 class su2_reader
 {
@@ -106,7 +107,7 @@ private:
             const auto cell = std::span(corners).first(static_cast<std::size_t>(shape_of(kind).corners));
             for (idx& v : cell) v = to_.point_at(from_.integer(number_type::int32, "a point"), 0, from_);
             in_.next_line();
-            to_.add_cell(kind, cell);
+            to_.add_vtk_cell(kind, cell);
             if (marker != nullptr) marker->add(0, shape_of(kind).dimension, cell);
         }
     }

@@ -58,7 +58,7 @@ inline std::string convention_of(cell_kind kind, const std::string& format)
     case cell_kind::pyramid:
         return "corner 4 sees 0, 1, 2, 3 turn counter-clockwise";
     case cell_kind::wedge:
-        return format == "VTK" || format == "VTU"
+        return format == "VTK" || format == "VTU" || format == "SU2"
                    ? "the normal of corners 0, 1, 2 points away from 3, 4, 5 (these have it as gmsh and MEDIT do)"
                    : "the normal of corners 0, 1, 2 points to 3, 4, 5 (these have it as VTK does)";
     case cell_kind::hexahedron:
