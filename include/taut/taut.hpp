@@ -34,6 +34,8 @@
 #include <taut/io/write_obj.hpp>
 #include <taut/io/write_volume.hpp>
 
+#include <taut/map/deform.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/map/session.hpp>
+#include <taut/map/smooth.hpp>
 #include <taut/untangle/untangle.hpp>
