@@ -100,6 +100,33 @@ octahedron()
     printf 'f %s\n' '1 3 5' '3 2 5' '2 4 5' '4 1 5' '3 1 6' '2 3 6' '4 2 6' '1 4 6'
 }
 
+# volume N: a bar of 6 * 3 N^3 tetrahedra as a MEDIT file; the triangles at its ends have references 1 and 2.
+volume()
+{
+    awk -v n="$1" '
+        function vertex(i, j, k) { return (k * (n + 1) + j) * (n + 1) + i + 1 }
+        BEGIN {
+            print "MeshVersionFormatted 2\n# a bar\nDimension 3\n\nVertices"
+            print (n + 1) * (n + 1) * (3 * n + 1)
+            for (k = 0; k <= 3 * n; ++k) for (j = 0; j <= n; ++j) for (i = 0; i <= n; ++i)
+                printf "%.17g %.17g %.17g 0\n", i / n, j / n, k / n
+            print "\nTriangles\n" 4 * n * n
+            for (e = 0; e < 2; ++e) for (j = 0; j < n; ++j) for (i = 0; i < n; ++i) {
+                k = 3 * n * e
+                print vertex(i, j, k), vertex(i + 1, j, k), vertex(i + 1, j + 1, k), e + 1
+                print vertex(i, j, k), vertex(i + 1, j + 1, k), vertex(i, j + 1, k), e + 1
+            }
+            print "\nTetrahedra\n" 18 * n * n * n
+            for (k = 0; k < 3 * n; ++k) for (j = 0; j < n; ++j) for (i = 0; i < n; ++i) {
+                a = vertex(i, j, k); b = vertex(i + 1, j + 1, k + 1)
+                r[0] = vertex(i + 1, j, k); r[1] = vertex(i + 1, j + 1, k); r[2] = vertex(i, j + 1, k)
+                r[3] = vertex(i, j + 1, k + 1); r[4] = vertex(i, j, k + 1); r[5] = vertex(i + 1, j, k + 1)
+                for (s = 0; s < 6; ++s) print a, r[s], r[(s + 1) % 6], b, 7
+            }
+            print "\nEnd"
+        }'
+}
+
 # A square ring of 8 quads around a hole, split.
 ring()
 {
@@ -1075,6 +1102,67 @@ test_pins()
     expect 3 unwrap in.obj -o no.obj --pins twice.csv
     says err 'twice.csv, line 2: vertex 0'
     expect 3 unwrap in.obj -o no.obj --pins missing.csv
+}
+
+test_deform()
+{
+    volume 3 >bar.mesh
+    expect 0 deform bar.mesh -o out.mesh --fix triangles:1 --move triangles:2:rotate:0,0,1,90 --stats stats.json
+    says out '640|160' 'inverted *0 -> 0' 'converged' 'wrote *out.mesh, stats.json'
+    keys stats.json schema outcome converged pins_held inverted branch_edges quality.mean_ratio.worst seconds.total
+    says values 'schema=taut.deform/1' 'outcome=valid' '^inverted=0' '^branch_edges=0'
+    # All but coordinates is as it was, and vertices that are held keep their very text.
+    grep -v '^[-0-9.e]* [-0-9.e]* [-0-9.e]* 0$' bar.mesh >before
+    grep -v '^[-0-9.e]* [-0-9.e]* [-0-9.e]* 0$' out.mesh >after
+    cmp before after || fail "more than coordinates has changed"
+    [ "$(sed -n 7,22p bar.mesh)" = "$(sed -n 7,22p out.mesh)" ] || fail "fixed vertices have moved"
+
+    # The moved group stands where it was told to, and the mesh goes back to its rest.
+    expect 0 deform out.mesh -o back.mesh --rest bar.mesh --fix triangles:1 --quiet --stats stats.json
+    keys stats.json energy inverted
+    says values '^energy=2(\.00000|$)|^energy=1\.99999999' '^inverted=0'
+
+    # Springs of a file, energies by name, a group by its number.
+    for energy in isometric shape volume neo-hookean; do
+        printf '150,0.5,0.5,3.4,10\n' >spring.csv
+        expect 0 deform bar.mesh -o out.mesh --fix 1 --pins spring.csv --energy $energy --quiet
+        silent out
+    done
+    printf '150,0.4,0.6,3.1\n' >end.csv
+    expect 4 deform bar.mesh -o late.mesh --move triangles:1=end.csv
+    error_says 'vertex 150 is not in group triangles:1'
+    absent late.mesh
+
+    # Wrong use.
+    expect 4 deform bar.mesh -o late.mesh --fix nothing
+    error_says 'nothing' 'triangles:1'
+    expect 2 deform bar.mesh -o late.mesh --move triangles:1
+    error_says 'GROUP:translate'
+    expect 2 deform bar.mesh -o late.mesh --move triangles:1:rotate:0,0,0,90
+    error_says 'axis'
+    expect 2 deform bar.mesh -o late.mesh --move triangles:1:translate:1,2
+    error_says 'give 3 numbers'
+    expect 2 deform bar.mesh -o bar.mesh
+    expect 3 deform nothing.mesh -o late.mesh
+    expect 4 deform bar.mesh -o late.mesh --fix tetrahedra:7 --move triangles:2:translate:0,0,1
+    error_says 'different ways'
+    absent late.mesh
+}
+
+test_smooth()
+{
+    volume 3 | awk '/^Triangles/ { inside = 0 } inside && $1 > 0 && $1 < 1 && $2 > 0 && $2 < 1 && $3 > 0 && $3 < 3 {
+        $1 += 0.12; $2 -= 0.1 } /^Vertices/ { inside = 1 } { print }' >bar.mesh
+    expect 0 smooth bar.mesh -o out.mesh --stats stats.json
+    keys stats.json schema outcome inverted quality_start.mean_ratio.worst quality.mean_ratio.worst
+    says values 'schema=taut.smooth/1' '^inverted=0'
+    awk -F= '/^quality_start/ { before = $2 } /^quality\./ { after = $2 } END { exit !(after > before) }' values ||
+        fail "the worst element is no better"
+    for boundary in fixed free; do
+        expect 0 smooth bar.mesh -o out.mesh --boundary $boundary --worst 3 --fix triangles:1 --quiet
+    done
+    expect 2 smooth bar.mesh -o out.mesh --worst 9
+    expect 2 smooth bar.mesh -o out.mesh --boundary round
 }
 
 test_untangle()

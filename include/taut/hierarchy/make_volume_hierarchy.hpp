@@ -41,10 +41,12 @@ inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::sp
                               std::vector<char>(n, 0)};
     for (vec3& p : cloud.points) p *= unit;
     std::copy(held.begin(), held.end(), cloud.held.begin());
-    while (cloud.points.size() > 1.5 * params.min_vertices && (!params.proceed || params.proceed()))
+    while (static_cast<double>(cloud.points.size()) > 1.5 * params.min_vertices &&
+           (!params.proceed || params.proceed()))
     {
         const auto chosen = detail::maximal_independent_set(cloud);
-        if (chosen.empty() || chosen.size() > 0.8 * static_cast<double>(cloud.points.size())) break;
+        if (chosen.empty() || static_cast<double>(chosen.size()) > 0.8 * static_cast<double>(cloud.points.size()))
+            break;
         auto P = detail::interpolate(cloud, chosen, params.threads);
         cloud = detail::thinned(cloud, chosen, P, params.threads);
         std::vector<idx> vertices;

@@ -297,7 +297,7 @@ TEST_CASE("session: a pin in another one's way stops it in a map of bounded ener
             other = v;
     const vec2 way = at(s, other) - from;
     s.pin(h.left, at(s, h.left)).pin(h.right, at(s, h.right)).pin(other, at(s, other));
-    session_result r;
+    session_result<triangle> r;
     for (int frame = 1; frame <= 24; ++frame)
     {
         r = s.pin(h.middle, from + way * (frame / 14.0)).solve({.steps = 4});
