@@ -3,8 +3,8 @@
 #include <taut/map/parameterize.hpp>
 #include <taut/map/session.hpp>
 
-#include <taut/map/detail/session/map_session.hpp>
 #include <taut/map/detail/parameterization.hpp>
+#include <taut/map/detail/session/map_session.hpp>
 
 template taut::map_result taut::parameterize(queue&, const mesh<triangle>&, const parameterize_params&);
 template taut::session<taut::triangle>::session(queue&, const mesh<triangle>&, const parameterize_params&);

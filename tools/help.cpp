@@ -58,10 +58,10 @@ std::string wrapped_help::make_option_desc(const CLI::Option* option) const
     return wrapped(Formatter::make_option_desc(option));
 }
 
-std::string wrapped_help::make_subcommand(const CLI::App* command) const
+std::string wrapped_help::make_subcommand(const CLI::App* named) const
 {
     std::ostringstream out;
-    CLI::detail::format_help(out, command->get_name(), wrapped(command->get_description()), get_column_width());
+    CLI::detail::format_help(out, named->get_name(), wrapped(named->get_description()), get_column_width());
     return out.str();
 }
 
@@ -71,11 +71,11 @@ std::string wrong_subcommand(const CLI::App& program, int argc, const char* cons
     const std::string given = argv[1];
     std::string nearest;
     std::size_t least = 3; // of more changes, it is another word
-    for (const auto* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    for (const auto* named : program.get_subcommands([](const CLI::App*) { return true; }))
     {
-        const std::size_t distance = edit_distance(given, command->get_name());
+        const std::size_t distance = edit_distance(given, named->get_name());
         if (distance == 0) return {};
-        if (distance < least) least = distance, nearest = command->get_name();
+        if (distance < least) least = distance, nearest = named->get_name();
     }
     return "there is no subcommand " + given + (nearest.empty() ? "" : " (did you mean " + nearest + "?)");
 }

@@ -9,8 +9,8 @@ namespace taut::energy
 {
 
 /// Strain energy density of a compressible neo-Hookean solid of Young's modulus 1 (Bonet and Wood, Nonlinear Continuum
-/// Mechanics for Finite Element Analysis, eq. 6.27): mu / 2 (|S|^2 - D - 2 log J) + lambda / 2 (log J)^2, J = det S. 0 at
-/// rotations; in the plane, plane strain.
+/// Mechanics for Finite Element Analysis, eq. 6.27): mu / 2 (|S|^2 - D - 2 log J) + lambda / 2 (log J)^2, J = det S. 0
+/// at rotations; in the plane, plane strain.
 struct neo_hookean
 {
     static constexpr bool barrier = true;

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include <taut/mesh/wanted_shapes.hpp>
 #include <taut/start/laid.hpp>
 #include <taut/untangle/epsilon_schedule.hpp>
-#include <taut/mesh/wanted_shapes.hpp>
 #include <taut/untangle/stage.hpp>
 
 namespace taut

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include <taut/mesh/boundary.hpp>
+#include <taut/mesh/wanted_shapes.hpp>
 #include <taut/start/harmonic.hpp>
 #include <taut/start/laid.hpp>
-#include <taut/mesh/wanted_shapes.hpp>
 #include <taut/untangle/stage.hpp>
 
 namespace taut
@@ -27,7 +27,7 @@ struct pull_stage_params
 {
     std::string name;
     wanted_shapes shapes = wanted_shapes::rest; ///< rest: as they are in the map that it starts from
-    double area_weight = 1; ///< of det + 1 / det against the shape of a triangle; 0: shape alone
+    double area_weight = 1;                     ///< of det + 1 / det against the shape of a triangle; 0: shape alone
     /// Where the springs have jammed, go on with weak ones: held vertices that are not at their places go to random
     /// ones first, so that those that block each other's way get past each other.
     bool detours = false;
