@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include <taut/map/detail/parameterization.hpp>
 #include <taut/map/detail/session/session_steps.hpp>
+#include <taut/map/parameterize.hpp>
 
 namespace taut
 {

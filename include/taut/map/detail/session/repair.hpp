@@ -14,7 +14,7 @@
 #include <taut/core/budget.hpp>
 #include <taut/exact/certify.hpp>
 #include <taut/mesh/incidence.hpp>
-#include <taut/untangle/untangle_on_device.hpp>
+#include <taut/untangle/untangle.hpp>
 
 namespace taut::detail
 {

@@ -20,7 +20,7 @@
 #include <taut/map/detail/session/session_body.hpp>
 #include <taut/measure/describe_defects.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
-#include <taut/untangle/untangle_on_device.hpp>
+#include <taut/untangle/untangle.hpp>
 
 namespace taut::detail
 {
