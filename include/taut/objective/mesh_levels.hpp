@@ -22,8 +22,8 @@ template <class Element>
 class mesh_levels
 {
 public:
-    /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level. data: of the cells of m; coarser
-    /// levels have the means. kept: other vertices that are on every level, or empty. Throws mesh_error,
+    /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level of a surface. data: of the cells of
+    /// m; coarser levels have the means. kept: other vertices that are on every level, or empty. Throws mesh_error,
     /// parameter_error.
     explicit mesh_levels(const mesh<Element>& m, const std::vector<bool>& pinned = {},
                          const hierarchy_params& params = {}, const cell_data& data = {},

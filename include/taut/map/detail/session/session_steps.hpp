@@ -37,10 +37,10 @@ public:
     session_result<Element> solve(const session_budget& budget) override
     {
         const queue_counters before = queue_.counters();
-        run_clock clock(last ? budget.time : std::min(budget.time, limit_), observer_);
+        run_clock clock(live_ ? budget.time : std::min(budget.time, limit_), observer_);
         seconds_ = {};
         steps_left_ = budget.steps;
-        if (last)
+        if (live_)
             advance(clock);
         else
             begin(clock);
@@ -67,7 +67,7 @@ protected:
             throw parameter_error("solve.method", "must be automatic or newton: a session makes Newton's steps");
     }
 
-    /// Makes the first map.
+    /// Makes the first map, and puts it on the device; called again where there was none to be put there.
     virtual void begin(run_clock& clock) = 0;
 
     /// The mesh at rest, in the lengths of the run, and its ideal elements' measures.
