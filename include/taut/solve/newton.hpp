@@ -97,9 +97,7 @@ private:
 
     std::optional<solve::stop> iterate()
     {
-        // A short step says that the Hessian is indefinite along the way: the next one is left to the stand-in.
-        const bool exact =
-            step_.value_before - value_ < params_.exact_below * std::abs(value_) && !(taken_ > 0 && taken_ < 0.5);
+        const bool exact = step_.value_before - value_ < params_.exact_below * std::abs(value_);
         if (auto reason = direction(exact)) return reason;
         // An indefinite Hessian may have misled; its stand-in does not.
         std::optional<trial> found = search();

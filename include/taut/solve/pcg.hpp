@@ -16,11 +16,12 @@ namespace taut::solve
 /// What preconditioned conjugate gradients found.
 struct pcg_result
 {
-    int steps = 0;               ///< dimension of the space that was searched, up to a direction of negative curvature
+    int steps = 0;               ///< dimension of the space where the model was minimised
     int looks = 0;               ///< host waits
     double gradient_squared = 0; ///< |g|^2
     double slope = 0;            ///< g'd
-    double decrease = 0;         ///< of the model g'd + d'A d / 2, at least 0
+    double decrease = 0;   ///< of the model g'd + d'A d / 2 on the way to where its curvature turns negative, >= 0
+    bool negative = false; ///< a direction of negative curvature was met, and is a part of d
 };
 
 /// The minimiser d of the model g'd + d'A d / 2 over the Krylov space of M A and M g, which is what k steps of
@@ -29,6 +30,10 @@ struct pcg_result
 /// small system of the model is solved on the host. A block is conjugate to all before it once it is to the last. The
 /// polynomials of the block are products of M A - theta (a Newton basis: Bai, Hu, Reichel 1994), as powers of M A would
 /// soon be parallel in float; theta runs over where a good M has the spectrum of M A.
+///
+/// Where the next direction n of conjugate gradients has a negative curvature, the model has no minimiser, and falls
+/// along n for ever. d is then what was found before and as much of n as makes g'd twice what it was: how far it is to
+/// go is left to a line search.
 ///
 /// | here       | meaning                                             |
 /// |------------|-----------------------------------------------------|
@@ -74,30 +79,46 @@ public:
             const small K = curvature(in.zw, B);
 
             // Step by step, so that the last one before a negative curvature counts.
-            std::vector<double> c;
+            std::vector<double> c, n;
             double gained = 0, last = 0;
             for (std::size_t k = 1; k <= s; ++k)
             {
                 auto longer = minimiser(K, in.zr, k);
                 more = !longer.empty();
-                if (!more) break;
+                if (!more)
+                {
+                    if (result.steps > 0 || k > 1) n = descent(K, in.zr, k);
+                    break;
+                }
                 double decrease = 0;
                 for (std::size_t i = 0; i < k; ++i) decrease -= 0.5 * longer[i] * in.zr[i];
                 last = decrease - std::exchange(gained, decrease);
                 c = std::move(longer);
                 if (first && needed == 0 && !(last > params_.gain * decrease / double(k))) needed = k;
             }
-            // Without curvature to go by: steepest descent in the metric of M.
+            // Without curvature to go by: steepest descent in the metric of M, and further than M says, since the way
+            // only gets steeper.
             if (c.empty() && first)
             {
-                space_.axpby(-1, z_[0], 0, d);
+                constexpr double reach = 8; // a line search tries its eighth, too
+                space_.axpby(-reach, z_[0], 0, d);
                 result.steps = 1;
-                result.slope = -in.zr[0];
+                result.slope = -reach * in.zr[0];
+                result.negative = true;
                 return result;
             }
-            add(c, B, d, first);
             result.steps += int(c.size());
             result.decrease += gained;
+            if (!n.empty())
+            {
+                double slope = 0;
+                for (std::size_t i = 0; i < n.size(); ++i) slope += n[i] * in.zr[i];
+                const double length = -2 * result.decrease / slope;
+                c.resize(n.size(), 0.0);
+                for (std::size_t i = 0; i < n.size(); ++i) c[i] += length * n[i];
+                result.negative = true;
+            }
+            add(c, B, d, first);
             if (!first) last = gained / double(s);
             more = more && last > params_.gain * result.decrease / result.steps && result.steps < params_.max_steps;
             if (more) advance(c, B, K);
@@ -106,6 +127,7 @@ public:
         if (needed == 0) needed = static_cast<std::size_t>(result.steps) + 1;
         size_ = std::clamp(needed, std::min<std::size_t>(2, most()), most());
         result.slope = -2 * result.decrease; // d is the minimiser in its space
+        if (result.negative) result.slope *= 2;
         return result;
     }
 
@@ -250,6 +272,26 @@ private:
             c[i] /= L[i][i];
         }
         return c;
+    }
+
+    /// The k-th vector made conjugate to those before it, along which the model falls with a negative curvature; empty
+    /// if rounding may have made that. b: slopes. The first k - 1 rows of K are positive definite.
+    static std::vector<double> descent(const small& K, const std::vector<double>& b, std::size_t k)
+    {
+        constexpr double least = 1e-6; // as in minimiser()
+        std::vector<double> row(K[k - 1].begin(), K[k - 1].begin() + std::ptrdiff_t(k - 1));
+        auto n = minimiser(K, row, k - 1);
+        n.push_back(1);
+        double curvature = 0, slope = 0;
+        for (std::size_t i = 0; i < k; ++i)
+        {
+            curvature += n[i] * K[k - 1][i];
+            slope += n[i] * b[i];
+        }
+        if (!(curvature < -least * std::abs(K[k - 1][k - 1])) || !(std::abs(slope) > 0)) return {};
+        if (slope > 0)
+            for (double& x : n) x = -x;
+        return n;
     }
 
     static small matrix(std::size_t rows, std::size_t columns)

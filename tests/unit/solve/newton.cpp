@@ -173,8 +173,8 @@ TEST_CASE("pcg: negative curvature ends the search with a direction of descent")
         const auto A = [](const std::vector<double>& v, std::vector<double>& out) { out = {-v[0], -2 * v[1]}; };
         const auto result = pcg(space, {}).solve({1.0, 2.0}, A, M, d);
         CHECK(result.steps == 1);
-        CHECK(d == std::vector<double>{-1.0, -2.0});
-        CHECK(result.slope == doctest::Approx(-5));
+        CHECK(d == std::vector<double>{-8.0, -16.0}); // the way gets steeper
+        CHECK(result.slope == doctest::Approx(-40));
     }
     SUBCASE("in the second step")
     {
@@ -183,6 +183,67 @@ TEST_CASE("pcg: negative curvature ends the search with a direction of descent")
         CHECK(result.steps == 1);
         CHECK(result.slope < 0);
     }
+}
+
+TEST_CASE("pcg: a direction of negative curvature becomes half of the slope")
+{
+    const std::size_t n = 40;
+    host_space space(n);
+    std::vector<double> g(n), d(n);
+    for (std::size_t i = 0; i < n; ++i) g[i] = std::sin(double(7 * i + 1));
+    const auto M = [](const std::vector<double>& v, std::vector<double>& out) { out = v; };
+    for (const double least : {-0.01, -1.0, -30.0})
+        for (const int block : {1, 2, 6})
+        {
+            const auto A = [least](const std::vector<double>& v, std::vector<double>& out)
+            {
+                for (std::size_t i = 0; i < v.size(); ++i) out[i] = (i == 5 ? least : double(i + 1)) * v[i];
+            };
+            pcg solver(space, pcg_params{.max_steps = 40, .block = block, .gain = 1e-12});
+            const auto result = solver.solve(g, A, M, d);
+            std::vector<double> Ad(n);
+            A(d, Ad);
+            CAPTURE(least);
+            CAPTURE(block);
+            CHECK(result.negative);
+            CHECK(result.slope == doctest::Approx(space.dot(g, d)));
+            CHECK(result.slope == doctest::Approx(-4 * result.decrease));
+            // Along it the model falls further: n'A n < 0, and n is conjugate to what was found before.
+            CHECK(space.dot(d, Ad) < 2 * result.decrease);
+        }
+}
+
+TEST_CASE("newton: leaves a region where its Hessian is indefinite in few iterations")
+{
+    // Wells in every other coordinate, from near their ridges; the stand-in is stiff across them, as projected Hessians
+    // are where a part of a map turns.
+    const std::size_t n = 40;
+    const auto curved = [](std::size_t i) { return i % 2 == 1; };
+    auto f = with_hessian(host_objective(n,
+                                         [&](std::span<const double> x, std::span<double> g)
+                                         {
+                                             double value = 100;
+                                             for (std::size_t i = 0; i < n; ++i)
+                                             {
+                                                 const double y = x[i] * x[i];
+                                                 value += curved(i) ? y * y / 4 - y / 2 : double(i + 1) * y / 2;
+                                                 g[i] = curved(i) ? x[i] * y - x[i] : double(i + 1) * x[i];
+                                             }
+                                             return value;
+                                         }),
+                          [&](const std::vector<double>& x, bool exact)
+                          {
+                              matrix H(n, std::vector<double>(n, 0.0));
+                              for (std::size_t i = 0; i < n; ++i)
+                                  H[i][i] = !curved(i) ? double(i + 1) : exact ? 3 * x[i] * x[i] - 1 : 30;
+                              return H;
+                          });
+    std::vector<double> x(n);
+    for (std::size_t i = 0; i < n; ++i) x[i] = curved(i) ? 0.01 * double(1 + i % 7) : 1.0;
+    const auto r = newton(f, x, {}, {.stopping = {.gradient_tolerance = 1e-10, .max_iterations = 100}});
+    CHECK(r.stop == stop::gradient);
+    CHECK(r.iterations <= 40); // 96 where directions end before the curvature is negative
+    for (std::size_t i = 0; i < n; ++i) CHECK(std::abs(x[i]) == doctest::Approx(curved(i) ? 1.0 : 0.0));
 }
 
 TEST_CASE("newton: finds the minimum of Rosenbrock's function in few iterations")
