@@ -269,6 +269,7 @@ private:
         json["inverted"] = after_.inverted.size();
         json["branch_edges"] = D == 3 ? after_.simplices.branched : 0;
         json["branch_points"] = D == 2 ? after_.simplices.branched : 0;
+        if (input_.parts().overlapping && D == 3) json["insides"] = insides_json(after_);
         json["quality_start"] = shapes_json(before_.shapes);
         json["quality"] = shapes_json(after_.shapes);
         const auto& s = report_.seconds;
@@ -290,6 +291,7 @@ private:
                               (smoothing_ ? "" : ", " + count(pins_.pins().size()) + " vertices held"));
         lines.add("device", device_);
         lines.add("inverted", count(before_.inverted.size()) + " -> " + count(after_.inverted.size()));
+        if (input_.parts().overlapping && D == 3) lines.add("insides", insides_text(after_));
         lines.add("energy", number(report_.energy) + (report_.converged ? ", converged" : ", not converged") + ", " +
                                 count(static_cast<std::uint64_t>(report_.steps), "step", "steps"));
         lines.add("before", shapes_text(before_.shapes));
@@ -335,8 +337,12 @@ exit_code run(const shape_options& options, bool smoothing, std::chrono::steady_
     auto file = read_volume_at_rest(options.input, options.rest);
     if (smoothing) file.rest.clear();
     require_drawable(file, {options.picture, options.cut, smoothing});
-    return with_case(file, [&]<class Element>(const volume_case<Element>& input)
-                     { return shape_run<Element>(options, smoothing, clock, progress, place_of_report, input)(); });
+    return with_case(file,
+                     [&]<class Element>(const volume_case<Element>& input)
+                     {
+                         require_triangles(input, 0, smoothing ? "smooth" : "deform");
+                         return shape_run<Element>(options, smoothing, clock, progress, place_of_report, input)();
+                     });
 }
 
 /// What both commands have.

@@ -131,7 +131,7 @@ public:
             report_.elements = problem_->rest.cells().size();
             report_.cells = count(report_.elements, Element::name, Element::names);
         }
-        report_.before = certified(problem_->initial, report_.shapes_before);
+        report_.before = certified(problem_->initial, report_.state_before);
         if (!prove_infeasible()) solve();
         write();
         if (report_.code == exit_code::infeasible) throw infeasible_problem(report_.reason);
@@ -146,13 +146,13 @@ private:
     void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
 
     /// Of what a reader of the file will have.
-    certificate certified(const std::vector<vec<D>>& x, shape_quality& shapes) const
+    certificate certified(const std::vector<vec<D>>& x, volume_state& state) const
     {
         if (!input_) return certify<D>(problem_->rest.cells(), std::span<const vec<D>>(x));
-        auto state = input_->look(input_->as_written(x));
-        shapes = std::move(state.shapes);
-        state.simplices.flipped = state.inverted.size();
-        return state.simplices;
+        state = input_->look(input_->as_written(x));
+        auto found = state.simplices;
+        found.flipped = state.inverted.size();
+        return found;
     }
 
     /// Proofs need no device and no time, so they come first, and all of them are told.
@@ -200,7 +200,7 @@ private:
     void take(untangle_result<Element> result)
     {
         // The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.
-        report_.after = certified(result.map, report_.shapes_after);
+        report_.after = certified(result.map, report_.state_after);
         bool held = true;
         for (std::size_t v = 0; v < problem_->held.size(); ++v)
             for (int k = 0; k < D; ++k)
@@ -373,8 +373,12 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
         std::optional<io::volume_file> file;
         report.seconds.read = clock.timed([&] { file = read_volume_at_rest(options.input, options.rest); });
         require_drawable(*file, {options.picture, options.cut});
-        return with_case(*file, [&]<class Element>(const volume_case<Element>& input)
-                         { return untangled(problem_of(input, options, report), &input); });
+        return with_case(*file,
+                         [&]<class Element>(const volume_case<Element>& input)
+                         {
+                             require_triangles(input, 4000, "untangle"); // the direct solver's, untangle_on_device.hpp
+                             return untangled(problem_of(input, options, report), &input);
+                         });
     }
     std::optional<decltype(io::read_any_prob({}))> file;
     report.seconds.read = clock.timed([&] { file = io::read_any_prob(options.input); });

@@ -34,8 +34,10 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
         json[(r.dimension == 2 ? "branch_points" : "branch_edges") + std::string(suffix)] = map->branched;
     if (!r.format.empty())
     {
-        json["quality_start"] = shapes_json(r.shapes_before);
-        json["quality"] = r.written.empty() ? nlohmann::ordered_json(nullptr) : shapes_json(r.shapes_after);
+        if (r.dimension == 3 && !r.written.empty() && r.element == std::string("mixed"))
+            json["insides"] = insides_json(r.state_after);
+        json["quality_start"] = shapes_json(r.state_before.shapes);
+        json["quality"] = r.written.empty() ? nlohmann::ordered_json(nullptr) : shapes_json(r.state_after.shapes);
     }
     json["min_det"] = finite(r.least_det);
     json["min_relative_det"] = finite(r.least_relative_det);
@@ -65,8 +67,10 @@ std::string text_of(const untangle_report& r, const untangle_options& o)
     if (r.before.branched + r.after.branched > 0)
         lines.add(r.dimension == 2 ? "branch points" : "branch edges",
                   count(r.before.branched) + " -> " + count(r.after.branched));
-    if (!r.format.empty()) lines.add("before", shapes_text(r.shapes_before));
-    if (!r.format.empty() && !r.written.empty()) lines.add("after", shapes_text(r.shapes_after));
+    if (!r.format.empty()) lines.add("before", shapes_text(r.state_before.shapes));
+    if (!r.format.empty() && !r.written.empty()) lines.add("after", shapes_text(r.state_after.shapes));
+    if (r.dimension == 3 && !r.written.empty() && r.element == std::string("mixed"))
+        lines.add("insides", insides_text(r.state_after));
     lines.add("outcome", r.outcome + (r.stage.empty() ? "" : ", by " + r.stage));
     std::string stages;
     for (const auto& s : r.stages)

@@ -7,10 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/measure/shape_quality.hpp>
 #include <taut/untangle/result.hpp>
 
 #include "exit_codes.hpp"
+#include "volume/volume_case.hpp"
 
 namespace taut::tools
 {
@@ -52,7 +52,7 @@ struct untangle_report
     int dimension = 2;
     double least_det = unknown, least_relative_det = unknown; ///< of the map; unknown where nothing was solved
     std::string format;                                       ///< of a volume file; else empty
-    shape_quality shapes_before, shapes_after;                ///< of a volume file
+    volume_state state_before, state_after;                   ///< of a volume file
     std::string stage;
     std::vector<untangle_stage_report> stages;
     std::vector<std::string> notes;

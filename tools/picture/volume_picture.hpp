@@ -36,7 +36,7 @@ struct volume_view
 /// How volumes are drawn, next to each other. The defaults suit a README.
 struct volume_style
 {
-    int width = 760;  ///< pixels of each view, [1, 16384 / samples] with all of them
+    int width = 1100; ///< largest width of a view in pixels, narrow ones take less; [1, 16384 / samples] of them all
     int height = 760; ///< pixels
     int samples = 3;  ///< antialiasing: samples^2 colours a pixel, [1, 8]
 
@@ -143,9 +143,7 @@ private:
 /// Errors: parameter_error for a style outside its limits. Coordinates are finite.
 inline image volume_picture(const std::vector<volume_view>& views, const volume_style& style = {})
 {
-    const double unit = std::min(style.width / 760.0, style.height / 760.0);
-    const int n = static_cast<int>(views.size()), legend = static_cast<int>(186 * unit);
-    canvas paper(n * style.width + legend, style.height, style.samples, {255, 255, 255});
+    const double unit = std::min(style.width / 1100.0, style.height / 760.0);
     const distortion_scale scale(style.lowest, style.highest);
     const camera eye = turned_camera(style.stance, style.turn, style.rise);
 
@@ -163,19 +161,25 @@ inline image volume_picture(const std::vector<volume_view>& views, const volume_
                     high = glm::max(high, eye(view.points[static_cast<std::size_t>(v)]));
                 }
         }
-    const double top = 100 * unit, margin = 28 * unit;
-    const vec2 room = vec2(style.width - 2 * margin, style.height - top - margin) * double(style.samples);
+    const double top = 100 * unit, margin = 28 * unit, tall = style.height - top - margin;
+    double wanted = tall * (high.x - low.x) / (high.y - low.y);
+    for (const auto& view : views) wanted = std::max(wanted, text_width(view.note, 15 * unit));
+    if (!std::isfinite(wanted)) wanted = style.width; // nothing to draw
+    const int width = static_cast<int>(std::min(wanted + 2 * margin, double(style.width)));
+    const int n = static_cast<int>(views.size()), legend = static_cast<int>(186 * unit);
+    canvas paper(n * width + legend, style.height, style.samples, {255, 255, 255});
+    const vec2 room = vec2(width - 2 * margin, tall) * double(style.samples);
     const double fit = std::min(room.x / (high.x - low.x), room.y / (high.y - low.y));
     for (int k = 0; k < n; ++k)
     {
         const auto& view = views[static_cast<std::size_t>(k)];
-        const double left = double(k) * style.width;
+        const double left = double(k) * width;
         if (fit > 0 && std::isfinite(fit))
         {
-            const vec2 centre(style.width / 2.0, (top + style.height - margin) / 2);
+            const vec2 centre(width / 2.0, (top + style.height - margin) / 2);
             const detail::view_frame frame{eye, (low + high) / 2.0, fit, centre * double(style.samples)};
             detail::drawn_skin(view, frame)
-                .draw(paper.grid(), k * style.width * style.samples, style.width * style.samples, scale,
+                .draw(paper.grid(), k * width * style.samples, width * style.samples, scale,
                       std::max(1.0, 0.9 * unit * style.samples));
         }
         draw_text(paper, {left + margin, 44 * unit}, view.title,

@@ -37,11 +37,16 @@ std::vector<idx> owners_of(const std::vector<idx>& simplices, const std::vector<
 
 /// Cells that are flat, or turned over, at a corner.
 template <class Element>
-void report_signs(check_report& report, const volume_case<Element>& input)
+void report_signs(check_report& report, const volume_case<Element>& input, const volume_state& state)
 {
     auto [flat, inverted] = detail::bad_rest_cells(input.simplices());
-    const auto turned = owners_of(inverted, input.parts().cells);
     auto thin = owners_of(flat, input.parts().cells);
+    auto turned = owners_of(inverted, input.parts().cells);
+    if (Element::dimension == 2) // triangles at rest lie in space, and have no sign there
+    {
+        turned = state.inverted;
+        std::erase_if(turned, [&](idx c) { return std::binary_search(thin.begin(), thin.end(), c); });
+    }
     std::erase_if(thin, [&](idx c) { return std::binary_search(turned.begin(), turned.end(), c); });
     report.details["inverted_ids"] = turned;
     report.details["degenerate_ids"] = thin;
@@ -173,7 +178,17 @@ void report_cells(check_report& report, const volume_case<Element>& input)
     for (const idx c : state.shapes.worst_ids) worst += (worst.empty() ? "" : ", ") + std::to_string(c);
     report.lines.emplace_back("worst", "cells " + worst);
 
-    report_signs(report, input);
+    if (D == 3 && input.parts().overlapping)
+    {
+        report.details["insides"] = insides_json(state);
+        report.lines.emplace_back("insides", insides_text(state));
+        if (!state.negative_inside.empty())
+            report.add({true, "mesh", "negative_inside", state.negative_inside,
+                        list_cells(input, state.negative_inside) +
+                            " with positive corners and a negative Jacobian inside; move a vertex of each"},
+                       exit_code::unsuitable_input);
+    }
+    report_signs(report, input, state);
     if (!input.parts().overlapping)
         report_facets(report, input.simplices());
     else if (D == 3)

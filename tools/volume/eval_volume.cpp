@@ -139,6 +139,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
                               {"percentile99", finite(distortion.percentile99)},
                               {"most", finite(distortion.most)},
                               {"worst_ids", distortion.worst_ids}};
+        if (input.parts().overlapping && D == 3) json["insides"] = insides_json(state);
         json["shapes"] = shapes_json(state.shapes);
         json["notes"] = notes;
         write_standard_output(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
@@ -152,6 +153,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
               count(state.inverted.size()) + " of " + count(input.cells()) +
                   (has_rest ? "; det " + number(map.quality.flips.min_det) + " .. " + number(map.quality.flips.max_det)
                             : ""));
+    if (input.parts().overlapping && D == 3) lines.add("insides", insides_text(state));
     lines.add("winding", state.simplices.branched == 0
                              ? std::string(D == 2 ? "once around every inner vertex" : "once around every inner edge")
                              : describe_defects<Element>(state.simplices));

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include <taut/exact/cell_validity.hpp>
 #include <taut/io/read_volume.hpp>
 
 #include "failure.hpp"
@@ -39,6 +40,28 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
         throw unsuitable_input(rest + " has other cells than " + path + "; give the same mesh at rest");
     file.rest = std::move(other.points);
     return file;
+}
+
+void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_state& state)
+{
+    io::for_each_cell(file, 3,
+                      [&](io::cell_kind, idx number, std::span<const idx> corners)
+                      {
+                          if (std::binary_search(state.inverted.begin(), state.inverted.end(), number)) return;
+                          std::vector<vec3> places;
+                          for (const idx v : corners) places.push_back(x[static_cast<std::size_t>(v)]);
+                          const auto verdict = validity_of_cell(places);
+                          if (verdict == cell_validity::invalid) state.negative_inside.push_back(number);
+                          if (verdict == cell_validity::undecided) state.undecided.push_back(number);
+                      });
+}
+
+void require_triangles(const volume_case<triangle>& input, std::size_t most, const std::string& command)
+{
+    if (input.parts().overlapping && input.parts().cells.size() > most)
+        throw unsuitable_input(input.file().path + ": quads of the plane are not taken by `taut " + command + '`' +
+                               (most > 0 ? " from " + std::to_string(most) + " corners on" : "") +
+                               "; split each into two triangles");
 }
 
 std::string count_cells(const io::volume_file& file, int dimension)

@@ -31,10 +31,14 @@ std::string count_cells(const io::volume_file& file, int dimension);
 /// What is wrong with cells, and their shapes; ids as io::for_each_cell() counts.
 struct volume_state
 {
-    certificate simplices;     ///< of the corners of all cells, or of these themselves
-    std::vector<idx> inverted; ///< cells with a corner that is not positive
+    certificate simplices;                       ///< of the corners of all cells, or of these themselves
+    std::vector<idx> inverted;                   ///< cells with a corner that is not positive
+    std::vector<idx> negative_inside, undecided; ///< cells with positive corners that Bezier bounds do not find valid
     shape_quality shapes;
 };
+
+/// Fills in negative_inside and undecided, by validity_of_cell(). x: one a point.
+void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_state& state);
 
 /// The cells of a volume file, or of a planar one, as simplices.
 template <class Element>
@@ -80,10 +84,14 @@ public:
         const auto& cells = simplices().cells();
         volume_state state{certify<D>(cells, x, {}, cells.size()),
                            {},
+                           {},
+                           {},
                            parts_.overlapping ? measure_shapes<Element>(cells, x, parts_.cells, parts_.regular)
                                               : measure_shapes<Element>(cells, x)};
         for (const idx s : state.simplices.ids) state.inverted.push_back(parts_.cells[static_cast<std::size_t>(s)]);
         state.inverted.erase(std::unique(state.inverted.begin(), state.inverted.end()), state.inverted.end());
+        if constexpr (D == 3)
+            if (parts_.overlapping) judge_insides(file_, x, state);
         return state;
     }
 
@@ -134,6 +142,10 @@ private:
     const io::volume_file& file_;
     io::corner_simplices<Element> parts_;
 };
+
+/// Throws unsuitable_input for quads of the plane, where there are more than `most` corners of them.
+void require_triangles(const volume_case<triangle>& input, std::size_t most, const std::string& command);
+inline void require_triangles(const volume_case<tetrahedron>&, std::size_t, const std::string&) {}
 
 /// Calls f(volume_case) for the cells that the file has: of the plane or of space.
 template <class F>

@@ -59,8 +59,11 @@ std::vector<char> kept_cells(const io::volume_file& file, std::span<const vec3> 
 std::string draw_volumes(const io::volume_file& file, const std::vector<drawn_state>& states,
                          const drawing_options& options)
 {
-    const auto cut = parse_cut(options.cut, states.front().points);
-    const auto kept = kept_cells(file, states.front().points, cut);
+    const auto& places = !file.rest.empty() ? file.rest
+                         : options.by_shape ? states.back().points
+                                            : states.front().points;
+    const auto cut = parse_cut(options.cut, places);
+    const auto kept = kept_cells(file, places, cut);
     const auto sides = io::cell_faces_of(file);
     const auto is_kept = [&](std::size_t side) { return kept[static_cast<std::size_t>(sides.faces[side].cell)] != 0; };
     std::vector<std::size_t> seen;

@@ -30,7 +30,8 @@ struct drawing_options
 void require_drawable(const io::volume_file& file, const drawing_options& options);
 
 /// The bytes of a picture: states side by side, the skin of volumes or layouts of planar meshes, coloured by
-/// distortion. The same cells are cut away in all of them, by where their centres are in the first.
+/// distortion. The same cells are cut away in all of them, by where their centres are at rest; without a shape at rest,
+/// in the last state if it is drawn by shape, else in the first.
 std::string draw_states(const io::volume_file& file, const std::vector<drawn_state>& states,
                         const drawing_options& options);
 

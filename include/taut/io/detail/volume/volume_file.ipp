@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/exact/cell_validity.hpp>
 #include <taut/io/io_error.hpp>
 #include <taut/io/volume_file.hpp>
 #include <taut/mesh/ideal.hpp>
@@ -32,35 +33,11 @@ inline std::span<const std::array<std::size_t, 3>> corner_table(cell_kind kind, 
     return {};
 }
 
-/// The corners of the tetrahedra at the corners of a cell, positive in VTK's order.
+/// The corners of the tetrahedra at the corners of a volume cell, positive.
 inline std::span<const std::array<std::size_t, 4>> corner_table(cell_kind kind, tetrahedron)
 {
-    using corners = std::array<std::size_t, 4>;
-    static constexpr std::array<corners, 1> itself = {{{0, 1, 2, 3}}};
-    static constexpr std::array<corners, 4> pyramid = {{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
-    static constexpr std::array<corners, 6> wedge = {
-        {{0, 2, 1, 3}, {1, 0, 2, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}, {4, 5, 3, 1}, {5, 3, 4, 2}}};
-    static constexpr std::array<corners, 8> hexahedron = {{{0, 1, 3, 4},
-                                                           {1, 2, 0, 5},
-                                                           {2, 3, 1, 6},
-                                                           {3, 0, 2, 7},
-                                                           {4, 7, 5, 0},
-                                                           {5, 4, 6, 1},
-                                                           {6, 5, 7, 2},
-                                                           {7, 6, 4, 3}}};
-    switch (kind)
-    {
-    case cell_kind::tetrahedron:
-        return itself;
-    case cell_kind::pyramid:
-        return pyramid;
-    case cell_kind::wedge:
-        return wedge;
-    case cell_kind::hexahedron:
-        return hexahedron;
-    default:
-        return {};
-    }
+    if (shape_of(kind).dimension < 3) return {};
+    return taut::detail::corner_tetrahedra(static_cast<std::size_t>(shape_of(kind).corners));
 }
 
 /// Edge matrix at the corners of a cell whose edges all have length 1, and how much of the simplex there counts so that
