@@ -1201,7 +1201,7 @@ test_volumes()
     volume 3 | tangled >in.mesh
     expect 4 check in.mesh
     says out '^input +in.mesh: MEDIT, volume, 160 vertices, 486 tetrahedra' '^groups .*triangles:1 \(16\)' \
-        '^inverted +[1-9][0-9]* of 486' '^error .*inverted, in a mesh that is oriented as MEDIT files are'
+        '^orientation +as MEDIT files have it' '^inverted +[1-9][0-9]* of 486' '^error .*inverted, in a mesh that is oriented as MEDIT files are'
     expect 0 untangle in.mesh -o out.mesh --stats stats.json --picture out.png --cut x:0.6
     says out 'inverted +[1-9][0-9]* -> 0 of 486' '^outcome +injective' 'wrote +out.mesh, out.png, stats.json'
     keys stats.json schema format outcome inverted_start inverted branch_edges quality.mean_ratio.worst seconds.total

@@ -74,10 +74,37 @@ void report_facets(check_report& report, const mesh<Element>& m)
             report_mesh(report, f, Element::dimension == 2 || f.fault != mesh_fault::non_manifold_vertex);
 }
 
+/// Triangles on one side and a quad on the other are no common face: the cells come apart there.
+void report_open_quads(check_report& report, const io::cell_faces& sides)
+{
+    std::vector<std::array<idx, 3>> in_quads, triangles;
+    for (std::size_t s = 0; s < sides.faces.size(); ++s)
+    {
+        if (sides.twin[s] != io::cell_faces::boundary) continue;
+        const auto corners = sides.faces[s].corners();
+        for (std::size_t k = 0; k < (corners.size() == 4 ? 4 : 1); ++k)
+        {
+            std::array<idx, 3> t{corners[k], corners[(k + 1) % corners.size()], corners[(k + 2) % corners.size()]};
+            std::sort(t.begin(), t.end());
+            (corners.size() == 4 ? in_quads : triangles).push_back(t);
+        }
+    }
+    std::sort(in_quads.begin(), in_quads.end());
+    std::vector<idx> ids;
+    for (const auto& t : triangles)
+        if (std::binary_search(in_quads.begin(), in_quads.end(), t)) ids.insert(ids.end(), t.begin(), t.end());
+    if (!ids.empty())
+        report.add({false, "mesh", "open_quads", ids,
+                    detail::list_ids("triangle", "triangles", ids, 3) +
+                        " against a quad: both count as boundary; put pyramids between, or split the cell"},
+                   exit_code::valid);
+}
+
 /// How the cells of a volume of several kinds meet.
 void report_faces(check_report& report, const io::volume_file& file)
 {
     const auto sides = io::cell_faces_of(file);
+    report_open_quads(report, sides);
     std::vector<idx> crowded, clashing;
     std::vector<std::array<idx, 4>> told;
     for (std::size_t s = 0; s < sides.faces.size(); ++s)
@@ -168,6 +195,8 @@ void report_cells(check_report& report, const volume_case<Element>& input)
     report.details["components"] = components;
     report.details["quality"] = shapes_json(state.shapes);
     report.lines.emplace_back("components", count(components));
+    report.lines.emplace_back("orientation", "as " + input.file().format + " files have it");
+    report.details["orientation"] = input.file().format;
     if (!input.parts().overlapping)
         report.lines.emplace_back("boundary", count(boundary, Element::facet_name, Element::facet_names));
     report.lines.emplace_back("inverted", count(state.inverted.size()) + " of " + count(input.cells()));

@@ -127,6 +127,7 @@ std::string draw_layouts(const io::volume_file& file, const std::vector<drawn_st
         std::vector<double> distortion;
         for (const std::size_t c : owners) distortion.push_back(state.distortion[c]);
         style.title = state.title;
+        style.note = note_of(file, state);
         if (extension(options.path) == ".svg")
             texts.push_back(io::layout_svg(x, triangles, distortion, outline, style));
         else
