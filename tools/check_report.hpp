@@ -47,8 +47,8 @@ struct check_report
     std::size_t pins = 0, springs = 0;
     certificate map; ///< of a problem's initial map, or of the corners of a volume's cells
     bool has_map = false;
-    std::vector<std::pair<std::string, std::string>> lines; ///< more of a volume, for people, a label each
-    nlohmann::ordered_json details;                         ///< and for programs
+    std::vector<std::pair<std::string, std::string>> lines;            ///< more of a volume, for people, a label each
+    nlohmann::ordered_json details = nlohmann::ordered_json::object(); ///< and for programs
     std::vector<finding> findings;
     exit_code code = exit_code::valid;
 
