@@ -50,9 +50,9 @@ nlohmann::ordered_json to_json(const spread& s)
     return {{"min", finite(s.min)}, {"max", finite(s.max)}, {"rms", finite(s.rms)}};
 }
 
-nlohmann::ordered_json to_json(const means& m)
+nlohmann::ordered_json to_json(const means& m, const char* by_measure)
 {
-    return {{"by_area", finite(m.measure)}, {"mean", finite(m.uniform)}};
+    return {{by_measure, finite(m.measure)}, {"mean", finite(m.uniform)}};
 }
 
 /// ": 5, 9, 12, ...", the first of n.
@@ -104,20 +104,26 @@ nlohmann::ordered_json finite(double x)
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }
 
-nlohmann::ordered_json to_json(const assessment& a)
+nlohmann::ordered_json to_json(const quality& q, int dimension)
 {
-    if (!a.measured) return nullptr;
-    const auto& q = a.quality;
+    const char* by_measure = dimension == 2 ? "by_area" : "by_volume";
     nlohmann::ordered_json json;
-    json["isometric"] = to_json(q.isometric);
-    json["shape"] = to_json(q.shape);
-    json["area"] = to_json(q.area);
+    json["isometric"] = to_json(q.isometric, by_measure);
+    json["shape"] = to_json(q.shape, by_measure);
+    json["area"] = to_json(q.area, by_measure);
     json["stretch_l2"] = to_json(q.stretch_l2);
     json["stretch_l2_total"] = finite(q.stretch_l2_total);
     json["stretch_linf"] = to_json(q.stretch_linf);
     json["area_ratio"] = to_json(q.area_ratio);
     json["angular"] = finite(q.angular);
     json["scale"] = finite(q.scale);
+    return json;
+}
+
+nlohmann::ordered_json to_json(const assessment& a)
+{
+    if (!a.measured) return nullptr;
+    auto json = to_json(a.quality, 2);
     json["boundaries"] = a.boundaries;
     json["boundary_crossings"] =
         a.crossings ? nlohmann::ordered_json(a.crossings->pairs) : nlohmann::ordered_json(nullptr);
@@ -145,16 +151,19 @@ void describe_validity(labelled_lines& lines, const assessment& a)
 
 void print(std::ostream& out, const assessment& a)
 {
-    if (!a.measured) return;
-    const auto& q = a.quality;
+    if (a.measured) print(out, a.quality, 2);
+}
+
+void print(std::ostream& out, const quality& q, int dimension)
+{
     text_table energies;
-    energies.add({"energy", "by area", "mean", "isometry"});
+    energies.add({"energy", dimension == 2 ? "by area" : "by volume", "mean", "isometry"});
     const auto energy = [&](const char* name, const means& m, const char* least) {
         energies.add({name, number(m.measure), number(m.uniform), least});
     };
-    energy("isometric", q.isometric, "4");
+    energy("isometric", q.isometric, dimension == 2 ? "4" : "2");
     energy("shape", q.shape, "1");
-    energy("area", q.area, "2");
+    energy(dimension == 2 ? "area" : "volume", q.area, "2");
 
     text_table spreads;
     spreads.add({"ratio", "min", "max", "rms - 1"});
@@ -163,7 +172,7 @@ void print(std::ostream& out, const assessment& a)
     };
     row("stretch L2", q.stretch_l2);
     row("stretch Linf", q.stretch_linf);
-    row("area", q.area_ratio);
+    row(dimension == 2 ? "area" : "volume", q.area_ratio);
     spreads.add({"angular", "", "", number(q.angular)});
     out << '\n' << energies << '\n' << spreads;
 }

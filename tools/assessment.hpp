@@ -40,6 +40,9 @@ assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv);
 /// The quality columns, null if nothing was measured. What is not a finite number becomes null.
 nlohmann::ordered_json to_json(const assessment& a);
 
+/// Energies and ratios of a map of triangles (dimension 2) or tetrahedra.
+nlohmann::ordered_json to_json(const quality& q, int dimension);
+
 /// A finite number, else null: JSON knows no others.
 nlohmann::ordered_json finite(double x);
 
@@ -48,5 +51,6 @@ void describe_validity(labelled_lines& lines, const assessment& a);
 
 /// The rest for people, in two small tables; nothing if nothing was measured.
 void print(std::ostream& out, const assessment& a);
+void print(std::ostream& out, const quality& q, int dimension);
 
 } // namespace taut::tools

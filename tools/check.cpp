@@ -13,16 +13,19 @@
 #include <taut/exact/certify.hpp>
 #include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/read_volume.hpp>
 #include <taut/mesh/validate.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 
+#include "check_report.hpp"
 #include "choices.hpp"
 #include "commands.hpp"
-#include "failure.hpp"
 #include "outputs.hpp"
 #include "seams.hpp"
 #include "shared_options.hpp"
 #include "text_table.hpp"
+#include "volume/check_volume.hpp"
+#include "volume/volume_case.hpp"
 #include "writing.hpp"
 
 namespace taut::tools
@@ -30,57 +33,6 @@ namespace taut::tools
 
 namespace
 {
-
-struct check_options
-{
-    std::string input, pins;
-    std::optional<io::surface_format> format; ///< nothing: a problem
-    bool json = false;
-};
-
-/// One thing that is wrong, or at least worth knowing.
-struct finding
-{
-    bool wrong = true;
-    std::string about; ///< "file", "mesh", "pins" or "feasibility"
-    std::string fault; ///< a word for programs
-    std::vector<idx> ids;
-    std::string message;
-};
-
-/// Everything that `taut check` has to say.
-struct check_report
-{
-    std::string kind; ///< of the input: "surface", "problem of triangles", ...
-    std::size_t vertices = 0, cells = 0;
-    std::string cells_name = triangle::names;
-    std::size_t pins = 0, springs = 0;
-    certificate map; ///< of a problem's initial map
-    bool has_map = false;
-    std::vector<finding> findings;
-    exit_code code = exit_code::valid;
-
-    /// The code is that of the most basic fault: unreadable, then unsuitable, then infeasible.
-    void add(finding f, exit_code meaning)
-    {
-        if (f.wrong && (code == exit_code::valid || to_int(meaning) < to_int(code))) code = meaning;
-        findings.push_back(std::move(f));
-    }
-};
-
-void report_mesh(check_report& report, const mesh_finding& f, bool wrong)
-{
-    const bool holes = f.fault == mesh_fault::several_boundaries;
-    report.add({wrong, "mesh", to_string(f.fault), f.ids, f.message + (holes ? ", or `taut unwrap --holes`" : "")},
-               code_of(f.fault));
-}
-
-template <class Element>
-void report_pins(check_report& report, const constraint_error& e, const io::pin<Element::dimension>* pin = nullptr)
-{
-    const std::string where = pin ? "the pin of vertex " + std::to_string(pin->vertex) + ": " : "";
-    report.add({true, "pins", to_string(e.fault()), e.ids(), where + e.what()}, exit_code::unsuitable_input);
-}
 
 /// Adds the pins of the file one by one, so that each fault is found. cut: of a surface that is cut open.
 template <class Element>
@@ -122,12 +74,14 @@ std::optional<io::cut_surface> find_cut(check_report& report, const io::surface_
 
 template <class Element>
 void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element::dimension>> initial,
-           const constraints<Element>& pins)
+           const constraints<Element>& pins, std::vector<idx> owners = {})
 {
     report.pins = pins.pins().size();
     report.springs = pins.springs().size();
     if (pins.pins().empty()) return;
-    const auto found = find_infeasibility(make_untangle_problem(m, std::move(initial), pins));
+    auto problem = make_untangle_problem(m, std::move(initial), pins);
+    problem.owners = std::move(owners);
+    const auto found = find_infeasibility(problem);
     for (const auto& f : found.proofs)
         report.add({true, "feasibility", to_string(f.kind), f.ids, f.message}, exit_code::infeasible);
     for (const auto& f : found.warnings)
@@ -173,6 +127,21 @@ void check_problem(check_report& report, const check_options& options, io::prob_
     judge(report, problem.rest, problem.initial, pins);
 }
 
+void check_volume(check_report& report, const check_options& options)
+{
+    const auto file = io::read_volume_file(options.input);
+    report_contents(report, file);
+    with_case(file,
+              [&]<class Element>(const volume_case<Element>& input)
+              {
+                  report_cells(report, input);
+                  const auto& m = input.simplices();
+                  auto pins = taut::constraints(m);
+                  read_constraints(report, options.pins, pins, m.vertex_count());
+                  judge(report, m, input.points(), pins, input.owners());
+              });
+}
+
 /// Looks at the files; what cannot be read is a finding, too.
 check_report examine(const check_options& options)
 {
@@ -180,7 +149,9 @@ check_report examine(const check_options& options)
     try
     {
         const bool by_name = options.format == io::surface_format::automatic;
-        if (!options.format || (by_name && extension(options.input) == ".prob"))
+        if (by_name && names_volume(options.input))
+            check_volume(report, options);
+        else if (!options.format || (by_name && extension(options.input) == ".prob"))
             std::visit([&](auto&& file) { check_problem(report, options, std::move(file)); },
                        io::read_any_prob(options.input));
         else
@@ -197,7 +168,7 @@ check_report examine(const check_options& options)
     return report;
 }
 
-nlohmann::ordered_json to_json(const check_report& r, const check_options& options)
+nlohmann::ordered_json json_of(const check_report& r, const check_options& options)
 {
     nlohmann::ordered_json json;
     json["schema"] = "taut.check/1";
@@ -210,6 +181,7 @@ nlohmann::ordered_json to_json(const check_report& r, const check_options& optio
     json["springs"] = r.springs;
     json["inverted"] = r.has_map ? nlohmann::ordered_json(r.map.flipped) : nlohmann::ordered_json(nullptr);
     json["branch_points"] = r.has_map ? nlohmann::ordered_json(r.map.branched) : nlohmann::ordered_json(nullptr);
+    json.update(r.details);
     json["exit_code"] = to_int(r.code);
     json["findings"] = nlohmann::ordered_json::array();
     for (const auto& f : r.findings)
@@ -221,13 +193,14 @@ nlohmann::ordered_json to_json(const check_report& r, const check_options& optio
     return json;
 }
 
-std::string text_of(const check_report& r, const check_options& options)
+std::string lines_of(const check_report& r, const check_options& options)
 {
     labelled_lines lines;
     if (r.vertices > 0)
         lines.add("input", options.input + ": " + r.kind + ", " + count(r.vertices, "vertex", "vertices") + ", " +
-                               count(r.cells) + ' ' + r.cells_name);
-    if (r.has_map)
+                               (r.lines.empty() ? count(r.cells) + ' ' : std::string()) + r.cells_name);
+    for (const auto& [label, text] : r.lines) lines.add(label, text);
+    if (r.has_map && r.lines.empty())
         lines.add("map", count(r.map.flipped) + " of " + count(r.cells) + " inverted at the start" +
                              (r.map.branched > 0 ? ", " + count(r.map.branched, "branch point", "branch points") : ""));
     if (r.pins + r.springs > 0)
@@ -249,8 +222,8 @@ exit_code run(const check_options& options)
     const auto report = examine(options);
     write_standard_output(
         options.json
-            ? to_json(report, options).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n'
-            : text_of(report, options));
+            ? json_of(report, options).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n'
+            : lines_of(report, options));
     return report.code;
 }
 
@@ -259,10 +232,12 @@ exit_code run(const check_options& options)
 command add_check(CLI::App& program)
 {
     const auto options = std::make_shared<check_options>();
-    auto& app =
-        *program.add_subcommand("check", "Say what is wrong with a surface, a problem or pins, without solving");
-    add_path(app, "IN", options->input, standard_input,
-             "Surface (OBJ, OFF, PLY) as `unwrap` takes it, or problem (.prob); - is standard input")
+    auto& app = *program.add_subcommand(
+        "check", "Say what is wrong with a surface, a volume, a problem or pins, without solving");
+    add_path(
+        app, "IN", options->input, standard_input,
+        "Surface (OBJ, OFF, PLY) as `unwrap` takes it, problem (.prob), or volume, or mesh of the plane (.mesh .msh "
+        ".vtk .vtu .node .su2); - is standard input")
         ->required()
         ->type_name("FILE");
     using io::surface_format;

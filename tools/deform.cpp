@@ -3,6 +3,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -39,9 +40,13 @@
 #include "outputs.hpp"
 #include "progress.hpp"
 #include "run_clock.hpp"
-#include "shape_options.hpp"
 #include "shared_options.hpp"
 #include "text_table.hpp"
+#include "volume/group_targets.hpp"
+#include "volume/shape_options.hpp"
+#include "volume/shape_report.hpp"
+#include "volume/volume_case.hpp"
+#include "volume/volume_drawing.hpp"
 #include "writing.hpp"
 
 namespace taut::tools
@@ -66,121 +71,6 @@ any_energy energy_of(shape_energy choice)
     return energy::isometric{};
 }
 
-/// Numbers between commas; throws usage_error unless there are `count`.
-std::vector<double> numbers_of(std::string_view text, std::size_t count, const std::string& option)
-{
-    std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= text.size();)
-    {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        double x = 0;
-        const auto [last, failure] = std::from_chars(text.data() + begin, text.data() + end, x);
-        if (failure != std::errc{} || last != text.data() + end || !std::isfinite(x))
-            throw usage_error("--move " + option + ": '" + std::string(text.substr(begin, end - begin)) +
-                              "' is no number");
-        numbers.push_back(x);
-        begin = end + 1;
-    }
-    if (numbers.size() != count)
-        throw usage_error("--move " + option + ": give " + std::to_string(count) + " numbers with commas between");
-    return numbers;
-}
-
-/// Where the vertices of groups go, by vertex: each group by itself, and an error where two disagree.
-class group_targets
-{
-public:
-    explicit group_targets(const io::volume_file& file) : file_(file) {}
-
-    void fix(const std::string& name)
-    {
-        for (const idx v : group(name).vertices) take(v, point(v), name);
-    }
-
-    /// GROUP=FILE.csv, GROUP:translate:x,y,z, GROUP:rotate:ax,ay,az,degrees or GROUP:scale:factor; about the middle of
-    /// the group.
-    void move(const std::string& text)
-    {
-        for (const auto& [word, count] : {std::pair{"translate", 3}, std::pair{"rotate", 4}, std::pair{"scale", 1}})
-        {
-            const std::string key = std::string(":") + word + ":";
-            const auto at = text.rfind(key);
-            if (at == text.npos) continue;
-            const auto n =
-                numbers_of(std::string_view(text).substr(at + key.size()), static_cast<std::size_t>(count), text);
-            return transform(text.substr(0, at), count, n);
-        }
-        const auto at = text.rfind('=');
-        if (at == text.npos)
-            throw usage_error("--move " + text +
-                              ": give GROUP=FILE.csv, GROUP:translate:x,y,z, "
-                              "GROUP:rotate:ax,ay,az,degrees or GROUP:scale:factor");
-        const std::string name = text.substr(0, at);
-        const auto& members = group(name).vertices;
-        for (const auto& p : io::read_pins<3>(text.substr(at + 1), static_cast<idx>(file_.points.size())))
-        {
-            if (!std::binary_search(members.begin(), members.end(), p.vertex))
-                throw unsuitable_input(text.substr(at + 1) + ": vertex " + std::to_string(p.vertex) +
-                                       " is not in group " + name);
-            if (!p.hard() || p.held != constraints<tetrahedron>::all)
-                throw unsuitable_input(text.substr(at + 1) + ": vertex " + std::to_string(p.vertex) +
-                                       " has a weight or lacks a coordinate; use --pins for those");
-            take(p.vertex, p.target, name);
-        }
-    }
-
-    const std::map<idx, vec3>& all() const { return targets_; }
-
-private:
-    const io::volume_group& group(const std::string& name) const { return file_.find_group(name); }
-    const vec3& point(idx v) const { return file_.points[static_cast<std::size_t>(v)]; }
-
-    void transform(const std::string& name, int kind, const std::vector<double>& n)
-    {
-        const auto& members = group(name).vertices;
-        vec3 middle(0.0);
-        for (const idx v : members) middle += point(v) / static_cast<double>(members.size());
-        rigid_motion<3> motion{.from = middle, .to = middle};
-        if (kind == 4)
-        {
-            const vec3 axis(n[0], n[1], n[2]);
-            if (!(glm::length(axis) > 0))
-                throw usage_error("--move " + name + ": the axis of a rotation has no length");
-            motion.axis = glm::normalize(axis);
-            motion.angle = n[3] * std::numbers::pi / 180;
-        }
-        if (kind == 3) motion.to += vec3(n[0], n[1], n[2]);
-        for (const idx v : members) take(v, kind == 1 ? middle + n[0] * (point(v) - middle) : motion(point(v)), name);
-    }
-
-    void take(idx v, const vec3& x, const std::string& name)
-    {
-        const auto [at, is_new] = targets_.try_emplace(v, x);
-        if (!is_new && at->second != x)
-            throw unsuitable_input("vertex " + std::to_string(v) + " is in " + owner_[v] + " and in " + name +
-                                   ", which go different ways; leave it to one of them");
-        owner_[v] = name;
-    }
-
-    const io::volume_file& file_;
-    std::map<idx, vec3> targets_;
-    std::map<idx, std::string> owner_;
-};
-
-nlohmann::ordered_json to_json(const shape_quality& q)
-{
-    return {{"mean_ratio", {{"worst", q.worst.mean_ratio}, {"mean", q.mean_ratio}}},
-            {"scaled_jacobian", {{"worst", q.worst.scaled_jacobian}, {"mean", q.scaled_jacobian}}},
-            {"angle", {{"least", q.worst.min_angle}, {"most", q.worst.max_angle}}},
-            {"worst_ids", q.worst_ids}};
-}
-
-std::string text_of(const shape_quality& q)
-{
-    return "mean ratio " + number(q.worst.mean_ratio) + " worst, " + number(q.mean_ratio) + " mean; angles " +
-           number(q.worst.min_angle) + " to " + number(q.worst.max_angle) + " degrees";
-}
-
 /// One run of `taut deform` or `taut smooth`.
 template <class Element>
 class shape_run
@@ -189,14 +79,14 @@ public:
     static constexpr int D = Element::dimension;
 
     shape_run(const shape_options& options, bool smoothing, run_clock clock, progress& progress,
-              const char* place_of_report, const io::volume_file& file, mesh<Element> m)
+              const char* place_of_report, const volume_case<Element>& input)
         : options_(options),
           smoothing_(smoothing),
           clock_(clock),
           progress_(progress),
           place_of_report_(place_of_report),
-          file_(file),
-          mesh_(std::move(m))
+          input_(input),
+          mesh_(input.simplices())
     {
         read_seconds_ = clock_.now();
     }
@@ -220,7 +110,7 @@ private:
 
     void prepare()
     {
-        group_targets targets(file_);
+        group_targets targets(input_.file());
         for (const auto& name : options_.fixed) targets.fix(name);
         for (const auto& move : options_.moves) targets.move(move);
         if (smoothing_)
@@ -230,14 +120,7 @@ private:
         }
         pins_ = constraints<Element>(mesh_);
         for (const auto& [v, x] : targets.all()) pins_.pin(v, vec<D>(x));
-        if (!options_.pins.empty())
-            add_pins(pins_, io::read_pins<D>(options_.pins, static_cast<idx>(file_.points.size())));
-        if (options_.rest.empty()) return;
-        const auto rest = io::read_volume_file(options_.rest);
-        if (rest.points.size() != file_.points.size())
-            throw unsuitable_input(options_.rest + " has " + count(rest.points.size(), "point", "points") + ", not " +
-                                   count(file_.points.size()) + " as " + options_.input);
-        rest_ = rest.points;
+        if (!options_.pins.empty()) add_pins(pins_, io::read_pins<D>(options_.pins, mesh_.vertex_count()));
     }
 
     template <class Params>
@@ -259,17 +142,18 @@ private:
 
     void solve(queue& q)
     {
-        const std::vector<vec<D>> start(mesh_.points().begin(), mesh_.points().end());
-        before_ = measure_shapes<Element>(mesh_.cells(), std::span<const vec<D>>(start));
-        inverted_before_ = certify<D>(mesh_.cells(), std::span<const vec<D>>(start)).flipped;
+        before_ = input_.look(input_.points());
         std::vector<vec<D>> x;
         solve_seconds_ = clock_.timed(
             [&]
             {
                 if (smoothing_)
                 {
-                    smooth_params<Element> params{
-                        .boundary = options_.boundary, .worst_exponent = options_.worst_exponent, .fixed = fixed_};
+                    smooth_params<Element> params{.boundary = options_.boundary,
+                                                  .regular = input_.parts().regular,
+                                                  .owners = input_.owners(),
+                                                  .worst_exponent = options_.worst_exponent,
+                                                  .fixed = fixed_};
                     limit(params);
                     auto r = smooth(q, mesh_, params);
                     x = std::move(r.x);
@@ -277,8 +161,11 @@ private:
                 }
                 else
                 {
-                    deform_params<Element> params{
-                        .energy = energy_of(options_.energy), .constraints = pins_, .rest = rest_};
+                    deform_params<Element> params{.energy = energy_of(options_.energy),
+                                                  .constraints = pins_,
+                                                  .owners = input_.owners(),
+                                                  .initial = input_.points()};
+                    if (input_.parts().overlapping) params.data.weights = input_.parts().weights;
                     limit(params);
                     auto r = deform(q, mesh_, params);
                     x = std::move(r.x);
@@ -297,23 +184,19 @@ private:
                 : report_.outcome == outcome::infeasible ? exit_code::infeasible
                                                          : exit_code::no_valid_map;
         if (x.empty() || code_ == exit_code::infeasible || code_ == exit_code::no_valid_map) return;
-        points_ = file_.points;
-        for (std::size_t v = 0; v < x.size(); ++v)
-            for (int k = 0; k < D; ++k) points_[v][k] = x[v][k];
-        const auto kept = io::rounded_to_file(file_, points_);
-        std::vector<vec<D>> written(kept.begin(), kept.end());
-        after_ = certify<D>(mesh_.cells(), std::span<const vec<D>>(written));
-        shapes_ = measure_shapes<Element>(mesh_.cells(), std::span<const vec<D>>(written));
+        points_ = input_.in_file(x);
+        after_ = input_.look(input_.as_written(x));
         bool held = true;
         if (report_.pins_held)
             for (const auto& [v, pin] : pins_.pins())
                 for (int k = 0; k < D; ++k)
                     held = held && ((pin.held >> k & 1u) == 0 || x[static_cast<std::size_t>(v)][k] == pin.value[k]);
-        valid_ = held && after_;
+        valid_ = held && after_.simplices;
         if (valid_) return;
         code_ = exit_code::no_valid_map;
-        report_.reason = held ? "in the single precision of the file the mesh has " + describe_defects<Element>(after_)
-                              : "a pin has moved";
+        report_.reason =
+            held ? "in the single precision of the file the mesh has " + describe_defects<Element>(after_.simplices)
+                 : "a pin has moved";
     }
 
     [[noreturn]] void refuse() const
@@ -328,7 +211,10 @@ private:
     {
         tell("write");
         const auto note_time = [&] { total_seconds_ = clock_.now(); };
-        auto files = io::volume_outputs(options_.output, file_, points_);
+        auto files = io::volume_outputs(options_.output, input_.file(), points_);
+        drawing_options drawing{options_.picture, options_.cut, smoothing_};
+        if (drawn(drawing.path, report_.notes))
+            files.push_back({drawing.path, [&](io::atomic_file& file) { file.write(picture(drawing)); }});
         if (!options_.stats.empty())
             files.push_back(
                 {options_.stats, [&](io::atomic_file& file)
@@ -347,16 +233,26 @@ private:
         progress_.finish();
     }
 
+    std::string picture(const drawing_options& drawing) const
+    {
+        const std::string name = std::filesystem::path(options_.input).filename().string();
+        const std::vector<vec<D>> x(points_.begin(), points_.end());
+        return draw_states(input_.file(),
+                           {state_to_draw(input_, name + ": before", input_.points(), smoothing_),
+                            state_to_draw(input_, "after", x, smoothing_)},
+                           drawing);
+    }
+
     nlohmann::ordered_json json() const
     {
         nlohmann::ordered_json json;
         json["schema"] = smoothing_ ? "taut.smooth/1" : "taut.deform/1";
         json["input"] = options_.input;
         json["output"] = options_.output;
-        json["format"] = file_.format;
-        json["element"] = Element::name;
-        json["vertices"] = file_.points.size();
-        json["elements"] = mesh_.cells().size();
+        json["format"] = input_.file().format;
+        json["element"] = input_.element();
+        json["vertices"] = mesh_.vertex_count();
+        json["elements"] = input_.cells();
         json["pins"] = pins_.pins().size();
         json["springs"] = pins_.springs().size();
         json["device"] = device_;
@@ -369,12 +265,13 @@ private:
         json["energy"] = finite(report_.energy);
         json["gradient"] = finite(report_.gradient);
         json["iterations"] = report_.steps;
-        json["inverted_start"] = inverted_before_;
-        json["inverted"] = after_.flipped;
-        json["branch_edges"] = D == 3 ? after_.branched : 0;
-        json["branch_points"] = D == 2 ? after_.branched : 0;
-        json["quality_start"] = to_json(before_);
-        json["quality"] = to_json(shapes_);
+        json["inverted_start"] = before_.inverted.size();
+        json["inverted"] = after_.inverted.size();
+        json["branch_edges"] = D == 3 ? after_.simplices.branched : 0;
+        json["branch_points"] = D == 2 ? after_.simplices.branched : 0;
+        if (input_.parts().overlapping && D == 3) json["insides"] = insides_json(after_);
+        json["quality_start"] = shapes_json(before_.shapes);
+        json["quality"] = shapes_json(after_.shapes);
         const auto& s = report_.seconds;
         json["seconds"] = {{"read", read_seconds_},  {"device", device_seconds_}, {"start", s.start},
                            {"follow", s.follow},     {"repair", s.repair},        {"solve", s.solve},
@@ -389,15 +286,16 @@ private:
         for (const auto& note : report_.notes) std::cerr << "taut: note: " << note << '\n';
         if (!report_.pins_held && !report_.reason.empty()) std::cerr << "taut: note: " << report_.reason << '\n';
         labelled_lines lines;
-        lines.add("mesh", options_.input + ": " + count(file_.points.size(), "vertex", "vertices") + ", " +
-                              count(mesh_.cells().size()) + ' ' + Element::names +
+        lines.add("mesh", options_.input + ": " + count(mesh_.points().size(), "vertex", "vertices") + ", " +
+                              count_cells(input_.file(), D) +
                               (smoothing_ ? "" : ", " + count(pins_.pins().size()) + " vertices held"));
         lines.add("device", device_);
-        lines.add("inverted", count(inverted_before_) + " -> " + count(after_.flipped));
+        lines.add("inverted", count(before_.inverted.size()) + " -> " + count(after_.inverted.size()));
+        if (input_.parts().overlapping && D == 3) lines.add("insides", insides_text(after_));
         lines.add("energy", number(report_.energy) + (report_.converged ? ", converged" : ", not converged") + ", " +
                                 count(static_cast<std::uint64_t>(report_.steps), "step", "steps"));
-        lines.add("before", text_of(before_));
-        lines.add("after", text_of(shapes_));
+        lines.add("before", shapes_text(before_.shapes));
+        lines.add("after", shapes_text(after_.shapes));
         lines.add("time", duration(total_seconds_) + ": read " + duration(read_seconds_) + ", device " +
                               duration(device_seconds_) + ", solve " + duration(solve_seconds_));
         lines.add("wrote", options_.output + (options_.stats.empty() ? "" : ", " + options_.stats));
@@ -409,15 +307,13 @@ private:
     run_clock clock_;
     progress& progress_;
     const char* place_of_report_; ///< null: there is none
-    const io::volume_file& file_;
-    mesh<Element> mesh_;
+    const volume_case<Element>& input_;
+    const mesh<Element>& mesh_; ///< its simplices
     constraints<Element> pins_;
     std::vector<idx> fixed_;
-    std::vector<vec3> rest_, points_;
+    std::vector<vec3> points_;
     session_report report_;
-    shape_quality before_, shapes_;
-    certificate after_;
-    std::size_t inverted_before_ = 0;
+    volume_state before_, after_;
     std::string device_;
     exit_code code_ = exit_code::valid;
     bool valid_ = false;
@@ -429,6 +325,7 @@ exit_code run(const shape_options& options, bool smoothing, std::chrono::steady_
     outputs files;
     files.add("-o", options.output, {});
     files.add("--stats", options.stats, {".json"});
+    files.add("--picture", options.picture, {".png", ".svg"});
     files.protect("the input", options.input);
     if (!options.pins.empty()) files.protect("the file of pins", options.pins);
     if (!options.rest.empty()) files.protect("the shape at rest", options.rest);
@@ -437,12 +334,15 @@ exit_code run(const shape_options& options, bool smoothing, std::chrono::steady_
     limit_time(options.time_limit - clock.now());
     progress progress(progress_of(options.progress, options.quiet), std::cerr);
     progress.update({.phase = "read", .seconds = clock.now()});
-    const auto file = io::read_volume_file(options.input);
-    if (file.dimension == 2)
-        return shape_run<triangle>(options, smoothing, clock, progress, place_of_report, file,
-                                   io::triangles_of(file))();
-    return shape_run<tetrahedron>(options, smoothing, clock, progress, place_of_report, file,
-                                  io::tetrahedra_of(file))();
+    auto file = read_volume_at_rest(options.input, options.rest);
+    if (smoothing) file.rest.clear();
+    require_drawable(file, {options.picture, options.cut, smoothing});
+    return with_case(file,
+                     [&]<class Element>(const volume_case<Element>& input)
+                     {
+                         require_triangles(input, 0, smoothing ? "smooth" : "deform");
+                         return shape_run<Element>(options, smoothing, clock, progress, place_of_report, input)();
+                     });
 }
 
 /// What both commands have.
@@ -462,6 +362,7 @@ CLI::App& add_shape_command(CLI::App& program, const char* name, const char* wha
     add_time_limit(app, options.time_limit, "Stop after S seconds, with the best mesh by then");
     add_device(app, options.device);
     add_path(app, "--stats", options.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    add_drawing(app, options.picture, options.cut, "Draw the mesh before and after");
     add_progress(app, options.progress, options.quiet);
     app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written; 9 device failure;\n"

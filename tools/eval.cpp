@@ -12,6 +12,8 @@
 #include "failure.hpp"
 #include "shared_options.hpp"
 #include "text_table.hpp"
+#include "volume/eval_volume.hpp"
+#include "volume/volume_case.hpp"
 #include "writing.hpp"
 
 namespace taut::tools
@@ -22,13 +24,25 @@ namespace
 
 struct eval_options
 {
-    std::string input;
+    std::string input, map, picture, cut; ///< map and what follows: of volumes
     io::surface_format format{};
     bool json = false;
 };
 
 exit_code evaluate(const eval_options& options)
 {
+    const bool volume = names_volume(options.input) || extension(options.input) == ".prob";
+    if (volume)
+        return evaluate_volume({options.map.empty() ? options.input : options.map,
+                                options.map.empty() ? std::string() : options.input, options.picture, options.cut,
+                                options.json});
+    const auto refuse = [](const char* option, bool given)
+    {
+        if (given) throw usage_error(std::string(option) + " is of volume files; leave it out");
+    };
+    refuse("MAP", !options.map.empty());
+    refuse("--picture", !options.picture.empty());
+    refuse("--cut", !options.cut.empty());
     const auto file = io::read_surface_file(options.input, options.format);
     if (file.texcoords.empty())
         throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
@@ -78,10 +92,14 @@ command add_eval(CLI::App& program)
     const auto options = std::make_shared<eval_options>();
     auto& app = *program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
     add_path(app, "IN", options->input, standard_input,
-             "OBJ file with texture coordinates; seams are cut open; - is standard input")
+             "OBJ file with texture coordinates; seams are cut open; - is standard input. Or a volume (.mesh .msh .vtk "
+             ".vtu .node .su2), or a problem (.prob)")
         ->required()
         ->type_name("FILE");
+    app.add_option("MAP", options->map, "The volume IN after it was deformed: the same vertices and cells")
+        ->type_name("FILE");
     add_format(app, options->format);
+    add_drawing(app, options->picture, options->cut, "Draw a volume, or a mesh of the plane");
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");
     return [options] { return evaluate(*options); };

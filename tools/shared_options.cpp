@@ -58,6 +58,15 @@ void add_format(CLI::App& app, io::surface_format& format)
                                    "What IN is; auto: what its name says, for - (standard input) how it begins");
 }
 
+void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const std::string& help)
+{
+    add_path(app, "--picture", picture, standard_output, help + ", coloured by distortion")->type_name("FILE.png|.svg");
+    app.add_option("--cut", cut,
+                   "Show the inside of a volume in the picture: without the elements whose centre is beyond a plane "
+                   "across an axis, x, y, z or x:FRACTION of the extent, or nx,ny,nz,d: nx x + ny y + nz z = d")
+        ->type_name("PLANE");
+}
+
 void add_device(CLI::App& app, std::string& device)
 {
     app.add_option(

@@ -28,6 +28,9 @@ void require_one_standard_input(const std::string& input, const std::string& pin
 /// --format of a surface to read
 void add_format(CLI::App& app, io::surface_format& format);
 
+/// --picture of a volume or a planar mesh, and --cut
+void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const std::string& help);
+
 void add_device(CLI::App& app, std::string& device);
 void add_time_limit(CLI::App& app, double& seconds, const std::string& help);
 

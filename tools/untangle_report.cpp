@@ -8,6 +8,7 @@
 #include "assessment.hpp"
 #include "run_clock.hpp"
 #include "text_table.hpp"
+#include "volume/shape_report.hpp"
 
 namespace taut::tools
 {
@@ -18,6 +19,7 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
     json["schema"] = "taut.untangle/1";
     json["input"] = o.input;
     json["output"] = r.written.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(r.written);
+    if (!r.format.empty()) json["format"] = r.format;
     json["element"] = r.element;
     json["vertices"] = r.vertices;
     json["elements"] = r.elements;
@@ -28,8 +30,15 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
     json["ids"] = r.ids;
     json["inverted_start"] = r.before.flipped;
     json["inverted"] = r.after.flipped;
-    json["branch_points_start"] = r.before.branched;
-    json["branch_points"] = r.after.branched;
+    for (const auto& [suffix, map] : {std::pair{"_start", &r.before}, {"", &r.after}})
+        json[(r.dimension == 2 ? "branch_points" : "branch_edges") + std::string(suffix)] = map->branched;
+    if (!r.format.empty())
+    {
+        if (r.dimension == 3 && !r.written.empty() && r.element == std::string("mixed"))
+            json["insides"] = insides_json(r.state_after);
+        json["quality_start"] = shapes_json(r.state_before.shapes);
+        json["quality"] = r.written.empty() ? nlohmann::ordered_json(nullptr) : shapes_json(r.state_after.shapes);
+    }
     json["min_det"] = finite(r.least_det);
     json["min_relative_det"] = finite(r.least_relative_det);
     json["stage"] = r.stage;
@@ -51,12 +60,17 @@ std::string text_of(const untangle_report& r, const untangle_options& o)
 {
     for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
     labelled_lines lines;
-    lines.add("problem", o.input + ": " + count(r.vertices, "vertex", "vertices") + ", " + count(r.elements) + ' ' +
-                             r.element_names + ", " + count(r.pinned) + " vertices pinned");
+    lines.add("problem", o.input + ": " + count(r.vertices, "vertex", "vertices") + ", " + r.cells + ", " +
+                             count(r.pinned) + " vertices pinned");
     if (!r.device_label.empty()) lines.add("device", r.device_label);
     lines.add("inverted", count(r.before.flipped) + " -> " + count(r.after.flipped) + " of " + count(r.elements));
     if (r.before.branched + r.after.branched > 0)
-        lines.add("branch points", count(r.before.branched) + " -> " + count(r.after.branched));
+        lines.add(r.dimension == 2 ? "branch points" : "branch edges",
+                  count(r.before.branched) + " -> " + count(r.after.branched));
+    if (!r.format.empty()) lines.add("before", shapes_text(r.state_before.shapes));
+    if (!r.format.empty() && !r.written.empty()) lines.add("after", shapes_text(r.state_after.shapes));
+    if (r.dimension == 3 && !r.written.empty() && r.element == std::string("mixed"))
+        lines.add("insides", insides_text(r.state_after));
     lines.add("outcome", r.outcome + (r.stage.empty() ? "" : ", by " + r.stage));
     std::string stages;
     for (const auto& s : r.stages)

@@ -10,14 +10,26 @@
 #include <taut/untangle/result.hpp>
 
 #include "exit_codes.hpp"
+#include "volume/volume_case.hpp"
 
 namespace taut::tools
 {
+
+/// Whether the boundary of a volume file stays where it is while it is untangled.
+enum class untangle_boundary
+{
+    automatic, ///< unless something else is held
+    fixed,
+    free
+};
 
 /// What the user asked `taut untangle` for.
 struct untangle_options
 {
     std::string input, output, stats, picture, device, progress;
+    std::string rest, pins, cut;    ///< of volume files
+    std::vector<std::string> fixed; ///< groups
+    untangle_boundary boundary = untangle_boundary::automatic;
     double time_limit = std::numeric_limits<double>::infinity();
     bool quiet = false;
 };
@@ -34,9 +46,13 @@ struct untangle_report
     std::string written; ///< the file with the map; empty: none
     std::string device, device_label;
     std::size_t vertices = 0, elements = 0, pinned = 0;
-    certificate before, after; ///< of the initial map and of the one that is written
-    const char *element = "", *element_names = "";
+    certificate before, after; ///< of the initial map and of the one that is written; flipped: cells of any kind
+    const char* element = "";  ///< a word
+    std::string cells;         ///< how many of which kind
+    int dimension = 2;
     double least_det = unknown, least_relative_det = unknown; ///< of the map; unknown where nothing was solved
+    std::string format;                                       ///< of a volume file; else empty
+    volume_state state_before, state_after;                   ///< of a volume file
     std::string stage;
     std::vector<untangle_stage_report> stages;
     std::vector<std::string> notes;

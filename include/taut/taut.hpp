@@ -18,11 +18,13 @@
 #include <taut/energy/check_gradient.hpp>
 #include <taut/energy/isometric.hpp>
 
+#include <taut/exact/cell_validity.hpp>
 #include <taut/exact/crossings.hpp>
 #include <taut/measure/quality.hpp>
 
 #include <taut/constrain/constraints.hpp>
 
+#include <taut/io/cell_faces.hpp>
 #include <taut/io/cut_seams.hpp>
 #include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/pins.hpp>

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include <taut/io/cell_faces.hpp>
 #include <taut/io/read_volume.hpp>
 #include <taut/io/write_volume.hpp>
 
@@ -93,6 +94,8 @@ void examine(const io::volume_file& file, const std::function<io::volume_file(co
     attempt([&] { io::tetrahedra_of(file); });
     attempt([&] { io::triangles_of(file); });
     attempt([&] { io::corner_simplices_of(file); });
+    attempt([&] { io::corner_simplices_of<triangle>(file); });
+    attempt([&] { io::cell_faces_of(file); });
     attempt([&] { file.find_group("1"); });
 }
 

@@ -3,11 +3,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <taut/constrain/constraints.hpp>
 #include <taut/constrain/slide.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/mesh/cell_corners.hpp>
 
 namespace taut
 {
@@ -59,13 +60,14 @@ int axis_of(const vec<D>& direction)
 /// The motions that keep the boundary of a mesh: a vertex in a flat part of it moves in its plane, one on a straight
 /// crease (in the plane, a straight outline) along it, all others are pinned. Held coordinates hold bit for bit.
 ///
-/// tolerance: sine of the angle up to which normals count as equal
+/// tolerance: sine of the angle up to which normals count as equal; owners: as for boundary_facets()
 template <class Element>
-boundary_motion<Element> sliding_boundary(const mesh<Element>& m, double tolerance = 1e-4)
+boundary_motion<Element> sliding_boundary(const mesh<Element>& m, double tolerance = 1e-4,
+                                          std::span<const idx> owners = {})
 {
     constexpr int D = Element::dimension;
     std::vector<detail::span_of_normals<D>> normals(m.points().size());
-    for (const auto& facet : boundary_facets(m))
+    for (const auto& facet : boundary_facets(m, owners))
     {
         const auto at = [&](std::size_t k) { return vec<D>(m.points()[static_cast<std::size_t>(facet[k])]); };
         vec<D> normal;

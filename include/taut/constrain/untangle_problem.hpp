@@ -9,7 +9,7 @@
 
 #include <taut/core/error.hpp>
 #include <taut/core/held_marks.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/mesh/cell_corners.hpp>
 
 namespace taut
 {
@@ -26,11 +26,16 @@ struct untangle_problem
     /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
     /// empty: none is known.
     std::vector<vec<D>> draft = {};
+    /// What elements are wanted to look like, if not as they are at rest: edge matrices, upper triangular with a
+    /// positive diagonal, one a cell; their measures are weights, too.
+    std::vector<mat<D>> wanted = {};
+    /// The cell that each simplex is a corner of (mesh/cell_corners.hpp), where they are corners of others; else empty.
+    std::vector<idx> owners = {};
 
     /// True if no vertex of the boundary can move.
     bool outline_pinned() const
     {
-        const auto outline = boundary_facets(rest);
+        const auto outline = boundary_facets(rest, owners);
         return std::all_of(outline.begin(), outline.end(),
                            [this](const auto& facet) {
                                return std::all_of(facet.begin(), facet.end(),
@@ -51,6 +56,13 @@ struct untangle_problem
         if (!draft.empty() && draft.size() != n)
             throw parameter_error("draft", "one position a vertex, or none at all: " + std::to_string(n) + ", not " +
                                                std::to_string(draft.size()));
+        const std::size_t cells = rest.cells().size();
+        if (!wanted.empty() && wanted.size() != cells)
+            throw parameter_error("wanted", "one matrix a cell, or none at all: " + std::to_string(cells) + ", not " +
+                                                std::to_string(wanted.size()));
+        if (!owners.empty() && owners.size() != cells)
+            throw parameter_error("owners", "one a cell, or none at all: " + std::to_string(cells) + ", not " +
+                                                std::to_string(owners.size()));
         for (std::size_t v = 0; v < n; ++v)
         {
             for (int k = 0; k < D; ++k)

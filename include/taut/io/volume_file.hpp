@@ -137,26 +137,45 @@ struct volume_file
     const volume_group& find_group(std::string_view name) const;
 };
 
+/// Calls f(kind, number, corners) for each cell of the file of this dimension, in the order of the file; number:
+/// counted over them, all kinds together, from 0.
+template <class F>
+void for_each_cell(const volume_file& file, int dimension, const F& f)
+{
+    idx number = 0;
+    for (const auto& block : file.cells)
+        if (shape_of(block.kind).dimension == dimension)
+            for (std::size_t c = 0; c < block.size(); ++c) f(block.kind, number++, block.cell(c));
+}
+
 /// The tetrahedra at rest, cells in the order of the file. A few may be inverted: which, validate() tells.
 /// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty), or if nine of ten or
 /// more are inverted (inverted_cell): then they are turned, and what() states the convention of the format.
 mesh<tetrahedron> tetrahedra_of(const volume_file& file);
 
 /// The triangles of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
-/// are no triangles, or the file is of dimension 3.
+/// are no triangles, or the file is of dimension 3; inverted_cell as tetrahedra_of does.
 mesh<triangle> triangles_of(const volume_file& file);
 
-/// Cells as tetrahedra that overlap: one a corner with three edges, which these edges span.
+/// The cells of a file as simplices: tetrahedra, or triangles of a planar file, for themselves; others as the simplices
+/// at their corners, which overlap.
+template <class Element>
 struct corner_simplices
 {
-    mesh<tetrahedron> simplices;
-    std::vector<idx> cells; ///< the cell of each, counted over all cells of the file
+    mesh<Element> simplices;                      ///< at rest
+    std::vector<idx> cells;                       ///< the cell of each, as for_each_cell() counts
+    bool overlapping = false;                     ///< there are cells of other kinds
+    std::vector<mat<Element::dimension>> regular; ///< edge matrix of each where its cell has equal edges of length 1
+    std::vector<double> weights;                  ///< of each, so that a cell counts once; exact for parallelepipeds
 };
 
-/// A tetrahedron for itself, 4 a pyramid (at the corners of its base), 6 a wedge, 8 a hexahedron; cells below dimension
-/// 3 have none. That all are positive is necessary for a hexahedron, wedge or pyramid to be valid, not sufficient.
-/// Throws mesh_error as tetrahedra_of does, for each kind by itself.
-corner_simplices corner_simplices_of(const volume_file& file);
+/// A simplex a corner with `dimension` edges, which these edges span: 4 a quad, 4 a pyramid (at the corners of its
+/// base), 6 a wedge, 8 a hexahedron; cells of lower dimension have none. That all are positive is necessary for a
+/// wedge, pyramid or hexahedron to be valid, not sufficient (exact/cell_validity.hpp decides it); for a quad it is
+/// both. Throws mesh_error as tetrahedra_of does, for each kind by itself; triangles: also where the file has
+/// dimension 3.
+template <class Element = tetrahedron>
+corner_simplices<Element> corner_simplices_of(const volume_file& file);
 
 } // namespace taut::io
 

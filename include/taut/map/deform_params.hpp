@@ -46,6 +46,14 @@ struct deform_params
     /// What elements are wanted to look like: `regular` ones, of the mean size, have no rest shape.
     wanted_shapes shapes = wanted_shapes::rest;
 
+    /// With wanted_shapes::regular: what each cell is wanted to look like, if not like a regular simplex: edge
+    /// matrices, upper triangular with a positive diagonal, one a cell. All are scaled to the size of the mesh.
+    std::vector<mat<D>> regular = {};
+
+    /// Where the cells are the corners of cells of other kinds, and overlap (mesh/cell_corners.hpp): those of each.
+    /// Certificates then say that all corners are positive.
+    std::vector<idx> owners = {};
+
     /// Vertices that may move along a line or in a plane only, at most one each, none of them pinned in any coordinate.
     std::vector<slide<D>> slides = {};
 

@@ -37,6 +37,10 @@ struct smooth_params
     /// The shape at rest for wanted_shapes::rest, one position a vertex; none: that of the mesh.
     std::vector<vec3> rest = {};
 
+    /// What regular cells look like and are corners of, as in deform_params.
+    std::vector<mat<Element::dimension>> regular = {};
+    std::vector<idx> owners = {};
+
     /// The energy, shape distortion by itself, is taken to this power: larger ones put the worst elements first, 1 the
     /// mean. Range 1 to 8.
     int worst_exponent = 2;
@@ -80,19 +84,23 @@ template <class Element>
 smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_params<Element>& params = {})
 {
     params.validate();
+    if (!params.owners.empty() && params.regular.size() != m.cells().size())
+        throw parameter_error("regular", "one matrix a cell where there are owners");
     using point = vec<Element::dimension>;
     deform_params<Element> how;
     how.energy = energy::shape_power{params.worst_exponent};
     how.weights = energy::weighting::uniform;
     how.shapes = params.shapes;
     how.rest = params.rest;
+    how.regular = params.regular;
+    how.owners = params.owners;
     how.precision = params.precision;
     how.untangling = params.untangling;
     how.solve = params.solve;
     how.time_limit = params.time_limit;
     how.observer = params.observer;
     boundary_motion<Element> motion{taut::constraints<Element>(m), {}};
-    if (params.boundary == smooth_boundary::sliding) motion = sliding_boundary(m, params.flat);
+    if (params.boundary == smooth_boundary::sliding) motion = sliding_boundary(m, params.flat, params.owners);
     std::vector<char> still(m.points().size(), 0);
     for (const idx v : params.fixed)
         if (v >= 0 && v < m.vertex_count())
@@ -102,7 +110,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_par
                                    "fixed vertex " + std::to_string(v) + " of a mesh that has " +
                                        std::to_string(m.vertex_count()) + ", counted from 0");
     if (params.boundary == smooth_boundary::fixed)
-        for (const auto& facet : boundary_facets(m))
+        for (const auto& facet : boundary_facets(m, params.owners))
             for (const idx v : facet) still[static_cast<std::size_t>(v)] = 1;
     for (std::size_t v = 0; v < still.size(); ++v)
         if (still[v]) motion.pins.repin(static_cast<idx>(v), point(m.points()[v]));
@@ -112,11 +120,16 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_par
 
     const std::vector<point> start(m.points().begin(), m.points().end());
     smooth_result<Element> result;
-    result.before = measure_shapes<Element>(m.cells(), std::span<const point>(start));
+    const auto measured = [&](std::span<const point> x)
+    {
+        return params.owners.empty() ? measure_shapes<Element>(m.cells(), x)
+                                     : measure_shapes<Element>(m.cells(), x, params.owners, params.regular);
+    };
+    result.before = measured(start);
     auto found = deform(q, m, how);
     result.x = std::move(found.x);
     result.report = std::move(found.report);
-    if (!result.x.empty()) result.after = measure_shapes<Element>(m.cells(), std::span<const point>(result.x));
+    if (!result.x.empty()) result.after = measured(result.x);
     return result;
 }
 

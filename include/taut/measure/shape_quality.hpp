@@ -26,6 +26,15 @@ struct element_shape
     double scaled_jacobian = 0; ///< the smallest over the corners of det / product of the edges there, scaled to 1
     double min_angle = 0;       ///< degrees; corner angles of triangles, dihedral ones of tetrahedra, 0 to 180
     double max_angle = 0;
+
+    /// Takes the worse of each.
+    void join(const element_shape& other)
+    {
+        mean_ratio = std::min(mean_ratio, other.mean_ratio);
+        scaled_jacobian = std::min(scaled_jacobian, other.scaled_jacobian);
+        min_angle = std::min(min_angle, other.min_angle);
+        max_angle = std::max(max_angle, other.max_angle);
+    }
 };
 
 namespace detail
@@ -98,18 +107,74 @@ inline element_shape shape_of(const std::array<vec3, 4>& x)
     return s;
 }
 
+/// The corner of a cell of another kind, by the simplex that its edges span. W: its edge matrix where the cell is
+/// regular. The mean ratio is D det S^(2/D) / |S|^2 with S = A W^-1, the angles are those of the cell at this corner.
+inline element_shape corner_shape(const std::array<vec2, 3>& x, const mat2& W)
+{
+    const vec2 a = x[1] - x[0], b = x[2] - x[0];
+    const double det = a.x * b.y - a.y * b.x, edges = glm::length(a) * glm::length(b);
+    const mat2 S = mat2(a, b) * glm::inverse(W);
+    const double angle = std::atan2(std::abs(det), glm::dot(a, b)) * 180 / std::numbers::pi;
+    return {detail::share(2 * glm::determinant(S), glm::dot(S[0], S[0]) + glm::dot(S[1], S[1])),
+            detail::share(det, edges * glm::determinant(W) / (glm::length(W[0]) * glm::length(W[1]))), angle, angle};
+}
+
+inline element_shape corner_shape(const std::array<vec3, 4>& x, const mat3& W)
+{
+    const std::array<vec3, 3> edge = {x[1] - x[0], x[2] - x[0], x[3] - x[0]};
+    const mat3 S = mat3(edge[0], edge[1], edge[2]) * glm::inverse(W);
+    double squares = 0, edges = 1, wanted = glm::determinant(W);
+    element_shape s{.min_angle = 180};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        const auto column = static_cast<int>(k);
+        squares += glm::dot(S[column], S[column]);
+        edges *= glm::length(edge[k]);
+        wanted /= glm::length(W[column]);
+        // Of the two sides at an edge.
+        const vec3 a = glm::cross(edge[k], edge[(k + 1) % 3]), b = glm::cross(edge[k], edge[(k + 2) % 3]);
+        const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
+        s.min_angle = std::min(s.min_angle, angle);
+        s.max_angle = std::max(s.max_angle, angle);
+    }
+    const double det = glm::determinant(S);
+    s.mean_ratio = detail::share(std::copysign(3 * std::cbrt(det * det), det), squares);
+    s.scaled_jacobian = detail::share(tetrahedron::determinant(x), edges * wanted);
+    return s;
+}
+
 /// The shapes of all elements of a mesh.
 struct shape_quality
 {
     element_shape worst{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 180, 0};
     double mean_ratio = 0, scaled_jacobian = 0; ///< means over the elements
     std::vector<idx> worst_ids;                 ///< up to ten with the smallest mean ratios, the worst first
+
+    /// ids: the number of each element; empty: they count from 0
+    explicit shape_quality(std::span<const element_shape> shapes = {}, std::span<const idx> ids = {})
+    {
+        std::vector<std::pair<double, idx>> ranked;
+        for (std::size_t c = 0; c < shapes.size(); ++c)
+        {
+            const element_shape& s = shapes[c];
+            worst.join(s);
+            mean_ratio += s.mean_ratio / static_cast<double>(shapes.size());
+            scaled_jacobian += s.scaled_jacobian / static_cast<double>(shapes.size());
+            ranked.emplace_back(s.mean_ratio, ids.empty() ? static_cast<idx>(c) : ids[c]);
+        }
+        const auto shown = static_cast<std::ptrdiff_t>(std::min<std::size_t>(10, ranked.size()));
+        std::partial_sort(ranked.begin(), ranked.begin() + shown, ranked.end());
+        for (std::ptrdiff_t i = 0; i < shown; ++i) worst_ids.push_back(ranked[static_cast<std::size_t>(i)].second);
+    }
 };
 
-/// x: one finite position a vertex.
-template <class Element>
-shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& cells,
-                             std::span<const vec<Element::dimension>> x)
+namespace detail
+{
+
+/// shape(c, corners) of each cell.
+template <class Element, class Shape>
+std::vector<element_shape> shapes_of(const std::vector<typename mesh<Element>::cell>& cells,
+                                     std::span<const vec<Element::dimension>> x, const Shape& shape)
 {
     std::vector<element_shape> shapes(cells.size());
     parallel_for(cells.size(),
@@ -120,26 +185,47 @@ shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& ce
                          typename Element::mapped_corners corners;
                          for (std::size_t k = 0; k < corners.size(); ++k)
                              corners[k] = x[static_cast<std::size_t>(cells[c][k])];
-                         shapes[c] = shape_of(corners);
+                         shapes[c] = shape(c, corners);
                      }
                  });
-    shape_quality q;
-    std::vector<std::pair<double, idx>> ranked;
-    for (std::size_t c = 0; c < shapes.size(); ++c)
-    {
-        const element_shape& s = shapes[c];
-        q.worst.mean_ratio = std::min(q.worst.mean_ratio, s.mean_ratio);
-        q.worst.scaled_jacobian = std::min(q.worst.scaled_jacobian, s.scaled_jacobian);
-        q.worst.min_angle = std::min(q.worst.min_angle, s.min_angle);
-        q.worst.max_angle = std::max(q.worst.max_angle, s.max_angle);
-        q.mean_ratio += s.mean_ratio / static_cast<double>(cells.size());
-        q.scaled_jacobian += s.scaled_jacobian / static_cast<double>(cells.size());
-        ranked.emplace_back(s.mean_ratio, static_cast<idx>(c));
-    }
-    const auto shown = static_cast<std::ptrdiff_t>(std::min<std::size_t>(10, ranked.size()));
-    std::partial_sort(ranked.begin(), ranked.begin() + shown, ranked.end());
-    for (std::ptrdiff_t i = 0; i < shown; ++i) q.worst_ids.push_back(ranked[static_cast<std::size_t>(i)].second);
-    return q;
+    return shapes;
+}
+
+} // namespace detail
+
+/// x: one finite position a vertex.
+template <class Element>
+shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& cells,
+                             std::span<const vec<Element::dimension>> x)
+{
+    return shape_quality(
+        detail::shapes_of<Element>(cells, x, [](std::size_t, const auto& corners) { return shape_of(corners); }));
+}
+
+/// The same of cells of any kind by the simplices at their corners, a cell being as good as its worst corner. owners:
+/// the cell of each simplex, those of one together; one alone is the cell itself. regular: as for corner_shape().
+template <class Element>
+shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& simplices,
+                             std::span<const vec<Element::dimension>> x, std::span<const idx> owners,
+                             std::span<const mat<Element::dimension>> regular)
+{
+    const auto alone = [&](std::size_t c)
+    { return (c == 0 || owners[c - 1] != owners[c]) && (c + 1 == owners.size() || owners[c + 1] != owners[c]); };
+    const auto corners =
+        detail::shapes_of<Element>(simplices, x,
+                                   [&](std::size_t c, const auto& corner)
+                                   { return alone(c) ? shape_of(corner) : corner_shape(corner, regular[c]); });
+    std::vector<element_shape> shapes;
+    std::vector<idx> ids;
+    for (std::size_t c = 0; c < corners.size(); ++c)
+        if (c > 0 && owners[c] == owners[c - 1])
+            shapes.back().join(corners[c]);
+        else
+        {
+            shapes.push_back(corners[c]);
+            ids.push_back(owners[c]);
+        }
+    return shape_quality(shapes, ids);
 }
 
 } // namespace taut

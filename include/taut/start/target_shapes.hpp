@@ -102,6 +102,22 @@ std::vector<target_shape<Element::dimension>> rest_shapes(const mesh<Element>& m
     return shapes;
 }
 
+/// What the problem wants: the shapes that it has, or those at rest.
+template <class Element>
+std::vector<target_shape<Element::dimension>> shapes_wanted(const untangle_problem<Element>& problem, double measure)
+{
+    if (problem.wanted.empty()) return rest_shapes(problem.rest, measure);
+    std::vector<target_shape<Element::dimension>> shapes;
+    for (const auto& W : problem.wanted)
+    {
+        double weight = Element::measure_factor;
+        for (int k = 0; k < Element::dimension; ++k) weight *= W[k][k];
+        shapes.push_back({invert_upper(W), weight});
+    }
+    normalize(shapes, measure);
+    return shapes;
+}
+
 /// Regular elements of the same size.
 template <class Element>
 std::vector<target_shape<Element::dimension>> regular_shapes(const mesh<Element>& m, double measure)

@@ -65,7 +65,7 @@ private:
         for (const auto& p : best)
             for (int k = 0; k < D; ++k) x_.push_back(p[k]);
         energy_ = std::make_unique<detail::regularized_sum<Element>>(problem.rest, problem.held);
-        energy_->shapes = detail::rest_shapes(problem.rest, detail::expected_measure(problem, state.initial()));
+        energy_->shapes = detail::shapes_wanted(problem, detail::expected_measure(problem, state.initial()));
         schedule_ = std::make_unique<detail::epsilon_schedule>(energy_->least_det(x_));
     }
 

@@ -17,9 +17,8 @@ inline void improve_margin(untangle_state<triangle>& state, int steps)
 {
     const auto& problem = state.problem();
     auto x = state.best();
-    const auto newton = state.make_newton({.rest = problem.rest,
-                                           .held = problem.held,
-                                           .shapes = rest_shapes(problem.rest, expected_measure(problem, x))});
+    const auto newton = state.make_newton(
+        {.rest = problem.rest, .held = problem.held, .shapes = shapes_wanted(problem, expected_measure(problem, x))});
     newton->proceed = [&state] { return state.proceed(0); };
     double value = newton->value(x);
     for (int i = 0; i < steps && value < std::numeric_limits<double>::infinity(); ++i)

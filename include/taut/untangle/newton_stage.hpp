@@ -81,7 +81,7 @@ private:
         newton_ = state.make_newton({.rest = problem.rest,
                                      .held = problem.held,
                                      .shapes = params_.shapes == wanted_shapes::rest
-                                                   ? detail::rest_shapes(problem.rest, measure)
+                                                   ? detail::shapes_wanted(problem, measure)
                                                    : detail::regular_shapes(problem.rest, measure),
                                      .area_weight = params_.area_weight});
         newton_->proceed = [&state] { return state.proceed(0); };

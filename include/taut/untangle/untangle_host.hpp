@@ -39,7 +39,7 @@ double least_relative_det(const untangle_problem<Element>& problem, const std::v
 {
     double least = std::numeric_limits<double>::infinity(), mapped = 0;
     const auto& m = problem.rest;
-    const auto shapes = rest_shapes(m, 1.0);
+    const auto shapes = shapes_wanted(problem, 1.0);
     for (std::size_t c = 0; c < m.cells().size(); ++c)
     {
         typename Element::mapped_corners corner;

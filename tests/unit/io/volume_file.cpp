@@ -45,7 +45,7 @@ TEST_CASE("tetrahedra: all turned is the order of the file, a few are inverted c
                          "counter-clockwise; write them in this order",
                          mesh_error);
     CHECK_THROWS_WITH_AS(io::tetrahedra_of(medit_file(test::small_volume(true))),
-                         "a.mesh: cell 3 is a pyramid; this takes tetrahedra alone, split it into such", io::io_error);
+                         "a.mesh: cell 2 is a pyramid; this takes tetrahedra alone, split it into such", io::io_error);
 }
 
 TEST_CASE("corner simplices: each corner of each kind, all positive, with the cell they belong to")
@@ -56,8 +56,10 @@ TEST_CASE("corner simplices: each corner of each kind, all positive, with the ce
         const auto corners = io::corner_simplices_of(file);
         CHECK(corners.simplices.cell_count() == 2 * 1 + 4 + 6 + 8);
         REQUIRE(corners.cells.size() == 20);
-        CHECK(corners.cells.front() == 1); // the triangle comes first
-        CHECK(corners.cells.back() == 5);
+        CHECK(corners.cells.front() == 0); // the triangle that comes first does not count
+        CHECK(corners.cells.back() == 4);
+        CHECK(corners.overlapping);
+        for (std::size_t c = 0; c < corners.cells.size(); ++c) CHECK(glm::determinant(corners.regular[c]) > 0);
         for (idx c = 0; c < corners.simplices.cell_count(); ++c)
             CHECK(tetrahedron::determinant(corners.simplices.rest(c)) > 0);
     }

@@ -7,6 +7,7 @@
 
 #include <support/meshes.hpp>
 #include <taut/measure/shape_quality.hpp>
+#include <taut/mesh/ideal.hpp>
 
 using namespace taut;
 
@@ -42,6 +43,43 @@ TEST_CASE("shape quality: the corner of a cube, by hand")
     const auto turned = shape_of(std::array{corner[1], corner[0], corner[2], corner[3]});
     CHECK(turned.mean_ratio == doctest::Approx(-s.mean_ratio));
     CHECK(turned.scaled_jacobian == doctest::Approx(-s.scaled_jacobian));
+}
+
+TEST_CASE("shape quality: corners of other cells, 1 where these are regular")
+{
+    const std::array corner{vec3(1, 1, 1), vec3(3, 1, 1), vec3(1, 3, 1), vec3(1, 1, 3)};
+    const auto s = corner_shape(corner, mat3(1.0));
+    CHECK(s.mean_ratio == doctest::Approx(1));
+    CHECK(s.scaled_jacobian == doctest::Approx(1));
+    CHECK(s.min_angle == doctest::Approx(90));
+    CHECK(s.max_angle == doctest::Approx(90));
+    const auto turned = corner_shape(std::array{corner[0], corner[2], corner[1], corner[3]}, mat3(1.0));
+    CHECK(turned.mean_ratio == doctest::Approx(-1));
+    CHECK(turned.scaled_jacobian == doctest::Approx(-1));
+
+    // By a simplex that is its own cell, both say the same.
+    const auto sheared = std::array{vec3(0, 0, 0), vec3(1, 0.1, 0), vec3(0.3, 1, 0), vec3(0.2, 0.4, 0.8)};
+    CHECK(corner_shape(sheared, regular_ideal<tetrahedron>()).mean_ratio ==
+          doctest::Approx(shape_of(sheared).mean_ratio));
+    const std::array flat{vec2(0, 0), vec2(2, 0), vec2(1, 1)};
+    CHECK(corner_shape(flat, regular_ideal<triangle>()).mean_ratio == doctest::Approx(shape_of(flat).mean_ratio));
+    CHECK(corner_shape(flat, mat2(1.0)).max_angle == doctest::Approx(45));
+}
+
+TEST_CASE("shape quality: a cell of several corners is as good as the worst of them")
+{
+    const std::vector<vec2> x = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {3, 0}};
+    const std::vector<mesh<triangle>::cell> corners = {{0, 1, 3}, {1, 2, 0}, {2, 3, 1}, {3, 0, 2}, {1, 4, 2}};
+    const std::vector<idx> owners = {0, 0, 0, 0, 7};
+    std::vector<mat2> regular(5, mat2(1.0));
+    auto q = measure_shapes<triangle>(corners, x, owners, regular);
+    CHECK(q.worst_ids == std::vector<idx>{7, 0});
+    CHECK(q.worst.mean_ratio == doctest::Approx(shape_of(std::array{x[1], x[4], x[2]}).mean_ratio));
+    auto bent = x;
+    bent[2] = {0.4, 0.4};
+    q = measure_shapes<triangle>(corners, bent, owners, regular);
+    CHECK(q.worst.mean_ratio < 0);
+    CHECK(q.worst_ids.front() == 0);
 }
 
 TEST_CASE("shape quality: a mesh is told by its worst elements")

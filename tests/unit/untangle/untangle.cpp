@@ -289,3 +289,22 @@ TEST_CASE("untangle: a map that winds twice is not injective, and gets another o
     CHECK(tried.ids == std::vector<taut::idx>{0});
     CHECK(tried.reason.find("1 vertex (0) that the map winds around more than once") != std::string::npos);
 }
+
+TEST_CASE("untangle: the shapes that are wanted stand for a rest shape that is none")
+{
+    // The inner vertex of four tetrahedra lies outside, at rest, too.
+    const std::vector<vec3> points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {3, 3, 3}};
+    const mesh<tetrahedron> m(points, {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}});
+    untangle_problem<tetrahedron> problem{m, points, held_marks<3>(5)};
+    for (std::size_t v = 0; v < 4; ++v) problem.held[v] = problem.held.every;
+    problem.wanted.assign(4, regular_ideal<tetrahedron>());
+    const auto r = untangle(problem);
+    CHECK(static_cast<bool>(r));
+    CHECK(r.least_relative_det > 0);
+
+    problem.wanted.pop_back();
+    CHECK_THROWS_WITH_AS(untangle(problem), doctest::Contains("wanted"), parameter_error);
+    problem.wanted.clear();
+    problem.owners = {0, 0, 1};
+    CHECK_THROWS_WITH_AS(untangle(problem), doctest::Contains("owners"), parameter_error);
+}

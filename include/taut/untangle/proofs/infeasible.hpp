@@ -139,6 +139,7 @@ infeasibility find_infeasibility(const untangle_problem<Element>& problem)
     problem.validate();
     infeasibility found;
     detail::judge_elements(problem, found);
+    if (!problem.owners.empty()) return found; // the others are of meshes that do not overlap
     if constexpr (Element::dimension == 2) detail::judge_stars(problem, found);
     if constexpr (Element::dimension == 2) detail::judge_winding(problem, found);
     const auto f = facets(problem.rest);

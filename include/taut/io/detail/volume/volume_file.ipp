@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <taut/exact/cell_validity.hpp>
 #include <taut/io/io_error.hpp>
 #include <taut/io/volume_file.hpp>
+#include <taut/mesh/ideal.hpp>
 
 namespace taut::io
 {
@@ -19,34 +22,44 @@ namespace taut::io
 namespace detail
 {
 
-/// The corners of the tetrahedra at the corners of a cell, positive in VTK's order.
-inline std::span<const std::array<std::size_t, 4>> corner_table(cell_kind kind)
+/// The corners of the triangles at the corners of a planar cell, counter-clockwise.
+inline std::span<const std::array<std::size_t, 3>> corner_table(cell_kind kind, triangle)
 {
-    using corners = std::array<std::size_t, 4>;
-    static constexpr std::array<corners, 1> tetrahedron = {{{0, 1, 2, 3}}};
-    static constexpr std::array<corners, 4> pyramid = {{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
-    static constexpr std::array<corners, 6> wedge = {
-        {{0, 2, 1, 3}, {1, 0, 2, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}, {4, 5, 3, 1}, {5, 3, 4, 2}}};
-    static constexpr std::array<corners, 8> hexahedron = {{{0, 1, 3, 4},
-                                                           {1, 2, 0, 5},
-                                                           {2, 3, 1, 6},
-                                                           {3, 0, 2, 7},
-                                                           {4, 7, 5, 0},
-                                                           {5, 4, 6, 1},
-                                                           {6, 5, 7, 2},
-                                                           {7, 6, 4, 3}}};
+    using corners = std::array<std::size_t, 3>;
+    static constexpr std::array<corners, 1> itself = {{{0, 1, 2}}};
+    static constexpr std::array<corners, 4> quad = {{{0, 1, 3}, {1, 2, 0}, {2, 3, 1}, {3, 0, 2}}};
+    if (kind == cell_kind::triangle) return itself;
+    if (kind == cell_kind::quad) return quad;
+    return {};
+}
+
+/// The corners of the tetrahedra at the corners of a volume cell, positive.
+inline std::span<const std::array<std::size_t, 4>> corner_table(cell_kind kind, tetrahedron)
+{
+    if (shape_of(kind).dimension < 3) return {};
+    return taut::detail::corner_tetrahedra(static_cast<std::size_t>(shape_of(kind).corners));
+}
+
+/// Edge matrix at the corners of a cell whose edges all have length 1, and how much of the simplex there counts so that
+/// the cell does as its own measure: 6 volumes of a hexahedron are those of 8 corners, for instance.
+inline std::pair<mat2, double> regular_corner(cell_kind kind, triangle)
+{
+    if (kind == cell_kind::quad) return {mat2(1.0), 0.5};
+    return {regular_ideal<triangle>(), 1.0};
+}
+inline std::pair<mat3, double> regular_corner(cell_kind kind, tetrahedron)
+{
+    using std::numbers::sqrt2, std::numbers::sqrt3;
     switch (kind)
     {
-    case cell_kind::tetrahedron:
-        return tetrahedron;
     case cell_kind::pyramid:
-        return pyramid;
+        return {mat3(1, 0, 0, 0, 1, 0, 0.5, 0.5, sqrt2 / 2), 0.5};
     case cell_kind::wedge:
-        return wedge;
+        return {mat3(1, 0, 0, 0.5, sqrt3 / 2, 0, 0, 0, 1), 0.5};
     case cell_kind::hexahedron:
-        return hexahedron;
+        return {mat3(1.0), 0.75};
     default:
-        return {};
+        return {regular_ideal<tetrahedron>(), 1.0};
     }
 }
 
@@ -63,6 +76,9 @@ inline std::string convention_of(cell_kind kind, const std::string& format)
                    : "the normal of corners 0, 1, 2 points to 3, 4, 5 (these have it as VTK does)";
     case cell_kind::hexahedron:
         return "corners 4, 5, 6, 7 see 0, 1, 2, 3 turn counter-clockwise";
+    case cell_kind::triangle:
+    case cell_kind::quad:
+        return "corners run counter-clockwise";
     default:
         return "corner 3 sees 0, 1, 2 turn counter-clockwise";
     }
@@ -80,13 +96,19 @@ class orientation_check
 public:
     explicit orientation_check(const volume_file& file) : file_(file) {}
 
+    /// Of a cell of the element's dimension.
+    template <class Element>
     void add(cell_kind kind, idx cell, std::span<const idx> corners)
     {
         const auto& x = rest_of(file_);
-        const auto point = [&](std::size_t k) { return x[static_cast<std::size_t>(corners[k])]; };
         double sum = 0;
-        for (const auto& t : corner_table(kind))
-            sum += tetrahedron::determinant({point(t[0]), point(t[1]), point(t[2]), point(t[3])});
+        for (const auto& t : corner_table(kind, Element{}))
+        {
+            typename Element::mapped_corners simplex;
+            for (std::size_t k = 0; k < t.size(); ++k)
+                simplex[k] = vec<Element::dimension>(x[static_cast<std::size_t>(corners[t[k]])]);
+            sum += Element::determinant(simplex);
+        }
         auto& of = kinds_[static_cast<std::size_t>(kind)];
         ++of.count;
         if (sum < 0) of.inverted.push_back(cell);
@@ -118,24 +140,14 @@ private:
     std::array<tally, 8> kinds_;
 };
 
-/// Calls f(kind, number, corners) for each cell of the file; number: counted over all kinds.
-template <class F>
-void for_each_cell(const volume_file& file, const F& f)
-{
-    idx number = 0;
-    for (const auto& block : file.cells)
-        for (std::size_t c = 0; c < block.size(); ++c) f(block.kind, number++, block.cell(c));
-}
-
 /// Throws io_error unless all cells of the element's dimension are of its kind, mesh_error if there are none.
 template <class Element>
 mesh<Element> cells_as(const volume_file& file, cell_kind wanted, const std::string& remedy)
 {
     std::vector<typename mesh<Element>::cell> cells;
-    for_each_cell(file,
+    for_each_cell(file, Element::dimension,
                   [&](cell_kind kind, idx number, std::span<const idx> corners)
                   {
-                      if (shape_of(kind).dimension != Element::dimension) return;
                       if (kind != wanted)
                           throw io_error(file.path,
                                          "cell " + std::to_string(number) + " is a " + shape_of(kind).name + remedy);
@@ -144,7 +156,18 @@ mesh<Element> cells_as(const volume_file& file, cell_kind wanted, const std::str
                   });
     if (cells.empty())
         throw mesh_error(mesh_fault::empty, {}, file.path + ": no " + shape_of(wanted).names + "; give a mesh of them");
-    return mesh<Element>(rest_of(file), std::move(cells));
+    orientation_check orientation(file);
+    for (std::size_t c = 0; c < cells.size(); ++c) orientation.add<Element>(wanted, static_cast<idx>(c), cells[c]);
+    mesh<Element> result(rest_of(file), std::move(cells));
+    orientation.finish();
+    return result;
+}
+
+inline void require_planar(const volume_file& file)
+{
+    if (file.dimension != 2)
+        throw mesh_error(mesh_fault::empty, {},
+                         file.path + ": no planar mesh; give one without volume cells, all of whose z are equal");
 }
 
 } // namespace detail
@@ -171,43 +194,49 @@ TAUT_INLINE const volume_group& volume_file::find_group(std::string_view name) c
 
 TAUT_INLINE mesh<tetrahedron> tetrahedra_of(const volume_file& file)
 {
-    auto result = detail::cells_as<tetrahedron>(file, cell_kind::tetrahedron,
-                                                "; this takes tetrahedra alone, split it into such");
-    detail::orientation_check orientation(file);
-    for (idx c = 0; c < result.cell_count(); ++c)
-        orientation.add(cell_kind::tetrahedron, c, result.cells()[static_cast<std::size_t>(c)]);
-    orientation.finish();
-    return result;
+    return detail::cells_as<tetrahedron>(file, cell_kind::tetrahedron,
+                                         "; this takes tetrahedra alone, split it into such");
 }
 
 TAUT_INLINE mesh<triangle> triangles_of(const volume_file& file)
 {
-    if (file.dimension != 2)
-        throw mesh_error(mesh_fault::empty, {},
-                         file.path + ": no planar mesh; give one without volume cells, all of "
-                                     "whose z are equal");
+    detail::require_planar(file);
     return detail::cells_as<triangle>(file, cell_kind::triangle, "; this takes triangles alone, split it into such");
 }
 
-TAUT_INLINE corner_simplices corner_simplices_of(const volume_file& file)
+template <class Element>
+corner_simplices<Element> corner_simplices_of(const volume_file& file)
 {
-    std::vector<mesh<tetrahedron>::cell> simplices;
+    if constexpr (Element::dimension == 2) detail::require_planar(file);
+    std::vector<typename mesh<Element>::cell> simplices;
     std::vector<idx> cells;
+    std::vector<mat<Element::dimension>> regular;
+    std::vector<double> weights;
+    bool overlapping = false;
     detail::orientation_check orientation(file);
-    detail::for_each_cell(file,
-                          [&](cell_kind kind, idx number, std::span<const idx> corners)
-                          {
-                              for (const auto& t : detail::corner_table(kind))
-                              {
-                                  simplices.push_back({corners[t[0]], corners[t[1]], corners[t[2]], corners[t[3]]});
-                                  cells.push_back(number);
-                              }
-                              if (shape_of(kind).dimension == 3) orientation.add(kind, number, corners);
-                          });
+    for_each_cell(file, Element::dimension,
+                  [&](cell_kind kind, idx number, std::span<const idx> corners)
+                  {
+                      const auto [W, weight] = detail::regular_corner(kind, Element{});
+                      const auto table = detail::corner_table(kind, Element{});
+                      overlapping = overlapping || table.size() > 1;
+                      for (const auto& t : table)
+                      {
+                          auto& simplex = simplices.emplace_back();
+                          for (std::size_t k = 0; k < t.size(); ++k) simplex[k] = corners[t[k]];
+                          cells.push_back(number);
+                          regular.push_back(W);
+                          weights.push_back(weight);
+                      }
+                      orientation.add<Element>(kind, number, corners);
+                  });
     if (simplices.empty())
-        throw mesh_error(mesh_fault::empty, {}, file.path + ": no volume cells; give a mesh of them");
+        throw mesh_error(mesh_fault::empty, {},
+                         file.path + (Element::dimension == 2 ? ": no triangles or quads" : ": no volume cells") +
+                             "; give a mesh of them");
+    mesh<Element> result(detail::rest_of(file), std::move(simplices));
     orientation.finish();
-    return {mesh<tetrahedron>(detail::rest_of(file), std::move(simplices)), std::move(cells)};
+    return {std::move(result), std::move(cells), overlapping, std::move(regular), std::move(weights)};
 }
 
 } // namespace taut::io

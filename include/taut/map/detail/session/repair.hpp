@@ -69,15 +69,21 @@ std::optional<local_problem<Element>> part_of(const untangle_problem<Element>& p
     std::vector<idx> number(inside.size(), -1);
     std::vector<char> rim(inside.size(), 0);
     std::vector<typename mesh<Element>::cell> cells;
-    for (const auto& t : p.rest.cells())
+    std::vector<mat<D>> wanted;
+    std::vector<idx> owners;
+    for (std::size_t c = 0; c < p.rest.cells().size(); ++c)
     {
+        const auto& t = p.rest.cells()[c];
         const bool all = std::all_of(t.begin(), t.end(), [&](idx v) { return inside[at(v)] != 0; });
         for (const idx v : t)
             if (all)
                 number[at(v)] = 0;
             else
                 rim[at(v)] = 1;
-        if (all) cells.push_back(t);
+        if (!all) continue;
+        cells.push_back(t);
+        if (!p.wanted.empty()) wanted.push_back(p.wanted[c]);
+        if (!p.owners.empty()) owners.push_back(p.owners[c]);
     }
     if (cells.empty() || 2 * cells.size() > p.rest.cells().size()) return std::nullopt;
     std::vector<idx> vertices;
@@ -97,7 +103,8 @@ std::optional<local_problem<Element>> part_of(const untangle_problem<Element>& p
     for (auto& t : cells)
         for (idx& v : t) v = number[at(v)];
     return local_problem<Element>{{mesh<Element>(std::move(points), std::move(cells)), std::move(initial),
-                                   held_marks<D>(std::move(bits)), std::move(draft)},
+                                   held_marks<D>(std::move(bits)), std::move(draft), std::move(wanted),
+                                   std::move(owners)},
                                   std::move(vertices)};
 }
 

@@ -74,6 +74,10 @@ protected:
     virtual const mesh<Element>& rest() const = 0;
     virtual std::span<const double> rest_measure() const = 0;
 
+    /// What an untangling wants elements to look like, and what they are corners of, as in an untangle_problem.
+    virtual std::vector<mat<D>> wanted_elements() const { return {}; }
+    virtual std::vector<idx> owners() const { return {}; }
+
     /// From the last map on.
     void advance(run_clock& clock)
     {
@@ -180,7 +184,8 @@ protected:
         auto held = marks();
         for (const auto& s : held_.slides())
             held[static_cast<std::size_t>(s.vertex)] = held.every; // not while it untangles
-        return {rest(), scaled(std::move(there)), std::move(held), draft ? scaled(x) : map()};
+        return {rest(),  scaled(std::move(there)), std::move(held), draft ? scaled(x) : map(), wanted_elements(),
+                owners()};
     }
 
     /// Whether it is proved that no map has the held coordinates at their places; x: any map.

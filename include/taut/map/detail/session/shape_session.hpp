@@ -46,10 +46,15 @@ public:
           params_(validated(params)),
           start_(start_of(m, params_)),
           rest_(in_run_lengths(m, params_.rest)),
-          ideal_(ideals(rest_, params_.shapes))
+          ideal_(ideals(rest_, params_))
     {
         require_deformable();
         params_.data.validate(m.cells().size());
+        for (const auto& [size, field] :
+             {std::pair{params_.regular.size(), "regular"}, {params_.owners.size(), "owners"}})
+            if (size != 0 && size != m.cells().size())
+                throw parameter_error(field,
+                                      std::to_string(size) + " for " + std::to_string(m.cells().size()) + " cells");
         require_slides();
         this->lengths_ = unit_scale(m);
         wanted = params_.constraints.on(rest_);
@@ -117,6 +122,9 @@ private:
                           { return f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell; });
         if constexpr (D == 3) // its hierarchy knows no facets
             std::erase_if(found, [](const mesh_finding& f) { return f.fault == mesh_fault::non_manifold_vertex; });
+        if (!params_.owners.empty()) // which share facets
+            std::erase_if(found, [](const mesh_finding& f)
+                          { return f.fault != mesh_fault::degenerate_cell && f.fault != mesh_fault::inverted_cell; });
         if (!found.empty()) throw mesh_error(std::move(found.front()));
         if constexpr (D == 2)
             for (const vec3& p : rest_.points())
@@ -124,9 +132,9 @@ private:
                     throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
     }
 
-    static ideal_elements<Element> ideals(const mesh<Element>& m, wanted_shapes shapes)
+    static ideal_elements<Element> ideals(const mesh<Element>& m, const deform_params<Element>& params)
     {
-        if (shapes == wanted_shapes::rest) return ideal_elements<Element>(m);
+        if (params.shapes == wanted_shapes::rest) return ideal_elements<Element>(m);
         double total = 0;
         for (idx c = 0; c < m.cell_count(); ++c)
         {
@@ -135,7 +143,21 @@ private:
             for (std::size_t k = 0; k < x.size(); ++k) x[k] = vec<D>(rest[k]);
             total += std::abs(Element::determinant(x)) * Element::measure_factor;
         }
-        return regular_elements<Element>(m.cells().size(), total);
+        if (params.regular.empty()) return regular_elements<Element>(m.cells().size(), total);
+        std::vector<mat<D>> inverses;
+        std::vector<double> measures;
+        double sum = 0;
+        for (const auto& W : params.regular)
+        {
+            double measure = Element::measure_factor;
+            for (int k = 0; k < D; ++k) measure *= W[k][k];
+            inverses.push_back(invert_upper(W));
+            measures.push_back(measure);
+            sum += measure;
+        }
+        for (auto& inverse : inverses) inverse *= std::pow(sum / total, 1.0 / D);
+        for (double& measure : measures) measure *= total / sum;
+        return {std::move(inverses), std::move(measures)};
     }
 
     static map start_of(const mesh<Element>& m, const deform_params<Element>& params)
@@ -161,6 +183,14 @@ private:
 
     const mesh<Element>& rest() const override { return rest_; }
     std::span<const double> rest_measure() const override { return ideal_.measure; }
+
+    std::vector<mat<D>> wanted_elements() const override
+    {
+        if (params_.shapes == wanted_shapes::rest) return {};
+        if (!params_.regular.empty()) return params_.regular;
+        return std::vector<mat<D>>(rest_.cells().size(), regular_ideal<Element>());
+    }
+    std::vector<idx> owners() const override { return params_.owners; }
 
     deform_params<Element> params_; ///< validated
     map start_;

@@ -22,7 +22,7 @@ enum class shape_energy
 /// What the user asked `taut deform` or `taut smooth` for.
 struct shape_options
 {
-    std::string input, output, stats, device, progress;
+    std::string input, output, stats, picture, cut, device, progress;
     double time_limit = std::numeric_limits<double>::infinity();
     bool quiet = false;
 

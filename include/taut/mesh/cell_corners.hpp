@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <taut/mesh/boundary.hpp>
+
+namespace taut
+{
+
+/// Meshes whose simplices are the corners of cells of other kinds (quads, wedges, hexahedra, ...) and overlap. Corner 0
+/// of a simplex is that of the cell, whose edges it spans; `owners` has the cell of each simplex, those of a cell one
+/// after the other. A simplex without others of its cell is that cell. Without owners all are cells.
+///
+/// The facets of such a mesh with cells on one side alone, as simplices with the normal of the boundary: of a quad the
+/// triangles at its four corners.
+template <class Element>
+std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Element>& m, std::span<const idx> owners)
+{
+    if (owners.empty()) return boundary_facets(m);
+    constexpr std::size_t D = Element::dimension;
+    struct side
+    {
+        std::array<idx, D> sorted, vertices;
+        idx owner;
+    };
+    const auto alone = [&](std::size_t c)
+    { return (c == 0 || owners[c - 1] != owners[c]) && (c + 1 == owners.size() || owners[c + 1] != owners[c]); };
+    std::vector<side> sides;
+    for (std::size_t c = 0; c < m.cells().size(); ++c)
+        for (idx k = alone(c) ? 0 : 1; k < Element::corners; ++k) // what is opposite of a cell's corner lies inside
+        {
+            const auto v = side_vertices(m, static_cast<idx>(c) * Element::corners + k);
+            sides.push_back({v, v, owners[c]});
+            std::sort(sides.back().sorted.begin(), sides.back().sorted.end());
+        }
+    std::vector<std::size_t> order(sides.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b)
+              { return sides[a].sorted != sides[b].sorted ? sides[a].sorted < sides[b].sorted : a < b; });
+    std::vector<std::array<idx, D>> result;
+    for (std::size_t first = 0, last = 0; first < order.size(); first = last)
+    {
+        const side& one = sides[order[first]];
+        bool single = true;
+        for (; last < order.size() && sides[order[last]].sorted == one.sorted; ++last)
+            single = single && sides[order[last]].owner == one.owner;
+        if (single) result.push_back(one.vertices);
+    }
+    return result;
+}
+
+} // namespace taut

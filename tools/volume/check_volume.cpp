@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "volume/check_volume.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <taut/io/cell_faces.hpp>
+#include <taut/measure/describe_defects.hpp>
+#include <taut/mesh/cell_corners.hpp>
+
+#include "text_table.hpp"
+#include "volume/shape_report.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// "3 cells (5, 9, 12)"
+template <class Element>
+std::string list_cells(const volume_case<Element>& input, const std::vector<idx>& ids)
+{
+    const bool mixed = input.parts().overlapping;
+    return detail::list_ids(mixed ? "cell" : Element::name, mixed ? "cells" : Element::names, ids);
+}
+
+/// The cells of simplices, each once.
+std::vector<idx> owners_of(const std::vector<idx>& simplices, const std::vector<idx>& owners)
+{
+    std::vector<idx> cells;
+    for (const idx s : simplices) cells.push_back(owners[static_cast<std::size_t>(s)]);
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    return cells;
+}
+
+/// Cells that are flat, or turned over, at a corner.
+template <class Element>
+void report_signs(check_report& report, const volume_case<Element>& input, const volume_state& state)
+{
+    auto [flat, inverted] = detail::bad_rest_cells(input.simplices());
+    auto thin = owners_of(flat, input.parts().cells);
+    auto turned = owners_of(inverted, input.parts().cells);
+    if (Element::dimension == 2) // triangles at rest lie in space, and have no sign there
+    {
+        turned = state.inverted;
+        std::erase_if(turned, [&](idx c) { return std::binary_search(thin.begin(), thin.end(), c); });
+    }
+    std::erase_if(thin, [&](idx c) { return std::binary_search(turned.begin(), turned.end(), c); });
+    report.details["inverted_ids"] = turned;
+    report.details["degenerate_ids"] = thin;
+    if (!turned.empty())
+        report_mesh(report,
+                    {mesh_fault::inverted_cell, turned,
+                     list_cells(input, turned) + " inverted, in a mesh that is oriented as " + input.file().format +
+                         " files are; `taut untangle` moves vertices, or swap two corners of each"},
+                    true);
+    if (!thin.empty())
+        report_mesh(report,
+                    {mesh_fault::degenerate_cell, thin,
+                     list_cells(input, thin) + " flat; collapse an edge or move a vertex of each"},
+                    true);
+}
+
+/// How the cells of a mesh of one kind meet.
+template <class Element>
+void report_facets(check_report& report, const mesh<Element>& m)
+{
+    const mesh_requirements need{
+        .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
+    for (const auto& f : taut::check(m, need))
+        if (f.fault != mesh_fault::degenerate_cell && f.fault != mesh_fault::inverted_cell)
+            report_mesh(report, f, Element::dimension == 2 || f.fault != mesh_fault::non_manifold_vertex);
+}
+
+/// Triangles on one side and a quad on the other are no common face: the cells come apart there.
+void report_open_quads(check_report& report, const io::cell_faces& sides)
+{
+    std::vector<std::array<idx, 3>> in_quads, triangles;
+    for (std::size_t s = 0; s < sides.faces.size(); ++s)
+    {
+        if (sides.twin[s] != io::cell_faces::boundary) continue;
+        const auto corners = sides.faces[s].corners();
+        for (std::size_t k = 0; k < (corners.size() == 4 ? 4 : 1); ++k)
+        {
+            std::array<idx, 3> t{corners[k], corners[(k + 1) % corners.size()], corners[(k + 2) % corners.size()]};
+            std::sort(t.begin(), t.end());
+            (corners.size() == 4 ? in_quads : triangles).push_back(t);
+        }
+    }
+    std::sort(in_quads.begin(), in_quads.end());
+    std::vector<idx> ids;
+    for (const auto& t : triangles)
+        if (std::binary_search(in_quads.begin(), in_quads.end(), t)) ids.insert(ids.end(), t.begin(), t.end());
+    if (!ids.empty())
+        report.add({false, "mesh", "open_quads", ids,
+                    detail::list_ids("triangle", "triangles", ids, 3) +
+                        " against a quad: both count as boundary; put pyramids between, or split the cell"},
+                   exit_code::valid);
+}
+
+/// How the cells of a volume of several kinds meet.
+void report_faces(check_report& report, const io::volume_file& file)
+{
+    const auto sides = io::cell_faces_of(file);
+    report_open_quads(report, sides);
+    std::vector<idx> crowded, clashing;
+    std::vector<std::array<idx, 4>> told;
+    for (std::size_t s = 0; s < sides.faces.size(); ++s)
+    {
+        const auto& face = sides.faces[s];
+        const idx twin = sides.twin[s];
+        if (twin == io::cell_faces::crowded)
+        {
+            auto sorted = face.vertices;
+            std::sort(sorted.begin(), sorted.end());
+            told.push_back(sorted);
+        }
+        if (twin < static_cast<idx>(s)) continue;
+        // Neighbours go around the face that they share in opposite ways.
+        const auto here = face.corners(), there = sides.faces[static_cast<std::size_t>(twin)].corners();
+        const auto at = std::find(there.begin(), there.end(), here[0]) - there.begin();
+        if (here[1] == there[static_cast<std::size_t>(at + 1) % there.size()])
+            for (const idx cell : {face.cell, sides.faces[static_cast<std::size_t>(twin)].cell})
+                clashing.push_back(cell);
+    }
+    std::sort(told.begin(), told.end());
+    told.erase(std::unique(told.begin(), told.end()), told.end());
+    for (const auto& face : told)
+        crowded.insert(crowded.end(), face.begin() + (face[0] < 0), face.begin() + (face[0] < 0) + 3);
+    if (!clashing.empty())
+        report_mesh(report,
+                    {mesh_fault::inconsistent_orientation, clashing,
+                     detail::list_ids("pair", "pairs", clashing, 2) +
+                         " of cells oriented differently; turn one of each over, so that all agree"},
+                    true);
+    if (!crowded.empty())
+        report_mesh(report,
+                    {mesh_fault::non_manifold_facet, crowded,
+                     detail::list_ids("face", "faces", crowded, 3) +
+                         " with three or more cells; remove the extra ones or separate them"},
+                    true);
+}
+
+} // namespace
+
+void report_contents(check_report& report, const io::volume_file& file)
+{
+    report.kind = file.format + (file.dimension == 2 ? ", planar" : ", volume");
+    report.vertices = file.points.size();
+    report.cells_name = count_cells(file, file.dimension);
+    for (const auto& note : file.notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
+
+    report.details["elements"] = nlohmann::ordered_json::object();
+    std::vector<char> used(file.points.size(), 0);
+    for (const auto& block : file.cells)
+    {
+        auto& n = report.details["elements"][io::shape_of(block.kind).names];
+        n = (n.is_null() ? std::size_t{0} : n.get<std::size_t>()) + block.size();
+        if (io::shape_of(block.kind).dimension != file.dimension) continue;
+        report.cells += block.size();
+        for (const idx v : block.corners) used[static_cast<std::size_t>(v)] = 1;
+    }
+    std::vector<idx> unused;
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (!used[v]) unused.push_back(static_cast<idx>(v));
+    if (!unused.empty())
+        report.add({false, "mesh", to_string(mesh_fault::unreferenced_vertex), unused,
+                    detail::list_ids("vertex", "vertices", unused) + " without a cell; they stay where they are"},
+                   exit_code::valid);
+
+    std::string names;
+    report.details["groups"] = nlohmann::ordered_json::array();
+    for (const auto& g : file.groups)
+    {
+        names += (names.empty() ? "" : ", ") + g.name + " (" + count(g.vertices.size()) + ")";
+        report.details["groups"].push_back(
+            {{"name", g.name}, {"dimension", g.dimension}, {"vertices", g.vertices.size()}});
+    }
+    report.lines.emplace_back("groups", names.empty() ? "none" : names + " vertices");
+}
+
+template <class Element>
+void report_cells(check_report& report, const volume_case<Element>& input)
+{
+    constexpr int D = Element::dimension;
+    const auto x = input.points();
+    const auto state = input.look(x);
+    report.map = state.simplices;
+    report.map.flipped = state.inverted.size();
+    report.has_map = true;
+    const auto components = detail::components(input.simplices()).first.size();
+    const auto boundary = boundary_facets(input.simplices(), input.owners()).size();
+    report.details["components"] = components;
+    report.details["quality"] = shapes_json(state.shapes);
+    report.lines.emplace_back("components", count(components));
+    report.lines.emplace_back("orientation", "as " + input.file().format + " files have it");
+    report.details["orientation"] = input.file().format;
+    if (!input.parts().overlapping)
+        report.lines.emplace_back("boundary", count(boundary, Element::facet_name, Element::facet_names));
+    report.lines.emplace_back("inverted", count(state.inverted.size()) + " of " + count(input.cells()));
+    report.lines.emplace_back("shapes", shapes_text(state.shapes));
+    report.lines.emplace_back("jacobian", "scaled " + number(state.shapes.worst.scaled_jacobian) + " worst, " +
+                                              number(state.shapes.scaled_jacobian) + " mean");
+    std::string worst;
+    for (const idx c : state.shapes.worst_ids) worst += (worst.empty() ? "" : ", ") + std::to_string(c);
+    report.lines.emplace_back("worst", "cells " + worst);
+
+    if (D == 3 && input.parts().overlapping)
+    {
+        report.details["insides"] = insides_json(state);
+        report.lines.emplace_back("insides", insides_text(state));
+        if (!state.negative_inside.empty())
+            report.add({true, "mesh", "negative_inside", state.negative_inside,
+                        list_cells(input, state.negative_inside) +
+                            " with positive corners and a negative Jacobian inside; move a vertex of each"},
+                       exit_code::unsuitable_input);
+    }
+    report_signs(report, input, state);
+    if (!input.parts().overlapping)
+        report_facets(report, input.simplices());
+    else if (D == 3)
+        report_faces(report, input.file());
+    if (report.map.flipped == 0 && report.map.branched > 0)
+        report.add({true, "mesh", D == 2 ? "branch_points" : "branch_edges", report.map.branch_ids,
+                    describe_defects<Element>(report.map)},
+                   exit_code::unsuitable_input);
+}
+
+template void report_cells(check_report&, const volume_case<triangle>&);
+template void report_cells(check_report&, const volume_case<tetrahedron>&);
+
+} // namespace taut::tools

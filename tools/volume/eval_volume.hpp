@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "exit_codes.hpp"
+
+namespace taut::tools
+{
+
+/// What the user asked `taut eval` for.
+struct eval_volume_options
+{
+    std::string input, rest; ///< rest: empty, if there is none
+    std::string picture, cut;
+    bool json = false;
+};
+
+/// Measures a map of a volume, or of a planar mesh, and prints what it found. Throws as readers do.
+exit_code evaluate_volume(const eval_volume_options& options);
+
+} // namespace taut::tools

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "volume/group_targets.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <taut/constrain/constraints.hpp>
+#include <taut/io/pins.hpp>
+#include <taut/measure/rigid_motion.hpp>
+
+#include "failure.hpp"
+
+namespace taut::tools
+{
+
+std::vector<double> numbers_of(const std::string& text, std::size_t count, const std::string& option)
+{
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= text.size();)
+    {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        double x = 0;
+        const auto [last, failure] = std::from_chars(text.data() + begin, text.data() + end, x);
+        if (failure != std::errc{} || last != text.data() + end || !std::isfinite(x))
+            throw usage_error(option + ": '" + text.substr(begin, end - begin) + "' is no number");
+        numbers.push_back(x);
+        begin = end + 1;
+    }
+    if (numbers.size() != count)
+        throw usage_error(option + ": give " + std::to_string(count) + " numbers with commas between");
+    return numbers;
+}
+
+void group_targets::fix(const std::string& name)
+{
+    for (const idx v : group(name).vertices) take(v, point(v), name);
+}
+
+void group_targets::move(const std::string& text)
+{
+    for (const auto& [word, count] : {std::pair{"translate", 3}, std::pair{"rotate", 4}, std::pair{"scale", 1}})
+    {
+        const std::string key = std::string(":") + word + ":";
+        const auto at = text.rfind(key);
+        if (at == text.npos) continue;
+        const auto n = numbers_of(text.substr(at + key.size()), static_cast<std::size_t>(count), "--move " + text);
+        return transform(text.substr(0, at), count, n);
+    }
+    const auto at = text.rfind('=');
+    if (at == text.npos)
+        throw usage_error("--move " + text +
+                          ": give GROUP=FILE.csv, GROUP:translate:x,y,z, "
+                          "GROUP:rotate:ax,ay,az,degrees or GROUP:scale:factor");
+    const std::string name = text.substr(0, at);
+    const auto& members = group(name).vertices;
+    for (const auto& p : io::read_pins<3>(text.substr(at + 1), static_cast<idx>(file_.points.size())))
+    {
+        if (!std::binary_search(members.begin(), members.end(), p.vertex))
+            throw unsuitable_input(text.substr(at + 1) + ": vertex " + std::to_string(p.vertex) + " is not in group " +
+                                   name);
+        if (!p.hard() || p.held != constraints<tetrahedron>::all)
+            throw unsuitable_input(text.substr(at + 1) + ": vertex " + std::to_string(p.vertex) +
+                                   " has a weight or lacks a coordinate; use --pins for those");
+        take(p.vertex, p.target, name);
+    }
+}
+
+void group_targets::transform(const std::string& name, int kind, const std::vector<double>& n)
+{
+    const auto& members = group(name).vertices;
+    vec3 middle(0.0);
+    for (const idx v : members) middle += point(v) / static_cast<double>(members.size());
+    rigid_motion<3> motion{.from = middle, .to = middle};
+    if (kind == 4)
+    {
+        const vec3 axis(n[0], n[1], n[2]);
+        if (!(glm::length(axis) > 0)) throw usage_error("--move " + name + ": the axis of a rotation has no length");
+        motion.axis = glm::normalize(axis);
+        motion.angle = n[3] * std::numbers::pi / 180;
+    }
+    if (kind == 3) motion.to += vec3(n[0], n[1], n[2]);
+    for (const idx v : members) take(v, kind == 1 ? middle + n[0] * (point(v) - middle) : motion(point(v)), name);
+}
+
+void group_targets::take(idx v, const vec3& x, const std::string& name)
+{
+    const auto [at, is_new] = targets_.try_emplace(v, x);
+    if (!is_new && at->second != x)
+        throw unsuitable_input("vertex " + std::to_string(v) + " is in " + owner_[v] + " and in " + name +
+                               ", which go different ways; leave it to one of them");
+    owner_[v] = name;
+}
+
+} // namespace taut::tools

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <taut/io/volume_file.hpp>
+
+namespace taut::tools
+{
+
+/// Where the vertices of groups go, by vertex: each group by itself, and an error where two disagree.
+class group_targets
+{
+public:
+    /// The file is referred to.
+    explicit group_targets(const io::volume_file& file) : file_(file) {}
+
+    /// Leaves a group where it is. Throws group_error, unsuitable_input.
+    void fix(const std::string& name);
+
+    /// GROUP=FILE.csv, GROUP:translate:x,y,z, GROUP:rotate:ax,ay,az,degrees or GROUP:scale:factor; about the middle of
+    /// the group. Throws usage_error too.
+    void move(const std::string& text);
+
+    const std::map<idx, vec3>& all() const { return targets_; }
+
+private:
+    const io::volume_group& group(const std::string& name) const { return file_.find_group(name); }
+    const vec3& point(idx v) const { return file_.points[static_cast<std::size_t>(v)]; }
+    void transform(const std::string& name, int kind, const std::vector<double>& numbers);
+    void take(idx v, const vec3& x, const std::string& name);
+
+    const io::volume_file& file_;
+    std::map<idx, vec3> targets_;
+    std::map<idx, std::string> owner_;
+};
+
+/// Numbers between commas; throws usage_error that begins with `option` unless there are `count`.
+std::vector<double> numbers_of(const std::string& text, std::size_t count, const std::string& option);
+
+} // namespace taut::tools

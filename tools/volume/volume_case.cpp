@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "volume/volume_case.hpp"
+
+#include <array>
+
+#include <taut/exact/cell_validity.hpp>
+#include <taut/io/read_volume.hpp>
+
+#include "failure.hpp"
+#include "outputs.hpp"
+#include "text_table.hpp"
+
+namespace taut::tools
+{
+
+bool names_volume(const std::string& path)
+{
+    constexpr std::array names = {".mesh", ".meshb", ".msh", ".vtk", ".vtu", ".node", ".ele", ".face", ".su2"};
+    const auto name = extension(path);
+    return std::any_of(names.begin(), names.end(), [&](const char* known) { return name == known; });
+}
+
+io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest)
+{
+    auto file = io::read_volume_file(path);
+    if (rest.empty()) return file;
+    auto other = io::read_volume_file(rest);
+    if (other.points.size() != file.points.size())
+        throw unsuitable_input(rest + " has " + count(other.points.size(), "point", "points") + ", not " +
+                               count(file.points.size()) + " as " + path);
+    const auto cells_of = [](const io::volume_file& f)
+    {
+        std::vector<std::pair<io::cell_kind, std::vector<idx>>> cells;
+        io::for_each_cell(f, f.dimension,
+                          [&](io::cell_kind kind, idx, std::span<const idx> corners)
+                          { cells.emplace_back(kind, std::vector<idx>(corners.begin(), corners.end())); });
+        return cells;
+    };
+    if (other.dimension != file.dimension || cells_of(other) != cells_of(file))
+        throw unsuitable_input(rest + " has other cells than " + path + "; give the same mesh at rest");
+    file.rest = std::move(other.points);
+    return file;
+}
+
+void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_state& state)
+{
+    io::for_each_cell(file, 3,
+                      [&](io::cell_kind, idx number, std::span<const idx> corners)
+                      {
+                          if (std::binary_search(state.inverted.begin(), state.inverted.end(), number)) return;
+                          std::vector<vec3> places;
+                          for (const idx v : corners) places.push_back(x[static_cast<std::size_t>(v)]);
+                          const auto verdict = validity_of_cell(places);
+                          if (verdict == cell_validity::invalid) state.negative_inside.push_back(number);
+                          if (verdict == cell_validity::undecided) state.undecided.push_back(number);
+                      });
+}
+
+void require_triangles(const volume_case<triangle>& input, std::size_t most, const std::string& command)
+{
+    if (input.parts().overlapping && input.parts().cells.size() > most)
+        throw unsuitable_input(input.file().path + ": quads of the plane are not taken by `taut " + command + '`' +
+                               (most > 0 ? " from " + std::to_string(most) + " corners on" : "") +
+                               "; split each into two triangles");
+}
+
+std::string count_cells(const io::volume_file& file, int dimension)
+{
+    std::array<std::size_t, 8> counts{};
+    for (const auto& block : file.cells) counts[static_cast<std::size_t>(block.kind)] += block.size();
+    std::string text;
+    for (std::size_t k = 0; k < counts.size(); ++k)
+    {
+        const auto shape = io::shape_of(static_cast<io::cell_kind>(k));
+        if (shape.dimension == dimension && counts[k] > 0)
+            text += (text.empty() ? "" : ", ") + count(counts[k], shape.name, shape.names);
+    }
+    return text;
+}
+
+} // namespace taut::tools

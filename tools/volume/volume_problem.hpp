@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#include <taut/io/make_untangle_problem.hpp>
+#include <taut/mesh/cell_corners.hpp>
+
+#include "untangle_report.hpp"
+#include "volume/group_targets.hpp"
+#include "volume/volume_case.hpp"
+
+namespace taut::tools
+{
+
+/// Untangles the mesh of a volume file: towards its shape at rest, or regular elements.
+template <class Element>
+untangle_problem<Element> problem_of(const volume_case<Element>& input, const untangle_options& options,
+                                     untangle_report& report)
+{
+    const auto& m = input.simplices();
+    auto x = input.points();
+    constraints<Element> pins(m);
+    group_targets groups(input.file());
+    for (const auto& name : options.fixed) groups.fix(name);
+    for (const auto& [v, place] : groups.all()) pins.pin(v, vec<Element::dimension>(place));
+    if (!options.pins.empty()) add_pins(pins, io::read_pins<Element::dimension>(options.pins, m.vertex_count()));
+    if (!pins.springs().empty()) report.notes.push_back("springs take no part in untangling");
+    const bool named = !options.fixed.empty() || !options.pins.empty();
+    if (options.boundary == untangle_boundary::fixed || (options.boundary == untangle_boundary::automatic && !named))
+        for (const auto& facet : boundary_facets(m, input.owners()))
+            for (const idx v : facet)
+                if (pins.held(v) == 0) pins.pin(v, x[static_cast<std::size_t>(v)]);
+    auto problem = make_untangle_problem(m, std::move(x), pins);
+    if (input.file().rest.empty()) problem.wanted = input.parts().regular;
+    problem.owners = input.owners();
+    return problem;
+}
+
+} // namespace taut::tools
