@@ -41,6 +41,7 @@
 #include "run_clock.hpp"
 #include "shape_options.hpp"
 #include "shared_options.hpp"
+#include "stages.hpp"
 #include "text_table.hpp"
 #include "writing.hpp"
 
@@ -379,6 +380,7 @@ private:
         json["seconds"] = {{"read", read_seconds_},  {"device", device_seconds_}, {"start", s.start},
                            {"follow", s.follow},     {"repair", s.repair},        {"solve", s.solve},
                            {"total", total_seconds_}};
+        json["stages"] = to_json_array(report_.stages);
         json["peak_memory_bytes"] = peak_memory();
         json["notes"] = report_.notes;
         return json;

@@ -26,6 +26,7 @@ inline void improve_margin(untangle_state<triangle>& state, int steps)
     {
         const double before = value;
         value = newton->step(x, before);
+        state.stepped(before, value, newton->last_length());
         if (!(value < before) || !state.replace(x) || !state.proceed() || value > 0.999 * before) break;
     }
 }

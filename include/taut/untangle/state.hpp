@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <taut/constrain/untangle_problem.hpp>
 #include <taut/core/budget.hpp>
 #include <taut/exact/certify.hpp>
+#include <taut/objective/stage_report.hpp>
 #include <taut/start/harmonic.hpp>
 #include <taut/untangle/params.hpp>
 #include <taut/untangle/regularized_newton.hpp>
+#include <taut/untangle/result.hpp>
 
 namespace taut
 {
@@ -94,6 +98,27 @@ public:
         return budget_.proceed({.iteration = iterations_, .value = static_cast<double>(flips_.defects())});
     }
 
+    /// Books a step of Newton's method for the report of the stage at work.
+    void stepped(double before, double after, double length)
+    {
+        if (!(now_.energy_before < std::numeric_limits<double>::infinity())) now_.energy_before = before;
+        now_.energy_after = after;
+        if (length > 0) steps_.add(length, length < 1);
+    }
+
+    /// The report of what has happened since the last one.
+    untangle_stage_report ended(std::string name, std::string stop)
+    {
+        untangle_stage_report did{std::exchange(now_, {}), flips_.flipped, flips_.branched};
+        std::exchange(steps_, {}).tell(did);
+        did.stage = std::move(name);
+        did.vertices = best_.size();
+        did.iterations = iterations_ - std::exchange(reported_, iterations_);
+        did.stop = std::move(stop);
+        did.seconds = budget_.lap();
+        return did;
+    }
+
     bool cancelled() const { return budget_.refused(); }
     bool stopped() const { return budget_.over(); }
     double seconds() const { return budget_.total(); }
@@ -138,7 +163,9 @@ private:
     double unit_ = 1;
     map initial_, draft_, harmonic_, best_;
     certificate flips_;
-    int iterations_ = 0;
+    int iterations_ = 0, reported_ = 0;
+    stage_report now_; // of the stage at work, as far as it tells
+    step_tally steps_;
 };
 
 } // namespace taut

@@ -63,15 +63,13 @@ void run_stages(untangle_state<Element>& state, untangle_stages<Element>& stages
         for (std::size_t s = 0; s < stages.size(); ++s)
         {
             if (exhausted[s]) continue;
-            untangle_stage_report did{std::string(stages[s]->name())};
-            const double begin = state.seconds();
-            const int before = state.iterations();
             exhausted[s] = !stages[s]->run(state, iterations);
-            did.iterations = state.iterations() - before;
-            did.seconds = state.seconds() - begin;
-            did.inverted = state.flips().flipped;
-            did.branched = state.flips().branched;
-            result.stages.push_back(std::move(did));
+            const char* stop = state.injective()   ? "injective"
+                               : state.cancelled() ? "user"
+                               : state.stopped()   ? "time"
+                               : exhausted[s]      ? "exhausted"
+                                                   : "iterations";
+            result.stages.push_back(state.ended(std::string(stages[s]->name()), stop));
             if (state.injective()) result.stage = stages[s]->name();
             if (state.injective() || state.stopped()) return;
         }
@@ -97,20 +95,29 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
     untangle_result<Element> result;
     if (state.injective())
         result.stage = "initial";
-    else if (infeasibility proof = find_infeasibility(problem))
-    {
-        result.outcome = untangle_outcome::infeasible;
-        result.reason = proof.reason();
-        result.ids = proof.proofs.front().ids;
-    }
     else
-        detail::run_stages(state, stages, params, result);
+    {
+        const infeasibility proof = find_infeasibility(problem);
+        result.stages.push_back(state.ended("proofs", proof ? "infeasible" : ""));
+        if (proof)
+        {
+            result.outcome = untangle_outcome::infeasible;
+            result.reason = proof.reason();
+            result.ids = proof.proofs.front().ids;
+        }
+        else
+            detail::run_stages(state, stages, params, result);
+    }
 
     if (state.injective())
     {
         result.outcome = untangle_outcome::injective;
         if constexpr (Element::dimension == 2)
-            if (result.stage != "initial") detail::improve_margin(state, params.margin_steps);
+            if (result.stage != "initial")
+            {
+                detail::improve_margin(state, params.margin_steps);
+                result.stages.push_back(state.ended("margin", ""));
+            }
     }
     result.map = state.best_map();
     result.flips = certify<Element::dimension>(

@@ -37,6 +37,7 @@ public:
     {
         run.held.impose(places_, run.in.unit);
         run.clock.spent(&map_seconds::hierarchy);
+        run.clock.stages.add({.stage = "hierarchy", .vertices = run.vertices()});
     }
 
     /// The start; `useless` where there is none.
@@ -67,9 +68,11 @@ public:
         if (built)
         {
             run_.clock.spent(&map_seconds::device);
+            run_.clock.stages.add({.stage = "device", .vertices = run_.vertices()});
             nested_iteration nested(levels_, *solver, descent);
             arrival = nested.run([this](std::size_t l) { return observer_on(run_.clock, l); }, take);
             start.levels = nested.reports();
+            run_.clock.stages.append(nested.stages());
             run_.clock.spent(&map_seconds::start);
         }
         if (!arrival.empty())
@@ -149,8 +152,10 @@ private:
     void draw(level finest, run_start& start)
     {
         const solve::params step{.method = solve::method::newton, .stopping = {.max_iterations = 1}};
-        untangle_stage_report did{"draw"};
+        solve::report steps; // of all springs, one after the other
         finest.relax();
+        run_.clock.stages.add({.stage = "prepare", .vertices = run_.vertices()});
+        bool moves = true;
         double stiffness = first_stiffness(0);
         for (int stride = 0; start.useless; ++stride, stiffness *= growth)
         {
@@ -162,11 +167,17 @@ private:
                 start.useless = false;
                 break;
             }
-            if (stride == strides || !run_.clock.proceed()) return;
+            if (stride == strides || !moves || !run_.clock.proceed()) break;
             if (stride > 0) finest.set_springs(springs(0, stiffness));
-            if (finest.minimize(step, observer_on(run_.clock, 1)).iterations == 0) return; // no map of the run yet
-            ++did.iterations;
+            auto r = finest.minimize(step, observer_on(run_.clock, 1)); // no map of the run yet
+            moves = r.iterations > 0;
+            steps = stride == 0 ? std::move(r) : joined(std::move(steps), std::move(r));
         }
+        untangle_stage_report did{stage_of("draw", 0, run_.vertices(), steps)};
+        did.cut_by = corners_of(levels_.cells(0), steps.capping, levels_.users(0));
+        did.stop = start.useless ? moves ? "iterations" : "line search" : "injective";
+        run_.clock.stages.add(did);
+        if (start.useless) return;
         start.map.assess(run_.in.surface, run_.in.ideal);
         start.pin_origins = run_.held.pinned_points(origins_);
         start.centre = bounding_square(start.map.uv).centre;
