@@ -98,6 +98,9 @@ public:
         return budget_.proceed({.iteration = iterations_, .value = static_cast<double>(flips_.defects())});
     }
 
+    /// The report of the stage at work, which may tell what others cannot know.
+    stage_report& now() { return now_; }
+
     /// Books a step of Newton's method for the report of the stage at work.
     void stepped(double before, double after, double length)
     {
@@ -106,8 +109,8 @@ public:
         if (length > 0) steps_.add(length, length < 1);
     }
 
-    /// The report of what has happened since the last one.
-    untangle_stage_report ended(std::string name, std::string stop)
+    /// Books what has happened since the last stage ended.
+    void ended(std::string name, std::string stop)
     {
         untangle_stage_report did{std::exchange(now_, {}), flips_.flipped, flips_.branched};
         std::exchange(steps_, {}).tell(did);
@@ -116,7 +119,29 @@ public:
         did.iterations = iterations_ - std::exchange(reported_, iterations_);
         did.stop = std::move(stop);
         did.seconds = budget_.lap();
-        return did;
+        stages_.push_back(std::move(did));
+    }
+
+    /// Books the stages of a coarser level, whose iterations count as those of this one.
+    void append(const std::vector<untangle_stage_report>& coarser, std::size_t level)
+    {
+        for (const auto& s : coarser)
+        {
+            stages_.push_back(s);
+            stages_.back().level = level;
+            iterations_ += s.iterations;
+        }
+        reported_ = iterations_;
+        budget_.lap();
+    }
+
+    const std::vector<untangle_stage_report>& stages() const { return stages_; } ///< that have ended
+
+    /// The same within a part of the work that has a state of its own. part: where that stands.
+    bool proceed(progress part)
+    {
+        part.iteration += iterations_;
+        return budget_.proceed(part);
     }
 
     bool cancelled() const { return budget_.refused(); }
@@ -164,6 +189,7 @@ private:
     map initial_, draft_, harmonic_, best_;
     certificate flips_;
     int iterations_ = 0, reported_ = 0;
+    std::vector<untangle_stage_report> stages_;
     stage_report now_; // of the stage at work, as far as it tells
     step_tally steps_;
 };

@@ -47,10 +47,16 @@ public:
         start.useless = true;
         if (find_infeasibility(run_.held.problem(run_.in.surface, places_))) return start; // as untangling will say
         nested_params descent = descent_of(run_);
-        descent.first_map = [this](std::size_t l) { return first_map(l); };
-        descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
-        const std::size_t first = descent.first_level(levels_);
+        std::size_t first = descent.first_level(levels_);
         if (levels_.vertices(first) > most_vertices) return start;
+        start_map map = first_map(first);
+        // What cannot be untangled there often can on a finer level, if that is small enough for it.
+        if (bound_ && !map.flips && first > 1 && levels_.vertices(first - 1) <= most_untangled)
+            map = first_map(--first);
+        if (!map.flips) return start;
+        descent.start_vertices = levels_.vertices(first);
+        descent.first_map = [&map](std::size_t) { return std::move(map); };
+        descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
         using plan = typename level_solver<Element>::plan;
         const auto form = lane_form::for_device(run_.queue.device());
         made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels_, first - k, form); });
@@ -132,6 +138,7 @@ private:
             if (there[v] >= 0) map.uv[static_cast<std::size_t>(there[v])] = origins_[v] - centre_;
         reach_ = bounding_square(map.uv).size / 2;
         map.assess(surface, ideal_elements<triangle>(surface));
+        run_.clock.stages.add({.stage = "start", .level = l, .vertices = levels_.vertices(l)});
         return map;
     }
 
@@ -188,6 +195,7 @@ private:
     }
 
     static constexpr std::size_t most_vertices = 12000; // of the first map, which is made on the host
+    static constexpr std::size_t most_untangled = 6000; // the same where that takes more than a harmonic map
     static constexpr double growth = 4;
     static constexpr int strides = 14; // with stiffer springs rounding would decide
 
