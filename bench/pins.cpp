@@ -57,6 +57,13 @@ void print(const std::string& name, const tally& t)
     std::fflush(stdout);
 }
 
+std::string stage_of_success(const map_report& r)
+{
+    for (const auto& s : r.untangling)
+        if (s.stop == "injective") return s.stage;
+    return "";
+}
+
 tally measure(queue& q, const std::string& name, const mesh<triangle>& m, int cases, unsigned seed, double limit,
               nlohmann::ordered_json& results)
 {
@@ -106,7 +113,7 @@ tally measure(queue& q, const std::string& name, const mesh<triangle>& m, int ca
                            {"valid", static_cast<bool>(r)},
                            {"right", right},
                            {"reason", r.reason()},
-                           {"stage", r.report.untangling.empty() ? "" : r.report.untangling.back().name},
+                           {"stage", stage_of_success(r.report)},
                            {"energy", r.report.solve.value},
                            {"untangle", r.report.seconds.untangle},
                            {"seconds", seconds}});

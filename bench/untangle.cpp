@@ -98,9 +98,9 @@ public:
         auto stages = nlohmann::ordered_json::array();
         for (const auto& s : r.stages)
         {
-            stage_seconds_[s.name] += s.seconds;
+            stage_seconds_[s.stage] += s.seconds;
             stages.push_back(
-                {{"name", s.name}, {"iterations", s.iterations}, {"seconds", s.seconds}, {"inverted", s.inverted}});
+                {{"name", s.stage}, {"iterations", s.iterations}, {"seconds", s.seconds}, {"inverted", s.inverted}});
         }
         if (r) ++stage_solved_[r.stage];
         for (auto* t : {&classes_[labels[0] + ", " + labels[1]], &all_})

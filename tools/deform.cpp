@@ -41,6 +41,7 @@
 #include "progress.hpp"
 #include "run_clock.hpp"
 #include "shared_options.hpp"
+#include "stages.hpp"
 #include "text_table.hpp"
 #include "volume/group_targets.hpp"
 #include "volume/shape_options.hpp"
@@ -276,6 +277,7 @@ private:
         json["seconds"] = {{"read", read_seconds_},  {"device", device_seconds_}, {"start", s.start},
                            {"follow", s.follow},     {"repair", s.repair},        {"solve", s.solve},
                            {"total", total_seconds_}};
+        json["stages"] = to_json_array(report_.stages);
         json["peak_memory_bytes"] = peak_memory();
         json["notes"] = report_.notes;
         return json;

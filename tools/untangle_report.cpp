@@ -7,6 +7,7 @@
 
 #include "assessment.hpp"
 #include "run_clock.hpp"
+#include "stages.hpp"
 #include "text_table.hpp"
 #include "volume/shape_report.hpp"
 
@@ -44,11 +45,12 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
     json["stage"] = r.stage;
     json["stages"] = nlohmann::ordered_json::array();
     for (const auto& s : r.stages)
-        json["stages"].push_back({{"name", s.name},
-                                  {"iterations", s.iterations},
-                                  {"seconds", s.seconds},
-                                  {"inverted", s.inverted},
-                                  {"branch_points", s.branched}});
+    {
+        auto& stage = json["stages"].emplace_back(to_json(s));
+        stage["name"] = s.stage;
+        stage["inverted"] = s.inverted;
+        stage["branch_points"] = s.branched;
+    }
     json["seconds"] = {{"read", r.seconds.read},   {"check", r.seconds.check}, {"device", r.seconds.device},
                        {"solve", r.seconds.solve}, {"write", r.seconds.write}, {"total", r.seconds.total}};
     json["peak_memory_bytes"] = peak_memory();
@@ -74,7 +76,7 @@ std::string text_of(const untangle_report& r, const untangle_options& o)
     lines.add("outcome", r.outcome + (r.stage.empty() ? "" : ", by " + r.stage));
     std::string stages;
     for (const auto& s : r.stages)
-        stages += (stages.empty() ? "" : "; ") + s.name + ' ' +
+        stages += (stages.empty() ? "" : "; ") + s.stage + ' ' +
                   count(static_cast<std::uint64_t>(s.iterations), "iteration", "iterations") + ", " +
                   duration(s.seconds) + ", " + count(s.inverted) + " left";
     if (!stages.empty()) lines.add("stages", stages);

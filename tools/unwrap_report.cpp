@@ -6,6 +6,7 @@
 
 #include "interrupt.hpp"
 #include "run_clock.hpp"
+#include "stages.hpp"
 #include "text_table.hpp"
 
 namespace taut::tools
@@ -123,7 +124,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["constraints"] = {{"pins", r.pins}, {"springs", r.springs}};
     json["untangling"] = nlohmann::ordered_json::array();
     for (const auto& stage : r.map.untangling)
-        json["untangling"].push_back({{"stage", stage.name},
+        json["untangling"].push_back({{"stage", stage.stage},
                                       {"iterations", stage.iterations},
                                       {"inverted", stage.inverted},
                                       {"branch_points", stage.branched},
@@ -155,6 +156,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                                   {"energy", finite(l.solve.value)},
                                   {"waits", l.solve.waits},
                                   {"seconds", l.solve.seconds}});
+    json["stages"] = to_json_array(r.map.stages);
     json["capping"] = r.map.solve.capping;
     json["launches"] = r.map.counters.launches;
     json["waits"] = r.map.counters.waits;

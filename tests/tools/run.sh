@@ -812,8 +812,18 @@ test_reports()
     keys stats.json levels.0.level levels.0.vertices levels.0.iterations levels.0.energy_start levels.0.energy \
         levels.0.seconds
     says values '^levels.0.level=[1-9]$' '^levels.0.vertices=[1-9][0-9]*$'
+    for key in stage level vertices iterations energy_before energy_after seconds stop steps_cut cut_by step_median; do
+        keys stats.json stages.0.$key
+    done
+    says values '^stages.0.step_median=$'
+    cp stats.json levels.json
     expect 0 unwrap large.obj -o out.obj --stats stats.json --quiet --solver lbfgs --iterations 5
     keys stats.json precision method.solver method.start hessian_products levels
+    if command -v python3 >plotter; then
+        python3 "$here/../../scripts/plot-bench" levels.json stats.json --out stages >out || fail "no plot"
+        says out '^hierarchy ' '^reinsert +0 ' '^minimise +0 ' '^wrote stages-stages.svg$'
+        says stages-stages.svg '>levels</text>' '>stats</text>' '</svg>'
+    fi
     says values '^precision=fp64$' '^method.solver=lbfgs$' '^method.start=evened stretch on a circle$' \
         '^hessian_products=0$' '^levels=\[\]$'
 
@@ -1137,7 +1147,8 @@ test_deform()
     volume 3 >bar.mesh
     expect 0 deform bar.mesh -o out.mesh --fix triangles:1 --move triangles:2:rotate:0,0,1,90 --stats stats.json
     says out '640|160' 'inverted *0 -> 0' 'converged' 'wrote *out.mesh, stats.json'
-    keys stats.json schema outcome converged pins_held inverted branch_edges quality.mean_ratio.worst seconds.total
+    keys stats.json schema outcome converged pins_held inverted branch_edges quality.mean_ratio.worst seconds.total stages.0.stage \
+        stages.1.energy_after
     says values 'schema=taut.deform/1' 'outcome=valid' '^inverted=0' '^branch_edges=0'
     # All but coordinates is as it was, and vertices that are held keep their very text.
     grep -v '^[-0-9.e]* [-0-9.e]* [-0-9.e]* 0$' bar.mesh >before
@@ -1298,7 +1309,7 @@ test_untangle()
     [ "$(wc -l <out.txt)" = 27 ] || fail "not one line a vertex"
     keeps_pins in.prob out.txt
     absent out.txt.invalid
-    keys stats.json schema outcome inverted min_relative_det stage stages.0.name seconds.solve seconds.total device
+    keys stats.json schema outcome inverted min_relative_det stage stages.0.name stages.0.stage seconds.solve seconds.total device
     says values '^outcome=injective$' '^inverted=0$'
     [ "$(od -An -tx1 -N8 out.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "out.png is no PNG"
 

@@ -19,6 +19,12 @@
 namespace taut::detail
 {
 
+/// Area means of the isometric energy; +infinity if a triangle is not surely positive.
+struct relaxed_energy
+{
+    double before, after;
+};
+
 /// A map of a surface whose vertices are improved one at a time, where triangles are badly distorted.
 /// Every step keeps all triangles surely positive.
 class star_relaxation
@@ -33,12 +39,13 @@ public:
     }
 
     /// Sweeps over the vertices of triangles whose isometric energy exceeds `factor` times the area mean,
-    /// until there are none or a sweep gains less than 2 %, at most `sweeps` times. Returns the mean at the end;
-    /// +infinity if a triangle is not surely positive, and then nothing is moved.
-    double run(std::span<vec2> x, double factor, int sweeps)
+    /// until there are none or a sweep gains less than 2 %, at most `sweeps` times. Where a triangle is not surely
+    /// positive nothing is moved.
+    relaxed_energy run(std::span<vec2> x, double factor, int sweeps)
     {
         double before = std::numeric_limits<double>::infinity();
         double energy = mean(x);
+        const double first = energy;
         for (int sweep = 0; sweep < sweeps && energy < 0.98 * before; ++sweep)
         {
             const double limit = factor * energy;
@@ -52,7 +59,7 @@ public:
                 if (bad[v] && (fixed_.empty() || !fixed_[v])) improve(v, x);
             before = std::exchange(energy, mean(x));
         }
-        return energy;
+        return {first, energy};
     }
 
 private:

@@ -8,6 +8,7 @@
 #include <taut/compute/queue_counters.hpp>
 #include <taut/objective/level_report.hpp>
 #include <taut/objective/precision.hpp>
+#include <taut/objective/stage_report.hpp>
 #include <taut/start/start_map.hpp>
 #include <taut/untangle/result.hpp>
 
@@ -47,6 +48,7 @@ struct map_report
     start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
     std::vector<level_report> levels; ///< coarser levels, in their order in time
     std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
+    std::vector<stage_report> stages; ///< all that was done, also in vain, in its order in time
     std::vector<untangle_stage_report> untangling; ///< what it took to make the start injective
     double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
     certificate flips;   ///< of the map that is returned, exact: flips and branch points

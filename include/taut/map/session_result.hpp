@@ -59,7 +59,8 @@ struct session_report
     int steps = 0;                  ///< of Newton's method, in this call
     certificate flips;              ///< of the map that is returned, exact
     session_seconds seconds;
-    queue_counters counters; ///< of this call
+    std::vector<stage_report> stages; ///< of this call, in their order in time
+    queue_counters counters;          ///< of this call
 };
 
 /// Positions and a report; `auto [uv, report] = s.solve(...)`.

@@ -74,6 +74,15 @@ public:
         return place;
     }
 
+    /// The user's numbers of the vertices of a level.
+    std::vector<idx> users(std::size_t l) const
+    {
+        std::vector<idx> numbers;
+        for (const idx v : hierarchy_.levels[l].vertices)
+            numbers.push_back(order().vertices.new_to_old[static_cast<std::size_t>(v)]);
+        return numbers;
+    }
+
     /// A level as a mesh of its own.
     mesh<Element> level(std::size_t l) const { return l == 0 ? finest_ : level_mesh(hierarchy_, l, finest_.points()); }
     const std::vector<typename mesh<Element>::cell>& cells(std::size_t l) const { return hierarchy_.levels[l].cells; }

@@ -55,12 +55,13 @@ struct prescribed_params
 /// How far prescribed coordinates have come.
 struct prescribed_report
 {
-    bool arrived = false;  ///< they have their values
-    bool crawling = false; ///< the last steps, of this run and those before, have hardly changed anything
-    double left = 0;       ///< of the gap
-    double value = 0;      ///< f at the last trial step that was taken
-    int iterations = 0;    ///< steps, those included that were not taken
-    int products = 0;      ///< Hessian products
+    bool arrived = false;   ///< they have their values
+    bool crawling = false;  ///< the last steps, of this run and those before, have hardly changed anything
+    double left = 0;        ///< of the gap
+    double value_start = 0; ///< f at the start
+    double value = 0;       ///< f at the last trial step that was taken
+    int iterations = 0;     ///< steps, those included that were not taken
+    int products = 0;       ///< Hessian products
 };
 
 /// Brings coordinates of a point to prescribed values, within the domain of f, while the others follow: Newton's steps
@@ -111,6 +112,7 @@ public:
             r.crawling = slow_ >= patience;
         } while (!r.arrived && !r.crawling && proceed(r));
         if (r.crawling) slow_ = 0;
+        r.value_start = *start_;
         return r;
     }
 

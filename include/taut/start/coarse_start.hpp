@@ -64,9 +64,10 @@ inline start_map coarse_start(const mesh<triangle>& m, const hierarchy<triangle>
     double energy = map.distortion.measure;
     while (level-- > 0)
     {
-        auto [uv, raised] =
+        auto finer =
             detail::raise_map(h, level, points, std::move(map.uv), {.fixed = fixed, .threads = params.coarse.threads});
-        map.uv = std::move(uv);
+        map.uv = std::move(finer.uv);
+        double raised = finer.energy.after;
         // The next level would only make it worse; while a direct solver can, it is put right here.
         if (raised > 2 * energy && map.uv.size() <= detail::largest_direct)
             raised = detail::optimize_level(h, level, points, fixed, params.coarse, map.uv);

@@ -12,6 +12,7 @@
 #include <taut/measure/describe_defects.hpp>
 #include <taut/mesh/describe.hpp>
 #include <taut/objective/level_report.hpp>
+#include <taut/objective/stage_report.hpp>
 #include <taut/start/level_solver.hpp>
 #include <taut/start/robust.hpp>
 
@@ -67,6 +68,7 @@ public:
     {
         const std::size_t first = params_.first_level(levels_);
         start_ = params_.first_map ? params_.first_map(first) : robust_start(levels_.level(first), params_.start);
+        stages_.add({.stage = "start", .level = first, .vertices = levels_.vertices(first)});
         if (!start_.flips) return fail("the coarse start has " + describe_defects<triangle>(start_.flips));
         auto uv = std::move(start_.uv);
         const std::vector<char> still = still_vertices();
@@ -82,7 +84,12 @@ public:
                 return fail("the energy is not finite on level " + std::to_string(l));
             auto finer =
                 detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv), {.fixed = still});
-            if (!std::isfinite(finer.energy))
+            stages_.add({.stage = "reinsert",
+                         .level = l - 1,
+                         .vertices = levels_.vertices(l - 1),
+                         .energy_before = finer.energy.before,
+                         .energy_after = finer.energy.after});
+            if (!std::isfinite(finer.energy.after))
                 return fail("not all vertices could be reinserted on level " + std::to_string(l - 1));
             uv = std::move(finer.uv);
         }
@@ -93,6 +100,7 @@ public:
     const start_map& start() const { return start_; }
     const std::string& reason() const { return reason_; }
     const std::vector<level_report>& reports() const { return reports_; }
+    const std::vector<stage_report>& stages() const { return stages_.stages(); }
 
 private:
     /// Flags of the vertices that reinsertion may not move; none at all where the map may be scaled, too.
@@ -115,7 +123,11 @@ private:
         if (relax && params_.stopping.max_iterations > 0) level.relax();
         auto stopping = params_.stopping;
         if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;
+        stages_.add({.stage = "prepare", .level = l, .vertices = levels_.vertices(l)});
         auto r = level.minimize({.method = solve::method::newton, .stopping = stopping}, ask);
+        auto did = stage_of("minimise", l, levels_.vertices(l), r);
+        if (!r.capping.empty()) did.cut_by = corners_of(levels_.cells(l), r.capping, levels_.users(l));
+        stages_.add(std::move(did));
         r.history.clear();
         reports_.push_back({.level = l, .vertices = levels_.vertices(l), .solve = std::move(r)});
         return level.download();
@@ -133,6 +145,7 @@ private:
     start_map start_;
     std::string reason_;
     std::vector<level_report> reports_;
+    stage_log stages_; // made with this, which is to be run at once
 };
 
 } // namespace taut

@@ -44,7 +44,7 @@ inline void scale_to_fit(const hierarchy<triangle>& h, std::size_t level, std::s
 struct raised_map
 {
     std::vector<vec2> uv;
-    double energy; ///< isometric, area mean; +infinity if a triangle is not surely positive
+    relaxed_energy energy; ///< before: as the vertices came back
 };
 
 /// A map of a level from one of the next coarser level: vertices come back, then those of the worst triangles, old and
@@ -68,7 +68,7 @@ inline raised_map raise_map(const hierarchy<triangle>& h, std::size_t level, std
         reinsertion fine = reinsert(h, level, points, coarse, {.threads = params.threads});
         if (fine.failed.empty() || attempt == attempts)
         {
-            const double energy = relax(level, fine.uv, params.factor, params.sweeps);
+            const auto energy = relax(level, fine.uv, params.factor, params.sweeps);
             return {std::move(fine.uv), energy};
         }
         relax(level + 1, coarse, 0, 10 * attempt);

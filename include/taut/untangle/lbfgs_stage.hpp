@@ -44,6 +44,7 @@ public:
             params.stopping.time_limit = std::chrono::duration<double>(std::max(1e-3, state.seconds_left()));
             params.first_length = 0.01;
             const solve::report report = solve::minimize(objective, x_, params);
+            state.stepped(report.value_start, report.value, 0);
             if (!std::isfinite(report.value)) return false;
             if (state.offer(points()).flipped == 0 || !state.proceed()) return false;
             standing_ = report.value < report.value_start ? 0 : standing_ + 1;

@@ -12,9 +12,10 @@ namespace taut::detail
 
 /// Moves the injective map of the state away from the edge of what is injective, so that an energy with a barrier can
 /// start from it: at most `steps` of Newton's method on |S|^2 / det S + det S + 1 / det S, which keep all determinants
-/// positive.
+/// positive, until one gains less than 1 %.
 inline void improve_margin(untangle_state<triangle>& state, int steps)
 {
+    if (steps == 0) return;
     const auto& problem = state.problem();
     auto x = state.best();
     const auto newton = state.make_newton(
@@ -25,7 +26,8 @@ inline void improve_margin(untangle_state<triangle>& state, int steps)
     {
         const double before = value;
         value = newton->step(x, before);
-        if (!(value < before) || !state.replace(x) || !state.proceed() || value > 0.999 * before) break;
+        state.stepped(before, value, newton->last_length());
+        if (!(value < before) || !state.replace(x) || !state.proceed() || value > 0.99 * before) break;
     }
 }
 

@@ -54,6 +54,7 @@ public:
             newton_->eps = schedule_->eps();
             const double before = newton_->value(x_);
             const double after = newton_->step(x_, before);
+            state.stepped(before, after, newton_->last_length());
             if (!std::isfinite(after)) return false;
             if (state.offer(x_).flipped == 0 || !state.proceed()) return false;
             standing_ = newton_->last_length() > 0 ? 0 : standing_ + 1;

@@ -52,6 +52,7 @@ public:
         {
             for (auto& s : newton_->springs) s.stiffness *= growth;
             const double before = newton_->value(x_), after = newton_->step(x_, before);
+            state.stepped(before, after, newton_->last_length());
             if (state.offer(x_)) return false; // injective with the held vertices at their places
             if (!state.proceed() || !std::isfinite(after)) return false;
             standing_ = after < before ? 0 : standing_ + 1;

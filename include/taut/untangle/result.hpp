@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <taut/exact/certify.hpp>
+#include <taut/objective/stage_report.hpp>
 
 namespace taut
 {
@@ -39,12 +40,9 @@ inline std::ostream& operator<<(std::ostream& out, untangle_outcome outcome)
     return out << to_string(outcome);
 }
 
-/// What one stage did.
-struct untangle_stage_report
+/// What one stage of an untangling did. Energies are the regularised ones of its first and last step.
+struct untangle_stage_report : stage_report
 {
-    std::string name;
-    int iterations = 0;
-    double seconds = 0;
     std::size_t inverted = 0; ///< elements inverted in the best map when it ended
     std::size_t branched = 0; ///< branch points of that map
 };
@@ -63,7 +61,7 @@ struct untangle_result
     certificate flips;       ///< of the map, exact; det in the units of the map, not divided by anything
     double least_relative_det = 0; ///< smallest mapped / rest measure, divided by that of the whole; 1: a dilation
     std::string stage;             ///< that found the injective map; "initial" if there was nothing to do
-    std::vector<untangle_stage_report> stages; ///< those that ran, in their order
+    std::vector<untangle_stage_report> stages; ///< those that ran, in their order, proofs and margin included
     double seconds = 0;                        ///< of the whole run
 
     /// True if the map is certified.

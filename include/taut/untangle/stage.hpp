@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <string_view>
+#include <vector>
 
 #include <taut/untangle/state.hpp>
 
@@ -20,5 +22,9 @@ public:
     /// to the state and calls proceed() after each iteration. False: it has nothing more to try.
     virtual bool run(untangle_state<Element>& state, int iterations) = 0;
 };
+
+/// In their order.
+template <class Element>
+using untangle_stages = std::vector<std::unique_ptr<untangle_stage<Element>>>;
 
 } // namespace taut

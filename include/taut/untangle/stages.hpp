@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <taut/core/error.hpp>
+#include <taut/untangle/coarse_stage.hpp>
 #include <taut/untangle/element_newton.hpp>
 #include <taut/untangle/harmonic_stage.hpp>
 #include <taut/untangle/lbfgs_stage.hpp>
@@ -17,11 +18,9 @@
 namespace taut
 {
 
-template <class Element>
-using untangle_stages = std::vector<std::unique_ptr<untangle_stage<Element>>>;
-
 /// The stages of the plane that need no device:
 ///
+/// coarse    a coarse level alone, and the map of it carried up
 /// harmonic  the harmonic map alone
 /// newton    from the harmonic map, towards the shapes at rest
 /// pull      from an injective map, whose elements stay positive while springs pull it to what is held
@@ -46,6 +45,7 @@ inline untangle_stages<triangle> host_stages(bool outline_pinned)
         stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", regular, 0.1, true, share}));
     };
     const auto harmonic_map = [&] { stages.push_back(std::make_unique<harmonic_stage<triangle>>()); };
+    stages.push_back(std::make_unique<coarse_stage>());
     if (outline_pinned)
     {
         harmonic_map();

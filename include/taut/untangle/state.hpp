@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <taut/constrain/untangle_problem.hpp>
 #include <taut/core/budget.hpp>
 #include <taut/exact/certify.hpp>
+#include <taut/objective/stage_report.hpp>
 #include <taut/start/harmonic.hpp>
 #include <taut/untangle/params.hpp>
 #include <taut/untangle/regularized_newton.hpp>
+#include <taut/untangle/result.hpp>
 
 namespace taut
 {
@@ -94,6 +98,52 @@ public:
         return budget_.proceed({.iteration = iterations_, .value = static_cast<double>(flips_.defects())});
     }
 
+    /// The report of the stage at work, which may tell what others cannot know.
+    stage_report& now() { return now_; }
+
+    /// Books a step of Newton's method for the report of the stage at work.
+    void stepped(double before, double after, double length)
+    {
+        if (!(now_.energy_before < std::numeric_limits<double>::infinity())) now_.energy_before = before;
+        now_.energy_after = after;
+        if (length > 0) steps_.add(length, length < 1);
+    }
+
+    /// Books what has happened since the last stage ended.
+    void ended(std::string name, std::string stop)
+    {
+        untangle_stage_report did{std::exchange(now_, {}), flips_.flipped, flips_.branched};
+        std::exchange(steps_, {}).tell(did);
+        did.stage = std::move(name);
+        did.vertices = best_.size();
+        did.iterations = iterations_ - std::exchange(reported_, iterations_);
+        did.stop = std::move(stop);
+        did.seconds = budget_.lap();
+        stages_.push_back(std::move(did));
+    }
+
+    /// Books the stages of a coarser level, whose iterations count as those of this one.
+    void append(const std::vector<untangle_stage_report>& coarser, std::size_t level)
+    {
+        for (const auto& s : coarser)
+        {
+            stages_.push_back(s);
+            stages_.back().level = level;
+            iterations_ += s.iterations;
+        }
+        reported_ = iterations_;
+        budget_.lap();
+    }
+
+    const std::vector<untangle_stage_report>& stages() const { return stages_; } ///< that have ended
+
+    /// The same within a part of the work that has a state of its own. part: where that stands.
+    bool proceed(progress part)
+    {
+        part.iteration += iterations_;
+        return budget_.proceed(part);
+    }
+
     bool cancelled() const { return budget_.refused(); }
     bool stopped() const { return budget_.over(); }
     double seconds() const { return budget_.total(); }
@@ -138,7 +188,10 @@ private:
     double unit_ = 1;
     map initial_, draft_, harmonic_, best_;
     certificate flips_;
-    int iterations_ = 0;
+    int iterations_ = 0, reported_ = 0;
+    std::vector<untangle_stage_report> stages_;
+    stage_report now_; // of the stage at work, as far as it tells
+    step_tally steps_;
 };
 
 } // namespace taut

@@ -15,6 +15,7 @@
 #include <taut/untangle/margin.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 #include <taut/untangle/result.hpp>
+#include <taut/untangle/run_stages.hpp>
 #include <taut/untangle/stages.hpp>
 
 namespace taut
@@ -51,34 +52,6 @@ double least_relative_det(const untangle_problem<Element>& problem, const std::v
     return mapped > 0 ? least / mapped : 0.0;
 }
 
-/// Runs the stages in turn until the state is injective or none has anything left to try.
-template <class Element>
-void run_stages(untangle_state<Element>& state, untangle_stages<Element>& stages, const untangle_params& params,
-                untangle_result<Element>& result)
-{
-    std::vector<char> exhausted(stages.size(), 0);
-    int iterations = params.first_round;
-    for (int round = 0; round < params.rounds; ++round)
-    {
-        for (std::size_t s = 0; s < stages.size(); ++s)
-        {
-            if (exhausted[s]) continue;
-            untangle_stage_report did{std::string(stages[s]->name())};
-            const double begin = state.seconds();
-            const int before = state.iterations();
-            exhausted[s] = !stages[s]->run(state, iterations);
-            did.iterations = state.iterations() - before;
-            did.seconds = state.seconds() - begin;
-            did.inverted = state.flips().flipped;
-            did.branched = state.flips().branched;
-            result.stages.push_back(std::move(did));
-            if (state.injective()) result.stage = stages[s]->name();
-            if (state.injective() || state.stopped()) return;
-        }
-        iterations = std::min(iterations, std::numeric_limits<int>::max() / 2) * 2;
-    }
-}
-
 } // namespace detail
 
 /// Moves what is not held until every element is positive, with stages that take turns (untangle_params::stages), each
@@ -97,20 +70,29 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
     untangle_result<Element> result;
     if (state.injective())
         result.stage = "initial";
-    else if (infeasibility proof = find_infeasibility(problem))
-    {
-        result.outcome = untangle_outcome::infeasible;
-        result.reason = proof.reason();
-        result.ids = proof.proofs.front().ids;
-    }
     else
-        detail::run_stages(state, stages, params, result);
+    {
+        const infeasibility proof = find_infeasibility(problem);
+        state.ended("proofs", proof ? "infeasible" : "");
+        if (proof)
+        {
+            result.outcome = untangle_outcome::infeasible;
+            result.reason = proof.reason();
+            result.ids = proof.proofs.front().ids;
+        }
+        else
+            result.stage = detail::run_stages(state, stages, params);
+    }
 
     if (state.injective())
     {
         result.outcome = untangle_outcome::injective;
         if constexpr (Element::dimension == 2)
-            if (result.stage != "initial") detail::improve_margin(state, params.margin_steps);
+            if (result.stage != "initial")
+            {
+                detail::improve_margin(state, params.margin_steps);
+                state.ended("margin", "");
+            }
     }
     result.map = state.best_map();
     result.flips = certify<Element::dimension>(
@@ -125,6 +107,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
                                                 "; a certificate that there is no solution was not found either";
     }
     result.least_relative_det = detail::least_relative_det(problem, result.map);
+    result.stages = state.stages();
     result.seconds = state.seconds();
     return result;
 }

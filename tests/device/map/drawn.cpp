@@ -83,7 +83,7 @@ struct bound_map
 
 std::string stage(const map_result& r)
 {
-    return r.report.untangling.empty() ? "" : r.report.untangling.back().name;
+    return r.report.untangling.empty() ? "" : r.report.untangling.back().stage;
 }
 
 TEST_CASE("drawn start: pins inside a pinned boundary swirl, hold bit for bit, and cost no more than untangled ones")

@@ -68,6 +68,27 @@ TEST_CASE("untangle: a map without folds comes back as it is")
     CHECK(std::memcmp(result.map.data(), problem.initial.data(), problem.initial.size() * sizeof(vec2)) == 0);
 }
 
+TEST_CASE("untangle: the stages that ran are reported from the proofs to the margin, and take the time of the run")
+{
+    auto problem = square(16);
+    std::swap(problem.initial[100], problem.initial[180]);
+    const auto result = untangle(problem);
+    REQUIRE(result);
+    REQUIRE(result.stages.size() >= 3);
+    CHECK(result.stages.front().stage == "proofs");
+    CHECK(result.stages.back().stage == "margin");
+    CHECK(result.stages.back().energy_after <= result.stages.back().energy_before);
+    double sum = 0;
+    for (const auto& s : result.stages)
+    {
+        sum += s.seconds;
+        CHECK(s.vertices == problem.initial.size());
+        CHECK((s.stop == "injective") == (s.stage == result.stage));
+    }
+    CHECK(sum <= result.seconds);
+    CHECK(sum >= 0.5 * result.seconds - 0.1);
+}
+
 TEST_CASE("untangle: pins inside are reached past each other")
 {
     auto problem = square(16);
@@ -170,8 +191,11 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     const auto within = untangle(problem, params);
     check_typed(problem, within);
     CHECK(asked == 3);
-    REQUIRE(within.stages.size() == 1);
-    CHECK(within.stages[0].iterations <= 1);
+    REQUIRE(within.stages.size() == 2);
+    CHECK(within.stages[0].stage == "proofs");
+    CHECK(within.stages[1].stage == "newton");
+    CHECK(within.stages[1].stop == "user");
+    CHECK(within.stages[1].iterations <= 1);
 
     params = {};
     params.stages = {"harmonic"};

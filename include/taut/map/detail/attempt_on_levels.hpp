@@ -54,12 +54,14 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
                          solver->warm_up();
                      });
     if (built) run.clock.spent(&map_seconds::device);
+    run.clock.stages.add({.stage = "device", .vertices = run.vertices()});
     a.stopped = !built || !run.clock.proceed();
     if (a.stopped) return a;
     if (descends)
     {
         nested_iteration nested(levels, *solver, descent);
         a.arrival = nested.run([&run](std::size_t l) { return observer_on(run.clock, l); }, take);
+        run.clock.stages.append(nested.stages());
         a.descent = {nested.start(), nested.reports(),
                      a.arrival.empty() ? nested.reason() : "the map that came of it could not be certified"};
         run.clock.spent(&map_seconds::start);
@@ -73,9 +75,11 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
     a.stopped = !run.clock.proceed();
     if (a.stopped) return a;
     if (start.coarse && run.iterates()) finest.relax();
+    run.clock.stages.add({.stage = "prepare", .vertices = run.vertices()});
     a.solve = finest.minimize(limited(run, max_iterations),
                               observer_of(run, start, [&] { return numbers.undo(finest.download()); }));
     for (int& c : a.solve.capping) c = levels.order().cells.new_to_old[static_cast<std::size_t>(c)];
+    run.clock.stages.add(minimised_on_mesh(run, a.solve));
     const auto begin = start.coarse ? numbers.undo(a.arrival) : start.map.uv;
     a.arrival = finest.download();
     a.uv = restored(run, numbers.undo(a.arrival), start.centre, begin);

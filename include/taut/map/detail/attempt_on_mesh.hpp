@@ -87,6 +87,15 @@ inline std::vector<vec2> centred(std::vector<vec2> uv, const vec2& centre)
     return uv;
 }
 
+/// The stage that a minimisation on the mesh itself was; capping in the user's numbers.
+template <class Element>
+stage_report minimised_on_mesh(const map_run<Element>& run, const solve::report& r)
+{
+    stage_report did = stage_of("minimise", 0, run.vertices(), r);
+    did.cut_by = corners_of(run.in.surface.cells(), r.capping);
+    return did;
+}
+
 /// An attempt without a hierarchy.
 template <class Element>
 attempt attempt_on_mesh(const map_run<Element>& run, const run_start& start, precision how, int max_iterations)
@@ -104,8 +113,10 @@ attempt attempt_on_mesh(const map_run<Element>& run, const run_start& start, pre
     a.stopped = !build_within(run.queue, run.clock, [&] { f.warm_up(x); });
     if (a.stopped) return a;
     run.clock.spent(&map_seconds::device);
+    run.clock.stages.add({.stage = "device", .vertices = run.vertices()});
     a.solve =
         solve::minimize(f, x, limited(run, max_iterations), observer_of(run, start, [&] { return f.download(x); }));
+    run.clock.stages.add(minimised_on_mesh(run, a.solve));
     a.uv = restored(run, f.download(x), start.centre, start.map.uv);
     run.clock.spent(&map_seconds::solve);
     return certified(run.in, std::move(a));

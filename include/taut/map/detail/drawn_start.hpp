@@ -37,6 +37,7 @@ public:
     {
         run.held.impose(places_, run.in.unit);
         run.clock.spent(&map_seconds::hierarchy);
+        run.clock.stages.add({.stage = "hierarchy", .vertices = run.vertices()});
     }
 
     /// The start; `useless` where there is none.
@@ -46,10 +47,16 @@ public:
         start.useless = true;
         if (find_infeasibility(run_.held.problem(run_.in.surface, places_))) return start; // as untangling will say
         nested_params descent = descent_of(run_);
-        descent.first_map = [this](std::size_t l) { return first_map(l); };
-        descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
-        const std::size_t first = descent.first_level(levels_);
+        std::size_t first = descent.first_level(levels_);
         if (levels_.vertices(first) > most_vertices) return start;
+        start_map map = first_map(first);
+        // What cannot be untangled there often can on a finer level, if that is small enough for it.
+        if (bound_ && !map.flips && first > 1 && levels_.vertices(first - 1) <= most_untangled)
+            map = first_map(--first);
+        if (!map.flips) return start;
+        descent.start_vertices = levels_.vertices(first);
+        descent.first_map = [&map](std::size_t) { return std::move(map); };
+        descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
         using plan = typename level_solver<Element>::plan;
         const auto form = lane_form::for_device(run_.queue.device());
         made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels_, first - k, form); });
@@ -67,9 +74,11 @@ public:
         if (built)
         {
             run_.clock.spent(&map_seconds::device);
+            run_.clock.stages.add({.stage = "device", .vertices = run_.vertices()});
             nested_iteration nested(levels_, *solver, descent);
             arrival = nested.run([this](std::size_t l) { return observer_on(run_.clock, l); }, take);
             start.levels = nested.reports();
+            run_.clock.stages.append(nested.stages());
             run_.clock.spent(&map_seconds::start);
         }
         if (!arrival.empty())
@@ -129,6 +138,7 @@ private:
             if (there[v] >= 0) map.uv[static_cast<std::size_t>(there[v])] = origins_[v] - centre_;
         reach_ = bounding_square(map.uv).size / 2;
         map.assess(surface, ideal_elements<triangle>(surface));
+        run_.clock.stages.add({.stage = "start", .level = l, .vertices = levels_.vertices(l)});
         return map;
     }
 
@@ -149,8 +159,10 @@ private:
     void draw(level finest, run_start& start)
     {
         const solve::params step{.method = solve::method::newton, .stopping = {.max_iterations = 1}};
-        untangle_stage_report did{"draw"};
+        solve::report steps; // of all springs, one after the other
         finest.relax();
+        run_.clock.stages.add({.stage = "prepare", .vertices = run_.vertices()});
+        bool moves = true;
         double stiffness = first_stiffness(0);
         for (int stride = 0; start.useless; ++stride, stiffness *= growth)
         {
@@ -162,11 +174,17 @@ private:
                 start.useless = false;
                 break;
             }
-            if (stride == strides || !run_.clock.proceed()) return;
+            if (stride == strides || !moves || !run_.clock.proceed()) break;
             if (stride > 0) finest.set_springs(springs(0, stiffness));
-            if (finest.minimize(step, observer_on(run_.clock, 1)).iterations == 0) return; // no map of the run yet
-            ++did.iterations;
+            auto r = finest.minimize(step, observer_on(run_.clock, 1)); // no map of the run yet
+            moves = r.iterations > 0;
+            steps = stride == 0 ? std::move(r) : joined(std::move(steps), std::move(r));
         }
+        untangle_stage_report did{stage_of("draw", 0, run_.vertices(), steps)};
+        did.cut_by = corners_of(levels_.cells(0), steps.capping, levels_.users(0));
+        did.stop = start.useless ? moves ? "iterations" : "line search" : "injective";
+        run_.clock.stages.add(did);
+        if (start.useless) return;
         start.map.assess(run_.in.surface, run_.in.ideal);
         start.pin_origins = run_.held.pinned_points(origins_);
         start.centre = bounding_square(start.map.uv).centre;
@@ -177,6 +195,7 @@ private:
     }
 
     static constexpr std::size_t most_vertices = 12000; // of the first map, which is made on the host
+    static constexpr std::size_t most_untangled = 6000; // the same where that takes more than a harmonic map
     static constexpr double growth = 4;
     static constexpr int strides = 14; // with stiffer springs rounding would decide
 

@@ -27,6 +27,7 @@ run_start untangled_start(const map_run<Element>& run, run_start start, std::vec
     if (!draft.empty() && certify<2>(run.in.surface.cells(), draft)) problem.draft = std::move(draft);
     auto found = untangle(run.queue, problem, how);
 
+    run.clock.stages.append(found.stages);
     start.untangling = std::move(found.stages);
     const std::string before = "the start had " + describe_defects<Element>(start.map.flips) + "; ";
     if (!bound && !found)
@@ -65,6 +66,7 @@ run_start fitted_start(const map_run<Element>& run, run_start start, bool given)
         start.map.assess(run.in.surface, run.in.ideal);
     }
     run.clock.spent(&map_seconds::start);
+    run.clock.stages.add({.stage = "start", .vertices = run.vertices()});
     if (!start.map.flips)
     {
         if (run.held.constrained() || given)

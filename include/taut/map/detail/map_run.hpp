@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -47,14 +48,18 @@ struct map_run
           held(p.constraints, in.surface.points().size(), in.fixed_boundary(p.boundary), in.unit)
     {
         clock.spent(&map_seconds::setup);
+        clock.stages.add({.stage = "setup", .vertices = vertices()});
         if (!clock.proceed() || !params.uses_levels()) return;
         levels.emplace(in.surface, held.marks().pinned(),
                        hierarchy_params{.proceed = [this] { return clock.proceed(); }}, params.data);
         clock.spent(&map_seconds::hierarchy);
+        clock.stages.add({.stage = "hierarchy", .vertices = vertices()});
         clock.proceed();
     }
     map_run(const map_run&) = delete;
     map_run& operator=(const map_run&) = delete;
+
+    std::size_t vertices() const { return in.surface.points().size(); }
 
     /// Whether nothing holds the map.
     bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }

@@ -65,6 +65,7 @@ std::vector<vec2> free_draft(const map_run<Element>& run)
                     });
     const map_run<Element> free(run.queue, run.in, params, clock);
     map_result draft = solved(free);
+    run.clock.stages.append(clock.stages.stages());
     return draft ? std::move(draft.uv) : std::vector<vec2>();
 }
 
@@ -73,7 +74,10 @@ template <class Element>
 map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock)
 {
     const map_run<Element> run(q, surface, params, clock);
-    return in_user_units(run, placed(run, solved(run)));
+    map_result result = in_user_units(run, placed(run, solved(run)));
+    clock.stages.add({.stage = "certify", .vertices = run.vertices()});
+    result.report.stages = clock.stages.stages();
+    return result;
 }
 
 } // namespace detail

@@ -9,10 +9,11 @@
 namespace taut::detail
 {
 
-/// The limits of a run of parameterize(), and where its time went.
+/// The limits of a run of parameterize(), and where its time went: by phases, and stage by stage.
 struct run_clock : budget
 {
     map_seconds seconds = {};
+    stage_log stages = {};
 
     run_clock(budget::seconds limit, observer ask) : budget(limit, std::move(ask)) { has_result(false); }
 

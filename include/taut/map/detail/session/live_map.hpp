@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -74,7 +75,9 @@ public:
     /// With what is held where it is.
     solve::report minimize(const solve::params& how, const observer& ask)
     {
-        return solve::minimize(objective_, x_, how, ask);
+        auto r = solve::minimize(objective_, x_, how, ask);
+        for (int& c : r.capping) c = cells_[static_cast<std::size_t>(c)];
+        return r;
     }
 
     map coordinates() const
@@ -101,6 +104,7 @@ private:
     live_map(queue q, const mesh_levels<Element>& levels, const ideal_elements<Element>* wanted, const Params& params,
              const real_types& types)
         : numbers_(levels.order().vertices),
+          cells_(levels.order().cells.new_to_old),
           objective_(q, plan(levels, wanted, lane_form::for_device(q.device())), params.energy, params.weights,
                      std::make_shared<const newton_kernels<Element>>(q, params.energy, types)),
           x_(objective_.make_point()),
@@ -116,6 +120,7 @@ private:
     }
 
     permutation numbers_;
+    std::vector<idx> cells_; ///< the user's numbers
     vec<D> centre_{0.0};
     newton_objective<Element> objective_;
     typename newton_objective<Element>::point x_;

@@ -56,6 +56,7 @@ private:
             this->changed = false;
         }
         this->seconds_.start = clock.total();
+        clock.stages.add({.stage = "prepare", .vertices = in_.surface.points().size()});
     }
 
     const mesh<Element>& rest() const override { return in_.surface; }

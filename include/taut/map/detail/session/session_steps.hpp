@@ -47,6 +47,7 @@ public:
         last.report.stopped =
             !last.report.converged && (steps_left_ <= 0 || clock.over() || clock.left().count() <= step_seconds_);
         last.report.seconds = seconds_;
+        last.report.stages = clock.stages.stages();
         last.report.counters = counted_since(before, queue_.counters());
         return last;
     }
@@ -93,7 +94,7 @@ protected:
         }
         changed = r.converged = false;
         clock.has_result(true);
-        book(clock, &session_seconds::constrain);
+        book(clock, &session_seconds::constrain, {.stage = "constrain"});
         if (on_way_ && r.reason.empty()) follow(clock);
         if (r.steps == 0 || (!on_way_ && may_step(clock))) minimise(clock);
         take(clock);
@@ -145,10 +146,13 @@ protected:
             goes_on = follow(clock, part == 1 ? last.x : user_coordinates(), way);
         }
         on_way_ = !goes_on;
-        book(clock, &session_seconds::follow);
+        followed_.stop = goes_on ? "" : stuck_ ? "stuck" : clock.refused() ? "user" : "limit";
+        book(clock, &session_seconds::follow, std::exchange(followed_, {}));
         if (goes_on || !stuck_ || !may_step(clock)) return;
-        repair(clock);
-        book(clock, &session_seconds::repair);
+        const int before = last.report.steps;
+        const bool repaired = repair(clock);
+        book(clock, &session_seconds::repair,
+             {.stage = "repair", .iterations = last.report.steps - before, .stop = repaired ? "injective" : "stuck"});
     }
 
     /// One part of the way from a map; whether it has been gone. stuck_: steps do not help.
@@ -172,6 +176,10 @@ protected:
         steps_left_ -= found.iterations;
         last.report.steps += found.iterations;
         last.report.energy = found.value;
+        followed_.stage = "follow";
+        if (followed_.iterations == 0) followed_.energy_before = found.value_start;
+        followed_.iterations += found.iterations;
+        followed_.energy_after = found.value;
         stuck_ = found.crawling && feasible;
         return found.arrived;
     }
@@ -205,16 +213,19 @@ protected:
         auto how = untangling_;
         how.time_limit = clock.left();
         how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
-        return untangle(queue_, problem(x, false), how);
+        auto found = untangle(queue_, problem(x, false), how);
+        clock.stages.append(found.stages);
+        return found;
     }
 
     /// Untangling, where steps do not bring held coordinates any nearer, if the budget would last for some twenty steps
-    /// more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps.
-    void repair(run_clock& clock)
+    /// more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps. Whether
+    /// it did.
+    bool repair(run_clock& clock)
     {
         const auto lasts = [&](int steps)
         { return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_; };
-        if (!lasts(20)) return;
+        if (!lasts(20)) return false;
         int before = 0, now = 0; // iterations of untanglings that have ended, and of the one at work
         const repair_limits limits{.whole = lasts(100),
                                    .time = std::min(clock.left(), std::chrono::duration<double>(1000 * step_seconds_)),
@@ -227,10 +238,11 @@ protected:
         const auto found = repaired(queue_, problem(user_coordinates(), true), untangling_, limits);
         steps_left_ -= std::min(before + now, steps_left_);
         last.report.steps += before + now;
-        if (!found) return;
+        if (!found) return false;
         load(*found);
         on_way_ = false;
         last.report.notes.push_back("steps stuck; the map was untangled with the pins at their places");
+        return true;
     }
 
     /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.
@@ -260,7 +272,9 @@ protected:
         r.energy = found.value;
         r.gradient = found.gradient_norm;
         r.converged = !on_way_ && is_converged(found.stop);
-        book(clock, &session_seconds::solve);
+        auto did = stage_of("minimise", 0, 0, found);
+        did.cut_by = corners_of(rest().cells(), found.capping);
+        book(clock, &session_seconds::solve, std::move(did));
     }
 
     /// Makes the map on the device the last one, if it is certified; else goes back to the last one.
@@ -287,7 +301,7 @@ protected:
         r.pins_held = !on_way_;
         r.farthest = gap.vertex;
         r.distance = gap.distance;
-        book(clock, &session_seconds::certificate);
+        book(clock, &session_seconds::certificate, {.stage = "certify"});
     }
 
     static bool is_converged(solve::stop s) { return s == solve::stop::gradient || s == solve::stop::decrease; }
@@ -320,7 +334,13 @@ protected:
         return x;
     }
 
-    void book(run_clock& clock, double session_seconds::*phase) { seconds_.*phase += clock.lap(); }
+    /// The time since the last stage ended is that of this one.
+    void book(run_clock& clock, double session_seconds::*phase, stage_report did)
+    {
+        seconds_.*phase += clock.lap();
+        did.vertices = rest().points().size();
+        clock.stages.add(std::move(did));
+    }
 
     queue queue_;
     double lengths_ = 1; ///< of the run by those of the map
@@ -334,6 +354,7 @@ private:
     untangle_params untangling_;
     taut::observer observer_;
     std::chrono::duration<double> limit_;
+    stage_report followed_;                   ///< what bringing held coordinates to their places came to so far
     std::vector<directed_spring<D>> springs_; ///< in the lengths of the run
     bool stuck_ = false;                      ///< steps bring held coordinates no nearer to their places
     double step_seconds_ = 0;                 ///< of the last step

@@ -95,7 +95,7 @@ private:
                             params_.shapes == wanted_shapes::rest ? nullptr : &ideal_);
         this->load(this->scaled(start_)); // with what is held
         this->changed = true;
-        this->seconds_.start = clock.lap();
+        this->book(clock, &session_seconds::start, {.stage = "start"});
         const auto notes = std::exchange(r.notes, {});
         this->advance(clock);
         r.notes.insert(r.notes.begin(), notes.begin(), notes.end());
