@@ -46,6 +46,11 @@ struct deform_params
     /// What elements are wanted to look like: `regular` ones, of the mean size, have no rest shape.
     wanted_shapes shapes = wanted_shapes::rest;
 
+    /// What single elements are wanted to look like, where no shape of the whole has them all: the edges of each from
+    /// its corner 0, as columns, in the lengths of the mesh; turns of them mean nothing. Empty, or one an element, none
+    /// of them inverted, in the place of those at rest.
+    std::vector<mat<D>> targets = {};
+
     /// Vertices that may move along a line or in a plane only, at most one each, none of them pinned in any coordinate.
     std::vector<slide<D>> slides = {};
 

@@ -46,7 +46,7 @@ public:
           params_(validated(params)),
           start_(start_of(m, params_)),
           rest_(in_run_lengths(m, params_.rest)),
-          ideal_(ideals(rest_, params_.shapes))
+          ideal_(ideals(rest_, params_, unit_scale(m)))
     {
         require_deformable();
         params_.data.validate(m.cells().size());
@@ -87,7 +87,7 @@ private:
                               : this->queue_.device().has_fp64()        ? precision::mixed
                                                                         : precision::fp32;
         this->live_.emplace(this->queue_, rest_, params_, how, this->scaled(start_),
-                            params_.shapes == wanted_shapes::rest ? nullptr : &ideal_);
+                            params_.shapes == wanted_shapes::rest && params_.targets.empty() ? nullptr : &ideal_);
         this->load(this->scaled(start_)); // with what is held
         this->changed = true;
         this->seconds_.start = clock.lap();
@@ -124,9 +124,17 @@ private:
                     throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
     }
 
-    static ideal_elements<Element> ideals(const mesh<Element>& m, wanted_shapes shapes)
+    /// unit: length of the run by that of the parameters.
+    static ideal_elements<Element> ideals(const mesh<Element>& m, const deform_params<Element>& params, double unit)
     {
-        if (shapes == wanted_shapes::rest) return ideal_elements<Element>(m);
+        if (!params.targets.empty())
+        {
+            if (params.targets.size() != m.cells().size())
+                throw parameter_error("targets", std::to_string(params.targets.size()) + " elements for " +
+                                                     std::to_string(m.cells().size()));
+            return elements_with_edges<Element>(params.targets, unit, "targets");
+        }
+        if (params.shapes == wanted_shapes::rest) return ideal_elements<Element>(m);
         double total = 0;
         for (idx c = 0; c < m.cell_count(); ++c)
         {
