@@ -3,6 +3,9 @@
 // solver. Markers "wall", "inlet", "outlet", "far"; the file is written as it was but for coordinates.
 #include <cmath>
 #include <iostream>
+#include <set>
+#include <vector>
+
 #include <taut/taut.hpp>
 
 int main(int argc, char** argv)
@@ -14,18 +17,20 @@ try
     const auto file = taut::io::read_volume_file(argv[1]);
     const auto mesh = taut::io::triangles_of(file); // tetrahedra_of(file) in space
     const auto bulge = [](const taut::vec2& p) { return p + taut::vec2(0, 0.4 * std::pow(p.x * (3 - p.x) / 2.25, 2)); };
-    auto pins = taut::constraints(mesh);
-    for (const char* marker : {"inlet", "outlet", "far"}) pins.fix(file.find_group(marker).vertices);
-    pins.move(file.find_group("wall").vertices, bulge);
+    const auto& wall = file.find_group("wall").vertices;
+    std::set<taut::idx> still; // corners are in two of the groups
+    for (const char* marker : {"inlet", "outlet", "far"})
+        for (const taut::idx v : file.find_group(marker).vertices) still.insert(v);
+    for (const taut::idx v : wall) still.erase(v);
+    const auto pins = taut::constraints(mesh).fix(std::vector<taut::idx>(still.begin(), still.end())).move(wall, bulge);
     const auto [x, report] = taut::deform(queue, mesh, taut::deform_params<taut::triangle>{.constraints = pins});
 
     std::vector<taut::vec3> points;
     for (const taut::vec2& p : x) points.emplace_back(p, 0.0);
     taut::io::write_volume(argv[2], file, points);
     // [wall]
-    std::cout << file.find_group("wall").vertices.size() << " vertices of the wall moved, "
-              << (report.pins_held ? "pins exact, " : "pins missed, ") << report.flips.flipped << " of "
-              << report.flips.elements << " inverted\n";
+    std::cout << wall.size() << " vertices of the wall moved, " << (report.pins_held ? "pins exact, " : "pins missed, ")
+              << report.flips.flipped << " of " << report.flips.elements << " inverted\n";
     return report.outcome == taut::outcome::valid ? 0 : 1;
 }
 catch (const taut::error& e)
