@@ -86,14 +86,29 @@ private:
         const precision how = params_.precision != precision::automatic ? params_.precision
                               : this->queue_.device().has_fp64()        ? precision::mixed
                                                                         : precision::fp32;
-        this->live_.emplace(this->queue_, rest_, params_, how, this->scaled(start_),
-                            params_.shapes == wanted_shapes::rest && params_.targets.empty() ? nullptr : &ideal_);
-        this->load(this->scaled(start_)); // with what is held
+        put(how, this->scaled(start_));
         this->changed = true;
         this->seconds_.start = clock.lap();
         const auto notes = std::exchange(r.notes, {});
         this->advance(clock);
         r.notes.insert(r.notes.begin(), notes.begin(), notes.end());
+    }
+
+    bool in_double() override
+    {
+        if (!this->live_->in_float() || params_.precision != precision::automatic || !this->queue_.device().has_fp64())
+            return false;
+        put(precision::fp64, this->scaled(this->placed()));
+        last.report.notes.push_back("in float steps led no further; the last ones were in double");
+        return true;
+    }
+
+    /// Puts a map on the device, with what is held.
+    void put(precision how, const map& run_lengths)
+    {
+        this->live_.emplace(this->queue_, rest_, params_, how, run_lengths,
+                            params_.shapes == wanted_shapes::rest && params_.targets.empty() ? nullptr : &ideal_);
+        this->load(run_lengths);
     }
 
     void require_slides() const

@@ -77,6 +77,9 @@ public:
         return solve::minimize(objective_, x_, how, ask);
     }
 
+    /// Whether energies and directions are in single precision.
+    bool in_float() const { return objective_.rounding() > 1e-12; }
+
     map coordinates() const
     {
         auto x = numbers_.undo(objective_.download(x_));
