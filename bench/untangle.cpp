@@ -15,6 +15,7 @@
 
 #include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/prob.hpp>
+#include <taut/map/deform.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/untangle/untangle.hpp>
 
@@ -68,7 +69,7 @@ public:
     {
         std::printf("%-32s %7s %7s %6s %8s  %-10s %-9s %8s %9s  %s%s\n", "problem", "V", "F", "pinned", "inverted",
                     "outcome", "stage", "seconds", "least det", "held",
-                    steps > 0 ? "   optimised: energy, gradient, iterations, seconds, stop" : "");
+                    steps > 0 ? "   optimised: energy, gradient, steps, seconds, end" : "");
     }
 
     template <class Element>
@@ -91,8 +92,7 @@ public:
                     r ? r.stage.c_str() : std::to_string(flips.flipped).c_str(), r.seconds, r.least_relative_det,
                     held ? "exact" : "MOVED");
         nlohmann::ordered_json optimised;
-        if constexpr (D == 2)
-            if (r && steps_ > 0) optimised = optimise(name, problem, r.map);
+        if (r && steps_ > 0) optimised = optimise(name, problem, r.map);
         std::printf("\n");
         std::fflush(stdout);
         auto stages = nlohmann::ordered_json::array();
@@ -133,6 +133,7 @@ public:
                     "seconds");
         for (const auto& [name, t] : classes_) print(name, t);
         print("all", all_);
+        if (optimised_ > 0) std::printf("\n%d of %d maps optimised to a gradient of 1e-6\n", converged_, optimised_);
         std::printf("\n%-12s %8s %8s\n", "stage", "solved", "seconds");
         for (const auto& [name, seconds] : stage_seconds_)
         {
@@ -144,38 +145,67 @@ public:
     nlohmann::ordered_json results = nlohmann::ordered_json::array();
 
 private:
-    /// Minimises the isometric energy under the pins of a problem, from an injective map.
-    nlohmann::ordered_json optimise(const std::string& name, const untangle_problem<triangle>& problem,
-                                    const std::vector<vec2>& start)
+    /// What a minimisation ended with.
+    struct minimum
     {
-        constraints<triangle> pins(problem.rest);
+        bool valid = false, converged = false;
+        double energy = 0, gradient = 0;
+        int iterations = 0;
+        std::string end;
+    };
+
+    minimum minimise(const untangle_problem<triangle>& problem, const constraints<triangle>& pins,
+                     std::vector<vec2>& x) const
+    {
+        const auto r = parameterize(
+            queue_, problem.rest,
+            {.constraints = pins, .initial = x, .holes = true, .solve = {.stopping = {.max_iterations = steps_}}});
+        x = r.uv;
+        const auto& s = r.report.solve;
+        return {static_cast<bool>(r),
+                s.stop == solve::stop::gradient || s.stop == solve::stop::decrease,
+                s.value,
+                s.gradient_norm,
+                s.iterations,
+                r ? std::string(to_string(s.stop)) : r.reason()};
+    }
+
+    minimum minimise(const untangle_problem<tetrahedron>& problem, const constraints<tetrahedron>& pins,
+                     std::vector<vec3>& x) const
+    {
+        auto r = deform(queue_, problem.rest,
+                        deform_params<tetrahedron>{
+                            .constraints = pins, .initial = x, .solve = {.stopping = {.max_iterations = steps_}}});
+        x = std::move(r.x);
+        const auto& s = r.report;
+        return {r && s.pins_held, s.converged, s.energy,
+                s.gradient,       s.steps,     !s.reason.empty() ? s.reason : s.converged ? "converged" : "stopped"};
+    }
+
+    /// Minimises the isometric energy under the pins of a problem, from an injective map.
+    template <class Element>
+    nlohmann::ordered_json optimise(const std::string& name, const untangle_problem<Element>& problem,
+                                    std::vector<vec<Element::dimension>> x)
+    {
+        constexpr int D = Element::dimension;
+        constraints<Element> pins(problem.rest);
         for (std::size_t v = 0; v < problem.held.size(); ++v)
-            for (int k = 0; k < 2; ++k)
+            for (int k = 0; k < D; ++k)
                 if (problem.held.test(v, k)) pins.pin(static_cast<taut::idx>(v), k, problem.initial[v][k]);
-        map_result r;
-        const double seconds = bench::seconds(
-            [&]
-            {
-                r = parameterize(queue_, problem.rest,
-                                 {.constraints = pins,
-                                  .initial = start,
-                                  .holes = true,
-                                  .solve = {.stopping = {.max_iterations = steps_}}});
-            });
+        minimum m;
+        const double seconds = bench::seconds([&] { m = minimise(problem, pins, x); });
         bool held = true;
         for (const auto& [v, pin] : pins.pins())
-            for (int k = 0; k < 2; ++k)
-                held = held && ((pin.held >> k & 1u) == 0 || r.uv[static_cast<std::size_t>(v)][k] == pin.value[k]);
-        if (!held || (r && certify<2>(problem.rest.cells(), std::span<const vec2>(r.uv)).flipped > 0))
+            for (int k = 0; k < D; ++k)
+                held =
+                    held && m.valid && ((pin.held >> k & 1u) == 0 || x[static_cast<std::size_t>(v)][k] == pin.value[k]);
+        if (m.valid && (!held || certify<D>(problem.rest.cells(), std::span<const vec<D>>(x)).flipped > 0))
             throw std::runtime_error(name + ": a wrong map");
-        const auto& s = r.report.solve;
-        if (r)
-            std::printf("   %9.4g %8.1e %5d %6.2f  %s", s.value, s.gradient_norm, s.iterations, seconds,
-                        std::string(to_string(s.stop)).c_str());
-        else
-            std::printf("   no map: %s", r.reason().c_str());
-        return {{"valid", static_cast<bool>(r)}, {"energy", s.value},  {"gradient", s.gradient_norm},
-                {"iterations", s.iterations},    {"seconds", seconds}, {"stop", to_string(s.stop)}};
+        std::printf("   %9.4g %8.1e %5d %6.2f  %s", m.energy, m.gradient, m.iterations, seconds, m.end.c_str());
+        ++optimised_;
+        converged_ += m.valid && m.gradient <= 1e-6;
+        return {{"valid", m.valid},           {"energy", m.energy}, {"gradient", m.gradient},
+                {"iterations", m.iterations}, {"seconds", seconds}, {"stop", m.end}};
     }
 
     static void print(const std::string& name, const tally& t)
@@ -186,6 +216,7 @@ private:
     queue& queue_;
     untangle_params params_;
     int steps_;
+    int optimised_ = 0, converged_ = 0; ///< of the maps that were found; to a relative gradient of 1e-6
     std::map<std::string, tally> classes_;
     std::map<std::string, double> stage_seconds_;
     std::map<std::string, int> stage_solved_;

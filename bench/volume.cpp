@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Bars of tetrahedra that are twisted, stretched and bent, and a handle that is moved over 60 frames:
-//   taut_bench_volume [--quick] [--json FILE] [CUBES_ACROSS...]     (8 16; a bar is five times as long: 30 n^3
-//   tetrahedra)
+// Volumes whose ends are held and moved: bars, and models in any format of io/read_volume.hpp, whose ends are the first
+// and last tenth along their longest axis. Twisted, stretched and bent; bars then lead a handle over 60 frames.
+//   taut_bench_volume [--quick] [--json FILE] [--poisson 0.3,0.45] [--compare SECONDS] [CUBES_ACROSS|MESH...]
+// A bar has 30 n^3 tetrahedra for n cubes across; without arguments 8 and 16. --poisson: a neo-Hookean solid of these
+// ratios, with either stand-in for its Hessian, in the place of the isometric energy. --compare: other solvers of the
+// stretch, from where the ends have just come to their places, each for so long.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <exception>
-#include <fstream>
-#include <numbers>
-#include <random>
+#include <filesystem>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include <taut/energy/neo_hookean.hpp>
+#include <taut/io/read_volume.hpp>
 #include <taut/map/deform.hpp>
-#include <taut/measure/rigid_motion.hpp>
 
+#include "measure.hpp"
 #include "peak_memory.hpp"
+#include "volume_problem.hpp"
+#include "volume_solvers.hpp"
 
 namespace
 {
@@ -27,104 +32,96 @@ namespace
 using namespace taut;
 using taut::idx;
 
-double now()
+/// The energies of a run, by name.
+std::vector<std::pair<std::string, any_energy>> energies(const std::vector<double>& poisson)
 {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// A bar of 1 by 1 by 5, its vertices jittered inside and along the sides.
-mesh<tetrahedron> bar(int n)
-{
-    std::vector<vec3> points;
-    std::vector<mesh<tetrahedron>::cell> cells;
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> move(-0.2, 0.2);
-    const auto at = [n](int i, int j, int k) { return static_cast<idx>((k * (n + 1) + j) * (n + 1) + i); };
-    for (int k = 0; k <= 5 * n; ++k)
-        for (int j = 0; j <= n; ++j)
-            for (int i = 0; i <= n; ++i)
-            {
-                vec3 p(i, j, k);
-                const int last[] = {n, n, 5 * n};
-                for (int c = 0; c < 3; ++c)
-                    if (p[c] > 0 && p[c] < last[c]) p[c] += move(random);
-                points.push_back(p / double(n));
-            }
-    for (int k = 0; k < 5 * n; ++k)
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
-            {
-                const idx a = at(i, j, k), b = at(i + 1, j + 1, k + 1);
-                const idx ring[] = {at(i + 1, j, k),     at(i + 1, j + 1, k), at(i, j + 1, k),
-                                    at(i, j + 1, k + 1), at(i, j, k + 1),     at(i + 1, j, k + 1)};
-                for (int s = 0; s < 6; ++s) cells.push_back({a, ring[s], ring[(s + 1) % 6], b});
-            }
-    return {std::move(points), std::move(cells)};
-}
-
-struct ends
-{
-    std::vector<idx> low, high;
-    explicit ends(const mesh<tetrahedron>& m)
-    {
-        for (idx v = 0; v < m.vertex_count(); ++v)
+    if (poisson.empty()) return {{"isometric", default_energy()}};
+    std::vector<std::pair<std::string, any_energy>> all;
+    for (const double ratio : poisson)
+        for (const auto treated : {negative_eigenvalues::clamped, negative_eigenvalues::absolute})
         {
-            const double z = m.points()[static_cast<std::size_t>(v)].z;
-            if (z == 0) low.push_back(v);
-            if (z == 5) high.push_back(v);
+            std::ostringstream name;
+            name << ratio << (treated == negative_eigenvalues::clamped ? " clamped" : " absolute");
+            all.emplace_back(name.str(), any_energy(energy::neo_hookean{ratio}).with_eigenvalues(treated));
         }
-    }
-};
-
-vec3 moved(const std::string& how, const vec3& p)
-{
-    if (how == "stretch") return p + vec3(0, 0, 2.5);
-    const vec3 middle(0.5, 0.5, 5);
-    const bool twist = how == "twist";
-    const rigid_motion<3> turn{.from = middle,
-                               .to = twist ? middle : middle + vec3(0, 2.5, -1.5),
-                               .axis = twist ? vec3(0, 0, 1) : vec3(-1, 0, 0),
-                               .angle = std::numbers::pi / 2};
-    return turn(p);
+    return all;
 }
 
-void deform_bars(queue& q, int n, nlohmann::ordered_json& results)
+void deform_ends(queue& q, const bench::volume_problem& p, const std::vector<double>& poisson,
+                 nlohmann::ordered_json& results)
 {
-    const auto m = bar(n);
-    const ends e(m);
-    for (const std::string how : {"twist", "stretch", "bend"})
+    for (const std::string motion : {"twist", "stretch", "bend"})
+        for (const auto& [name, energy] : energies(poisson))
+        {
+            deform_params<tetrahedron> params;
+            params.energy = energy;
+            params.constraints = p.held(motion);
+            const bench::peak_memory memory;
+            session_result<tetrahedron> r;
+            const double seconds = bench::seconds([&] { r = deform(q, p.mesh, params); });
+            const auto& report = r.report;
+            const bool good = report.converged && report.pins_held;
+            std::printf("%-12s %8zu %-8s %-14s %3d steps  E %.6f  gradient %.1e  %s  %zu inverted  %6.2f s: start %.2f "
+                        "follow %.2f repair %.2f solve %.2f certificate %.2f  %zu MB\n",
+                        p.name.c_str(), p.mesh.cells().size(), motion.c_str(), name.c_str(), report.steps,
+                        report.energy, report.gradient, good ? "converged" : "NOT CONVERGED", report.flips.flipped,
+                        seconds, report.seconds.start, report.seconds.follow, report.seconds.repair,
+                        report.seconds.solve, report.seconds.certificate, memory.bytes() >> 20);
+            for (const auto& note : report.notes) std::printf("%22s%s\n", "", note.c_str());
+            std::fflush(stdout);
+            results.push_back({{"model", p.name},
+                               {"tetrahedra", p.mesh.cells().size()},
+                               {"motion", motion},
+                               {"energy_name", name},
+                               {"steps", report.steps},
+                               {"energy", report.energy},
+                               {"gradient", report.gradient},
+                               {"converged", good},
+                               {"inverted", report.flips.flipped},
+                               {"seconds", seconds},
+                               {"follow_seconds", report.seconds.follow},
+                               {"solve_seconds", report.seconds.solve},
+                               {"peak_bytes", memory.bytes()}});
+        }
+}
+
+void compare(queue& q, const bench::volume_problem& p, double limit, nlohmann::ordered_json& results)
+{
+    bench::volume_solvers solvers(q, p, "stretch", limit);
+    solvers.library(); // compiles kernels
+    const auto ours = solvers.library();
+    const double rest = 2, enough = ours.energy + 1e-6 * (ours.energy - rest); // errors are by what it is above rest
+    std::vector<std::pair<std::string, bench::solver_run>> runs{
+        {"library", ours}, {"lbfgs", solvers.lbfgs(enough)}, {"direct newton", solvers.direct_newton(enough)}};
+    double best = ours.energy;
+    for (const auto& [name, run] : runs)
+        if (run.valid) best = std::min(best, run.energy);
+    for (const auto& [name, run] : runs)
     {
-        deform_params<tetrahedron> params;
-        params.constraints =
-            constraints<tetrahedron>(m).fix(e.low).move(e.high, [&](const vec3& p) { return moved(how, p); });
-        const bench::peak_memory memory;
-        const double begin = now();
-        const auto [x, r] = deform(q, m, params);
-        const double seconds = now() - begin;
-        std::printf(
-            "%9zu %-8s %2d steps  E %.6f  gradient %.1e  %s  %zu inverted  %6.2f s: start %.2f follow %.2f solve "
-            "%.2f certificate %.2f  %zu MB\n",
-            m.cells().size(), how.c_str(), r.steps, r.energy, r.gradient,
-            r.converged && r.pins_held ? "converged" : "NOT CONVERGED", r.flips.flipped, seconds, r.seconds.start,
-            r.seconds.follow, r.seconds.solve, r.seconds.certificate, memory.bytes() >> 20);
+        if (!run.valid) continue;
+        std::printf("%-12s %8zu %-14s E %.6f after %d steps, %.2f s, %s; to", p.name.c_str(), p.mesh.cells().size(),
+                    name.c_str(), run.energy, run.iterations, run.seconds.solve, run.stop.c_str());
+        nlohmann::ordered_json row = {{"model", p.name},         {"tetrahedra", p.mesh.cells().size()},
+                                      {"solver", name},          {"energy", run.energy},
+                                      {"steps", run.iterations}, {"seconds", run.seconds.solve}};
+        for (const double error : {1e-2, 1e-3, 1e-6})
+        {
+            const auto reached = bench::effort(run, best, error * (best - rest) / best);
+            std::printf(" %g: %d / %.2f s", error, reached ? reached->iterations : -1,
+                        reached ? reached->seconds : NAN);
+            if (reached) row["to"][std::to_string(error)] = {reached->iterations, reached->seconds};
+        }
+        std::printf("\n");
         std::fflush(stdout);
-        results.push_back({{"tetrahedra", m.cells().size()},
-                           {"motion", how},
-                           {"steps", r.steps},
-                           {"energy", r.energy},
-                           {"gradient", r.gradient},
-                           {"converged", r.converged && r.pins_held},
-                           {"inverted", r.flips.flipped},
-                           {"seconds", seconds},
-                           {"peak_bytes", memory.bytes()}});
+        results.push_back(std::move(row));
     }
 }
 
 void frames(queue& q, int n, nlohmann::ordered_json& results)
 {
-    const auto m = bar(n);
-    const ends e(m);
-    session s(q, m, {.constraints = constraints<tetrahedron>(m).fix(e.low)});
+    const auto p = bench::bar(n);
+    const auto& m = p.mesh;
+    session s(q, m, {.constraints = constraints<tetrahedron>(m).fix(p.low)});
     s.solve();
     const auto home = s.x();
     std::vector<double> times;
@@ -132,12 +129,11 @@ void frames(queue& q, int n, nlohmann::ordered_json& results)
     for (int frame = 1; frame <= 60; ++frame)
     {
         std::vector<vec3> places;
-        for (const idx v : e.high)
+        for (const idx v : p.high)
             places.push_back(home[static_cast<std::size_t>(v)] + vec3(0.02 * frame, 0.01 * frame, -0.005 * frame));
-        const double begin = now();
-        const auto r = s.move(e.high, places).solve({.steps = 2});
-        times.push_back(1000 * (now() - begin));
-        inverted += r.report.flips.flipped;
+        times.push_back(
+            1000 *
+            bench::seconds([&] { inverted += s.move(p.high, places).solve({.steps = 2}).report.flips.flipped; }));
     }
     std::sort(times.begin(), times.end());
     const auto rest = s.solve();
@@ -161,25 +157,27 @@ void frames(queue& q, int n, nlohmann::ordered_json& results)
 int main(int argc, char** argv)
 try
 {
-    bool quick = false;
-    std::string json;
-    std::vector<int> sizes;
-    for (int k = 1; k < argc; ++k)
-        if (std::strcmp(argv[k], "--quick") == 0)
-            quick = true;
-        else if (std::strcmp(argv[k], "--json") == 0 && k + 1 < argc)
-            json = argv[++k];
-        else
-            sizes.push_back(std::stoi(argv[k]));
-    if (sizes.empty()) sizes = quick ? std::vector<int>{3} : std::vector<int>{8, 16};
+    const bench::options options(argc, argv, {"--poisson", "--compare"});
+    std::vector<double> poisson;
+    std::istringstream ratios(options.value("--poisson", ""));
+    for (std::string ratio; std::getline(ratios, ratio, ',');) poisson.push_back(std::stod(ratio));
+    const double limit = std::stod(options.value("--compare", "0"));
+    auto paths = options.paths;
+    if (paths.empty()) paths = options.quick ? std::vector<std::string>{"3"} : std::vector<std::string>{"8", "16"};
     queue q;
-    auto results = nlohmann::ordered_json::array();
-    for (const int n : sizes)
+    auto report = bench::circumstances(q);
+    auto& results = report["results"];
+    for (const auto& path : paths)
     {
-        deform_bars(q, n, results);
-        frames(q, n, results);
+        const bool is_bar = path.find_first_not_of("0123456789") == std::string::npos;
+        const auto p =
+            is_bar ? bench::bar(std::stoi(path))
+                   : bench::volume_problem(std::filesystem::path(path).stem().string(), io::read_volume(path), 0.1);
+        deform_ends(q, p, poisson, results);
+        if (limit > 0) compare(q, p, limit, results);
+        if (is_bar && poisson.empty()) frames(q, std::stoi(path), results);
     }
-    if (!json.empty()) std::ofstream(json) << results.dump(2) << '\n';
+    options.write(report);
 }
 catch (const std::exception& e)
 {

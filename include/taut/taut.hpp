@@ -37,6 +37,7 @@
 #include <taut/io/write_volume.hpp>
 
 #include <taut/map/deform.hpp>
+#include <taut/map/interpolate.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/map/session.hpp>
 #include <taut/map/smooth.hpp>

@@ -14,6 +14,8 @@ struct symmetric_eigen
 
     /// A with negative eigenvalues set to 0.
     Eigen::MatrixXd clamped() const { return vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose(); }
+    /// A with eigenvalues without their sign.
+    Eigen::MatrixXd absolute() const { return vectors * values.cwiseAbs().asDiagonal() * vectors.transpose(); }
 };
 
 /// By Eigen, compiled once: every size of a fixed matrix would cost seconds.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <taut/config.hpp>
+#include <taut/energy/eigenvalue_filter.hpp>
 #include <taut/energy/element.hpp>
 #include <taut/symbolic/glm.hpp>
 
@@ -47,6 +48,15 @@ public:
         e.directions_ = directions;
         return e;
     }
+    /// With another stand-in for its Hessian where that is not positive semi-definite.
+    any_energy with_eigenvalues(negative_eigenvalues treated) const
+    {
+        any_energy e = *this;
+        e.eigenvalues_ = treated;
+        return e;
+    }
+    negative_eigenvalues eigenvalues() const { return eigenvalues_; }
+
     const std::vector<double>& parameters() const { return parameters_; }
     const std::vector<double>& attributes() const { return attributes_; }
     bool directions() const { return directions_; }
@@ -108,6 +118,7 @@ private:
     };
 
     std::shared_ptr<const interface> model_;
+    negative_eigenvalues eigenvalues_ = negative_eigenvalues::clamped;
     std::vector<double> attributes_, parameters_;
     bool directions_ = false;
 };

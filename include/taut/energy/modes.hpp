@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <taut/core/select.hpp>
-#include <taut/energy/eigenvalue_clamp.hpp>
+#include <taut/energy/eigenvalue_filter.hpp>
 #include <taut/energy/invariants.hpp>
 #include <taut/energy/symmetric_matrix.hpp>
 
@@ -16,7 +16,7 @@ namespace taut
 {
 
 /// The Hessian of an isotropic energy psi(I, d) of the plane by the four entries of S (by columns), through its
-/// eigen-decomposition in closed form; where `projected` holds, negative eigenvalues are clamped at 0.
+/// eigen-decomposition in closed form, its eigenvalues filtered.
 ///
 /// Half sums and differences of the entries split S into a similarity p and a reflected one q, two vectors of the
 /// plane with |p| = (s1 + s2)/2 and |q| = (s1 - s2)/2. Three eigenspaces follow (compare Smith, de Goes, Kim 2019,
@@ -36,9 +36,9 @@ class plane_modes
 {
 public:
     using real = Real;
-    using condition = condition_of<real>;
+    using filter_type = eigenvalue_filter<real>;
 
-    plane_modes(const glm::mat<2, 2, real>& S, const invariant_derivatives<real>& psi, condition projected)
+    plane_modes(const glm::mat<2, 2, real>& S, const invariant_derivatives<real>& psi, const filter_type& filter)
         : twist_(real(2.0) * psi.by_I + psi.by_d), flip_(real(2.0) * psi.by_I - psi.by_d)
     {
         const real half = 0.5;
@@ -58,7 +58,7 @@ public:
         b11_ = curvature(s1, s2);
         b22_ = curvature(s2, s1);
         b12_ = psi.by_d + four * psi.d * psi.by_II + real(2.0) * psi.I * psi.by_Id + psi.d * psi.by_dd;
-        project(projected);
+        apply(filter);
     }
 
     symmetric_matrix<real, 4> hessian(real weight) const
@@ -98,12 +98,12 @@ private:
         real length, x, y;
     };
 
-    void project(condition projected)
+    void apply(const filter_type& filter)
     {
         using std::abs, std::max, std::sqrt;
         const real zero = 0.0, half = 0.5;
-        twist_ = clamped(projected, twist_);
-        flip_ = clamped(projected, flip_);
+        twist_ = filter(twist_);
+        flip_ = filter(flip_);
 
         // The 2 x 2 block in units of its largest entry, so that no square overflows.
         const real largest = max(max(abs(b11_), abs(b22_)), abs(b12_));
@@ -111,12 +111,17 @@ private:
         const real a = b11_ * scale, b = b12_ * scale, c = b22_ * scale;
         const real trace = a + c, det = a * c - b * b, delta = a - c;
         const real root = sqrt(delta * delta + real(4.0) * b * b);
-        // Of two signs, what remains is the positive eigenvalue times its projector (1 + (B - trace/2) / (root/2)) / 2.
+        // Of two signs, clamping leaves the positive eigenvalue times its projector (1 + (B - trace/2) / (root/2)) / 2,
+        // and absolute values are twice that less B.
         const real split = real(1.0) / select(root > zero, root, real(1.0));
         const real positive = half * largest * (half * (trace + root));
-        const auto mixed = projected && det < zero;
-        const auto none = projected && trace < zero;
-        const auto choose = [&](real kept, real one_mode) { return select(mixed, one_mode, select(none, zero, kept)); };
+        const auto mixed = filter.projected && det < zero;
+        const auto none = filter.projected && trace < zero;
+        const auto choose = [&](real kept, real one_mode)
+        {
+            const real of_mixed = select(filter.absolute, one_mode + (one_mode - kept), one_mode);
+            return select(mixed, of_mixed, select(none, select(filter.absolute, -kept, zero), kept));
+        };
         b11_ = choose(b11_, positive * (real(1.0) + delta * split));
         b22_ = choose(b22_, positive * (real(1.0) - delta * split));
         b12_ = choose(b12_, positive * (real(2.0) * b * split));
@@ -144,14 +149,14 @@ public:
 
     /// type: of the numbers, f32 or f64.
     space_modes(const glm::mat<3, 3, real>& S, const invariant_derivatives<real>& psi, scalar_type type,
-                condition_of<real> projected)
+                const eigenvalue_filter<real>& filter)
     {
         decompose(S, psi.d, type);
         const real two = 2.0, four = 4.0;
         for (int k = 0; k < 3; ++k)
         {
-            twist_[k] = clamped(projected, two * psi.by_I + s_[k] * psi.by_d);
-            flip_[k] = clamped(projected, two * psi.by_I - s_[k] * psi.by_d);
+            twist_[k] = filter(two * psi.by_I + s_[k] * psi.by_d);
+            flip_[k] = filter(two * psi.by_I - s_[k] * psi.by_d);
         }
         const real g[3] = {s_[1] * s_[2], s_[2] * s_[0], s_[0] * s_[1]}; // derivatives of d by s
         for (int j = 0; j < 3; ++j)
@@ -162,7 +167,7 @@ public:
                     four * (s_[i] * s_[j] * psi.by_II) + two * (mixed * psi.by_Id) + g[i] * g[j] * psi.by_dd;
                 block_(i, j) = i == j ? two * psi.by_I + both : s_[3 - i - j] * psi.by_d + both;
             }
-        block_ = eigenvalue_clamp<real, 3>::apply(block_, type, projected);
+        block_ = filtered_matrix<real, 3>::of(block_, type, filter);
     }
 
     symmetric_matrix<real, 9> hessian(real weight) const

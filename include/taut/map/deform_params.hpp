@@ -46,9 +46,11 @@ struct deform_params
     /// What elements are wanted to look like: `regular` ones, of the mean size, have no rest shape.
     wanted_shapes shapes = wanted_shapes::rest;
 
-    /// With wanted_shapes::regular: what each cell is wanted to look like, if not like a regular simplex: edge
-    /// matrices, upper triangular with a positive diagonal, one a cell. All are scaled to the size of the mesh.
-    std::vector<mat<D>> regular = {};
+    /// What single elements are wanted to look like: the edges of each from its corner 0, as columns; turns of them
+    /// mean nothing. Empty, or one an element, none of them inverted. With wanted_shapes::rest in the lengths of the
+    /// mesh, in the place of the elements at rest; with wanted_shapes::regular in place of regular ones, all scaled to
+    /// the size of the mesh.
+    std::vector<mat<D>> targets = {};
 
     /// Where the cells are the corners of cells of other kinds, and overlap (mesh/cell_corners.hpp): those of each.
     /// Certificates then say that all corners are positive.

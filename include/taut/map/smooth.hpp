@@ -37,7 +37,8 @@ struct smooth_params
     /// The shape at rest for wanted_shapes::rest, one position a vertex; none: that of the mesh.
     std::vector<vec3> rest = {};
 
-    /// What regular cells look like and are corners of, as in deform_params.
+    /// What regular cells look like, if not like regular simplices, and what they are corners of, as `targets` and
+    /// `owners` of deform_params.
     std::vector<mat<Element::dimension>> regular = {};
     std::vector<idx> owners = {};
 
@@ -92,7 +93,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_par
     how.weights = energy::weighting::uniform;
     how.shapes = params.shapes;
     how.rest = params.rest;
-    how.regular = params.regular;
+    how.targets = params.regular;
     how.owners = params.owners;
     how.precision = params.precision;
     how.untangling = params.untangling;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -167,6 +168,33 @@ struct ideal_elements
         if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_fault::inverted_cell, std::move(inverted)));
     }
 };
+
+/// Elements with the edges from corner 0 that are the columns of matrices, times `scale`, one a cell.
+/// Throws parameter_error of that name for the first that is flat or inverted.
+template <class Element>
+ideal_elements<Element> elements_with_edges(std::span<const mat<Element::dimension>> edges, double scale,
+                                            const char* name)
+{
+    constexpr int D = Element::dimension;
+    std::vector<mat<D>> inverse;
+    std::vector<double> measure;
+    for (const mat<D>& A : edges)
+    {
+        typename Element::rest_corners x{};
+        for (int k = 0; k < D; ++k)
+            for (int r = 0; r < D; ++r) x[static_cast<std::size_t>(k) + 1][r] = scale * A[k][r];
+        const mat<D> W = Element::ideal(x);
+        if (!(Element::flatness(W) > flattest) || !(glm::determinant(A) > 0))
+            throw parameter_error(name,
+                                  "element " + std::to_string(inverse.size()) +
+                                      " is flat or inverted; columns are edges from corner 0 to the others in turn");
+        double det = Element::measure_factor;
+        for (int k = 0; k < D; ++k) det *= W[k][k];
+        inverse.push_back(detail::invert_upper(W));
+        measure.push_back(det);
+    }
+    return {std::move(inverse), std::move(measure)};
+}
 
 /// Edge matrix of the regular triangle or tetrahedron of edge length 1, upper triangular.
 template <class Element>

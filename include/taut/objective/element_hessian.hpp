@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <taut/compute/record.hpp>
-#include <taut/energy/eigenvalue_clamp.hpp>
+#include <taut/energy/eigenvalue_filter.hpp>
 #include <taut/energy/isotropic.hpp>
 #include <taut/energy/modes.hpp>
 #include <taut/objective/traced_element.hpp>
@@ -15,12 +15,20 @@
 namespace taut
 {
 
-/// What becomes of the negative eigenvalues of an element's Hessian.
+/// What becomes of the negative eigenvalues of an element's Hessian, in the space of S: before the change to corners,
+/// which keeps their sign.
 enum class definiteness
 {
     indefinite, ///< kept: the Hessian itself, for the last iterations
-    projected   ///< set to 0 in the space of S, before the change to corners, which keeps the sign
+    projected,  ///< 0: negative_eigenvalues::clamped
+    absolute    ///< without it: negative_eigenvalues::absolute
 };
+
+/// The stand-in for the Hessian.
+inline definiteness definite(negative_eigenvalues treated)
+{
+    return treated == negative_eigenvalues::absolute ? definiteness::absolute : definiteness::projected;
+}
 
 /// How an element's Hessian is stored: blocks of D x D for pairs of corners k <= l in the order (0,0) (0,1) .. (0,D)
 /// (1,1) .. (D,D). A block on the diagonal has its upper triangle by rows (2D: xx xy yy), the others all entries by
@@ -46,7 +54,7 @@ struct hessian_slots
 /// ranges as in element_kernels. Nothing is tested against the domain: outside of a barrier's the result means nothing.
 ///
 /// An energy of |S|^2 and det S takes the closed forms of modes.hpp. Any other is differentiated twice on the tape and
-/// projected by Jacobi rotations; in space its diagonal is shifted instead.
+/// filtered by Jacobi rotations; in space its diagonal is shifted instead, whatever the filter.
 template <class Element>
 struct element_hessian_kernel
 {
@@ -64,19 +72,21 @@ struct element_hessian_kernel
     /// From a program with what record() gives.
     explicit element_hessian_kernel(const traced_program& p) : launch(p, name) {}
 
-    /// Both kinds of Hessian are one kernel: what they have in common is most of what a driver compiles.
-    static named_argument as_argument(definiteness sign) { return {"projected", idx{sign == definiteness::projected}}; }
+    /// All kinds of Hessian are one kernel: what they have in common is most of what a driver compiles.
+    static named_argument as_argument(definiteness sign) { return {"definiteness", static_cast<idx>(sign)}; }
 
     /// As text, for a program that others share.
     static kernel_text record(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.vector);
         const element_inputs in(r, types, energy);
-        const sym_bool projected = r.scalar<idx>("projected") != 0;
+        const auto sign = r.scalar<idx>("definiteness");
+        const eigenvalue_filter<real> filter{.projected = sign != static_cast<idx>(definiteness::indefinite),
+                                             .absolute = sign == static_cast<idx>(definiteness::absolute)};
         auto hessian = r.out<double>("hessian", types.vector);
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.vector);
-        const auto H = corner_hessian(by_shape_matrix(energy, e, projected, types.vector), e);
+        const auto H = corner_hessian(by_shape_matrix(energy, e, filter, types.vector), e);
         for (int k = 0; k <= D; ++k)
             for (int l = k; l <= D; ++l)
                 for (int i = 0; i < D; ++i)
@@ -94,18 +104,18 @@ private:
     static constexpr const char* name = "element_hessian";
 
     /// Second derivatives of weight * energy by the entries of S, by columns.
-    static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const traced& e, sym_bool projected,
-                                                     scalar_type type)
+    static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const traced& e,
+                                                     const eigenvalue_filter<real>& filter, scalar_type type)
     {
         const matrix S = e.shape_matrix();
         const real weight = e.weight(), value = e.density(energy, S);
         const auto psi = derivatives_by_invariants<D>(value, S);
         if constexpr (D == 2)
         {
-            if (psi) return plane_modes<real>(S, *psi, projected).hessian(weight);
+            if (psi) return plane_modes<real>(S, *psi, filter).hessian(weight);
         }
         else if (psi)
-            return space_modes<real>(S, *psi, type, projected).hessian(weight);
+            return space_modes<real>(S, *psi, type, filter).hessian(weight);
 
         std::vector<real> entries;
         for (int c = 0; c < D; ++c)
@@ -119,13 +129,13 @@ private:
             for (int i = 0; i <= j; ++i) H(i, j) = weight * row[static_cast<std::size_t>(i)];
         }
         if constexpr (D == 2)
-            return eigenvalue_clamp<real, N>::apply(H, type, projected);
+            return filtered_matrix<real, N>::of(H, type, filter);
         else
-            return shifted(std::move(H), projected);
+            return shifted(std::move(H), filter.projected);
     }
 
     /// H + t I with the least t >= 0 for which Gershgorin's circles say that it is positive semi-definite. In space the
-    /// rotations of eigenvalue_clamp are 0.8 MB of unrolled code, which a driver compiles for half a minute.
+    /// rotations of filtered_matrix are 0.8 MB of unrolled code, which a driver compiles for half a minute.
     static symmetric_matrix<real, N> shifted(symmetric_matrix<real, N> H, sym_bool projected)
     {
         real t = 0.0;

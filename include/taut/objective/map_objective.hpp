@@ -15,6 +15,7 @@
 #include <taut/compute/gather.hpp>
 #include <taut/compute/vector_space.hpp>
 #include <taut/energy/characteristic_gradient.hpp>
+#include <taut/energy/characteristic_value.hpp>
 #include <taut/objective/element_arrays.hpp>
 #include <taut/objective/element_kernels.hpp>
 #include <taut/objective/held_terms.hpp>
@@ -69,7 +70,8 @@ public:
           springs_(queue_, types, *layout_, constraints.springs),
           held_(queue_, types, *layout_),
           sliding_(queue_, types, *layout_),
-          gradient_scale_(characteristic_gradient(*layout_, energy, weights))
+          gradient_scale_(characteristic_gradient(*layout_, energy, weights)),
+          value_scale_(characteristic_value<D>(energy))
     {
         held_.hold(*layout_, constraints.held);
         sliding_.slide(*layout_, constraints.slides);
@@ -211,9 +213,12 @@ public:
     /// scale. After Zhu, Bridson, Kaufman 2018 ("Blended cured quasi-Newton"), section 4.
     double gradient_scale(const point&) const { return gradient_scale_; }
 
+    /// f is a mean of the energy, so what is typical of the one is of the other.
+    double value_scale() const { return value_scale_; }
+
     std::uint64_t waits() const { return queue_.counters().waits; }
 
-    /// Relative rounding error of a value: sums are in double, and the errors of many elements average out.
+    /// Rounding error of a value, by its size: sums are in double, and the errors of many elements average out.
     double rounding() const { return types_.vector == scalar_type::f64 ? 1e-14 : 1e-8; }
 
 protected:
@@ -368,7 +373,7 @@ private:
     spring_terms<Element> springs_;
     held_terms<Element> held_;
     sliding_terms<Element> sliding_;
-    double gradient_scale_;
+    double gradient_scale_, value_scale_;
 };
 
 } // namespace taut

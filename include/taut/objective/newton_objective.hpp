@@ -63,7 +63,7 @@ private:
 
 /// A map_objective that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into
 /// block-sparse matrices on the device, and a multigrid V-cycle over the hierarchy of the mesh is the preconditioner.
-/// The positive semi-definite stand-in has the element Hessians projected.
+/// The positive semi-definite stand-in has the eigenvalues of element Hessians filtered, as the energy says.
 template <class Element>
 class newton_objective : public map_objective<Element>
 {
@@ -83,6 +83,7 @@ public:
         : base(q, host.layout, energy, weights, traced->types,
                std::shared_ptr<const element_kernels<Element>>(traced, &traced->first), constraints),
           kernels_(std::move(traced)),
+          stand_in_(definite(energy.eigenvalues())),
           hessian_(q, kernels_->types.vector, hessian_slots<D>::count * host.layout->cell_stride),
           cycle_(q, kernels_->types.vector, std::move(host.cycle)),
           assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))) // freed once they are on the device
@@ -102,7 +103,7 @@ public:
 
     void linearize(const point& x, bool exact)
     {
-        element_hessians(x, definiteness::projected);
+        element_hessians(x, stand_in_);
         assemble();
         exact_ = exact;
         if (!exact) return;
@@ -119,7 +120,7 @@ public:
         d.data().fill(0);
         this->held().gap(x, share, d);
         this->element_gradients(x);
-        element_hessians(x, definiteness::projected);
+        element_hessians(x, stand_in_);
         const auto change = this->move_held(hessian_, d, g);
         assemble();
         exact_ = false;
@@ -167,6 +168,7 @@ private:
     }
 
     std::shared_ptr<const kernels> kernels_;
+    definiteness stand_in_;
     real_buffer hessian_;
     multigrid cycle_;
     block_assembly assemble_;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include <taut/energy/eigenvalue_clamp.hpp>
+#include <taut/energy/eigenvalue_filter.hpp>
 
 namespace taut
 {
@@ -20,15 +20,9 @@ newton_step(const symmetric_matrix<sym<double>, N>& H, const std::array<sym<doub
 {
     using real = sym<double>;
 
-    // The positive part less the negative one: |H| = 2 H+ - H.
-    auto L = eigenvalue_clamp<real, N>::apply(H, type);
+    auto L = filtered_matrix<real, N>::of(H, type, {.absolute = true});
     real largest = 0.0;
-    for (int j = 0; j < N; ++j)
-        for (int i = 0; i <= j; ++i)
-        {
-            L(i, j) = real(2.0) * L(i, j) - H(i, j);
-            if (i == j) largest = max(largest, L(i, i));
-        }
+    for (int i = 0; i < N; ++i) largest = max(largest, L(i, i));
     for (int i = 0; i < N; ++i) L(i, i) = L(i, i) + real(damping) * largest;
 
     // L D L' in place: pivots on the diagonal.

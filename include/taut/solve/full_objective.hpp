@@ -4,6 +4,7 @@
 #include <taut/solve/objective.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -56,6 +57,13 @@ public:
     {
         if constexpr (requires { f_.gradient_scale(x); }) return f_.gradient_scale(x);
         return at_start;
+    }
+
+    /// By what a change of f is judged that has this value.
+    double size(double value) const
+    {
+        if constexpr (requires { f_.value_scale(); }) return std::max(std::abs(value), f_.value_scale());
+        return std::abs(value);
     }
 
     double rounding() const

@@ -52,7 +52,7 @@ public:
           common_(common),
           rounding_(std::max(f_.rounding(), common.search.rounding)),
           monitor_(ask, common.stopping.time_limit),
-          test_(common.stopping, rounding_, patience),
+          test_(common.stopping, rounding_, patience, f_.size(0)),
           pcg_(f.space(), params.pcg),
           previous_(f.make_point()),
           full_(f.make_point()),
@@ -97,7 +97,7 @@ private:
 
     std::optional<solve::stop> iterate()
     {
-        const bool exact = step_.value_before - value_ < params_.exact_below * std::abs(value_);
+        const bool exact = step_.value_before - value_ < params_.exact_below * f_.size(value_);
         if (auto reason = direction(exact)) return reason;
         // An indefinite Hessian may have misled; its stand-in does not.
         std::optional<trial> found = search();
@@ -137,7 +137,7 @@ private:
         if (!(model_.slope < 0)) return std::nullopt;
         const double armijo = common_.search.sufficient_decrease;
         constexpr int rounds = 8;
-        const double noise = rounding_ * std::abs(value_);
+        const double noise = rounding_ * f_.size(value_);
         double unit = 1, longest = 1;
         for (int round = 0; round < rounds && monitor_.proceed(); ++round, longest /= 16)
         {
@@ -198,7 +198,7 @@ private:
                  .capped = t.capped};
         taken_ = t.step;
         constexpr double near_end = 1e-2;
-        near_end_ = !(step_.value_before - value_ > near_end * std::abs(value_));
+        near_end_ = !(step_.value_before - value_ > near_end * f_.size(value_));
         if (full)
         {
             std::swap(g_, full_gradient_);

@@ -44,8 +44,11 @@ using vector_of = typename space_of<O>::vector;
 /// | `gradient(x, g)`                  | g = the gradient, without the value and without a wait                   |
 /// | `gradient_scale(x)`               | the norm of a gradient that is typical for the problem, in which         |
 /// |                                   | relative gradients are measured; without it, the norm at the start       |
+/// | `value_scale()`                   | a rise of f that is typical for the problem, below which values do not   |
+/// |                                   | say what is much or little; without it, 0                                |
 /// | `relax(x)`                        | lowers f by other means than steps along one direction; whether it moved |
-/// | `rounding()`                      | the relative rounding error of a value where it is above that of double  |
+/// | `rounding()`                      | the rounding error of a value by the larger of the value and its scale,  |
+/// |                                   | where it is above that of double                                         |
 /// | `waits()`                         | how often the host has waited for a device so far                        |
 template <class O>
 concept objective = vector_space<space_of<O>> &&

@@ -27,13 +27,13 @@ struct prescribed_params
     /// As in line_search_params.
     double barrier_fraction = 0.9;
 
-    /// No step raises f by more than this part of it: after a steep rise the others are far from where they would be.
-    /// Range > 0.
+    /// No step raises f by more than this part of it, or of its scale where that is larger (`value_scale()` in
+    /// objective.hpp): after a steep rise the others are far from where they would be. Range > 0.
     double most_rise = 0.25;
 
-    /// Nor is f above its value at the start of a run by more than this part of that, times the share of the gap that
-    /// is closed: what costs more is a jam, where f grows beyond all bounds and the coordinates come no nearer.
-    /// Range > 0.
+    /// Nor is f above its value at the start of a run by more than this part of that, or of its scale, times the share
+    /// of the gap that is closed: what costs more is a jam, where f grows beyond all bounds and the coordinates come no
+    /// nearer. Range > 0.
     double most_cost = 10;
 
     /// The objective is asked to relax what cut a step that was shorter. Range [0, 1].
@@ -106,7 +106,7 @@ public:
         radius_ = std::max(radius_, 0.05 * gap); // a new way is another try
         do {
             const auto [moved, fallen] = step(x, r);
-            const bool useful = moved > 0.02 * r.left || fallen > 1e-3 * std::abs(r.value);
+            const bool useful = moved > 0.02 * r.left || fallen > 1e-3 * f_.size(r.value);
             slow_ = useful ? 0 : slow_ + 1;
             r.left = r.arrived ? 0 : r.left - moved;
             r.crawling = slow_ >= patience;
@@ -140,7 +140,7 @@ private:
         r.value = value;
         if (!centring_) radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
         const double fallen = here.value - value;
-        centring_ = centring_ ? fallen > centring * std::abs(value) : taken < params_.relax_below;
+        centring_ = centring_ ? fallen > centring * f_.size(value) : taken < params_.relax_below;
         if (taken == 0) return {};
         f_.step(x, taken, d_, next_);
         std::swap(x, next_);
@@ -151,7 +151,7 @@ private:
     }
 
     /// The most that f may be where so much of the gap is left.
-    double costliest(double left) const { return *start_ + params_.most_cost * (1 - left / gap_) * std::abs(*start_); }
+    double costliest(double left) const { return *start_ + params_.most_cost * (1 - left / gap_) * f_.size(*start_); }
 
     struct trial
     {
@@ -165,8 +165,8 @@ private:
         constexpr std::array<double, 4> a{1, 0.5, 0.25, 0.125};
         std::array<double, 4> values;
         const double unit = f_.capped_values(x, d_, params_.barrier_fraction, a, values);
-        const double noise = f_.rounding() * std::abs(value);
-        const double steepest = value + params_.most_rise * std::abs(value);
+        const double noise = f_.rounding() * f_.size(value);
+        const double steepest = value + params_.most_rise * f_.size(value);
         trial best{0, value};
         double least = value + noise;
         for (std::size_t i = 0; i < a.size(); ++i)

@@ -28,10 +28,10 @@ struct step_record
 class stopping_test
 {
 public:
-    /// rounding: relative error of a value. patience: steps without a new low of the gradient after which decreases
-    /// that are lost in rounding count; gradients of quasi-Newton methods fall in waves.
-    stopping_test(const stopping_params& params, double rounding, int patience = 10)
-        : params_(params), rounding_(rounding), patience_(patience)
+    /// rounding: error of a value by the larger of the value and value_scale. patience: steps without a new low of the
+    /// gradient after which decreases that are lost in rounding count; gradients of quasi-Newton methods fall in waves.
+    stopping_test(const stopping_params& params, double rounding, int patience = 10, double value_scale = 0)
+        : params_(params), rounding_(rounding), value_scale_(value_scale), patience_(patience)
     {
     }
 
@@ -48,7 +48,7 @@ public:
     {
         if (small_gradient(k.gradient)) return stop::gradient;
 
-        const double scale = std::max(std::abs(k.value), std::abs(k.value_before));
+        const double scale = std::max({std::abs(k.value), std::abs(k.value_before), value_scale_});
         const double decrease = k.value_before - k.value;
         const bool lost = decrease <= rounding_ * scale;
         const bool small = params_.decrease_tolerance > 0 &&
@@ -77,7 +77,7 @@ private:
     bool small_gradient(double gradient) const { return gradient == 0 || gradient <= params_.gradient_tolerance; }
 
     stopping_params params_;
-    double rounding_;
+    double rounding_, value_scale_;
     int patience_;
     double lowest_gradient_ = std::numeric_limits<double>::infinity();
     double longest_ = 0;

@@ -93,7 +93,7 @@ private:
     {
         const mat2 S = mapped(x, c);
         const auto psi = energy::isometric::derivatives(norm2(S), glm::determinant(S));
-        blocks_[c] = corner_hessian<2>(plane_modes<double>(S, psi, true).hessian(area_[c]), inverse_[c]);
+        blocks_[c] = corner_hessian<2>(plane_modes<double>(S, psi, {}).hessian(area_[c]), inverse_[c]);
         const auto g = corner_gradient<2>(area_[c] * gradient_by_shape(S, psi.by_I, psi.by_d), inverse_[c]);
         for (std::size_t k = 0; k < 3; ++k) force[u(cells_[c][k])] -= g[k];
     }

@@ -129,7 +129,7 @@ private:
         const mat2 S = mapped(x, c);
         const auto psi = energy::regularized<2>{eps, area_weight_}.derivatives(norm2(S), glm::determinant(S));
         const double weight = shapes_[c].weight;
-        blocks_[c] = corner_hessian<2>(plane_modes<double>(S, psi, true).hessian(weight), shapes_[c].inverse);
+        blocks_[c] = corner_hessian<2>(plane_modes<double>(S, psi, {}).hessian(weight), shapes_[c].inverse);
         forces_[c] = corner_gradient<2>(-weight * gradient_by_shape(S, psi.by_I, psi.by_d), shapes_[c].inverse);
     }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include <taut/untangle/device/lead_stage.hpp>
 #include <taut/untangle/device/multigrid_newton.hpp>
 #include <taut/untangle/device/operator_stage.hpp>
 #include <taut/untangle/untangle_host.hpp>
@@ -49,11 +50,16 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
     }
     else
     {
+        // What the operator solves it solves at once, before kernels of Hessians are compiled. Handles of a free
+        // surface are led there rather than untangled: that makes no edges that tetrahedra go around more than once.
+        std::unique_ptr<untangle_stage<Element>> inner[] = {
+            std::move(on_device),
+            std::make_unique<newton_stage<Element>>(newton_stage_params{"newton", untangle_start::harmonic}),
+            std::make_unique<lead_stage<Element>>(q)};
+        if (!problem.outline_pinned()) std::swap(inner[1], inner[2]);
         auto stages = solid_host_stages();
-        // What the operator solves it solves at once, before kernels of Hessians are compiled.
-        const auto place = std::next(stages.insert(std::next(stages.begin()), std::move(on_device)));
-        stages.insert(place,
-                      std::make_unique<newton_stage<Element>>(newton_stage_params{"newton", untangle_start::harmonic}));
+        stages.insert(std::next(stages.begin()), std::make_move_iterator(std::begin(inner)),
+                      std::make_move_iterator(std::end(inner)));
         return untangle(problem, std::move(stages), std::move(newton), params);
     }
 }

@@ -15,6 +15,7 @@
 #include <taut/energy/isometric.hpp>
 #include <taut/energy/isotropic.hpp>
 #include <taut/energy/modes.hpp>
+#include <taut/energy/neo_hookean.hpp>
 #include <taut/symbolic/evaluate.hpp>
 
 namespace
@@ -39,7 +40,7 @@ struct spread
 class hessians
 {
 public:
-    hessians(const any_energy& energy, bool projected)
+    hessians(const any_energy& energy, bool projected, bool absolute)
     {
         const tape_scope scope(tape_);
         glm::mat<3, 3, sym<double>> S;
@@ -51,7 +52,7 @@ public:
             for (const auto& entry : differentiate(gradient[j], unknowns_)) outputs_.push_back(entry);
         const auto psi = derivatives_by_invariants<3>(value, S);
         REQUIRE(psi.has_value());
-        const auto H = space_modes<sym<double>>(S, *psi, scalar_type::f64, projected).hessian(1.0);
+        const auto H = space_modes<sym<double>>(S, *psi, scalar_type::f64, {projected, absolute}).hessian(1.0);
         for (int j = 0; j < 9; ++j)
             for (int i = 0; i < 9; ++i) outputs_.push_back(H(i, j));
     }
@@ -78,7 +79,7 @@ mat3 diagonal(double a, double b, double c)
 
 } // namespace
 
-TEST_CASE("space modes: the Hessian, as it is or clamped, whatever the singular values")
+TEST_CASE("space modes: the Hessian, as it is, clamped or absolute, whatever the singular values")
 {
     std::mt19937 rng(3);
     const auto random = [&]
@@ -107,15 +108,19 @@ TEST_CASE("space modes: the Hessian, as it is or clamped, whatever the singular 
 
     for (const any_energy& energy :
          {any_energy(energy::isometric{}), any_energy(energy::shape{}), any_energy(test::mips_power{.p = 2}),
-          any_energy(0.5 * energy::isometric{} + 0.5 * energy::area{}), any_energy(spread{})})
-        for (const bool projected : {false, true})
+          any_energy(0.5 * energy::isometric{} + 0.5 * energy::area{}), any_energy(energy::neo_hookean{0.49}),
+          any_energy(spread{})})
+        for (const auto& [projected, absolute] :
+             {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
         {
-            hessians H(energy, projected);
+            hessians H(energy, projected, absolute);
             for (const mat3& S : tried)
             {
                 const auto [exact, modes] = H.at(S);
-                const matrix expected = projected ? test::decompose(exact).clamped() : exact;
+                const auto eigen = test::decompose(exact);
+                const matrix expected = !projected ? exact : absolute ? eigen.absolute() : eigen.clamped();
                 CAPTURE(projected);
+                CAPTURE(absolute);
                 CAPTURE(glm::determinant(S));
                 CHECK((modes - expected).norm() <= 1e-9 * expected.norm() + 1e-12);
             }
@@ -124,7 +129,7 @@ TEST_CASE("space modes: the Hessian, as it is or clamped, whatever the singular 
 
 TEST_CASE("space modes: finite where S is singular, for energies that are")
 {
-    hessians H(any_energy(spread{}), true);
+    hessians H(any_energy(spread{}), true, false);
     for (const mat3& S : {diagonal(0, 0, 0), diagonal(1, 0, 0), diagonal(0, 2, 1), diagonal(1, -1, 2)})
     {
         const auto [exact, modes] = H.at(S);

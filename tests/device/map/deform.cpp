@@ -11,6 +11,7 @@
 #include <support/size.hpp>
 
 #include <taut/energy/isometric.hpp>
+#include <taut/energy/neo_hookean.hpp>
 #include <taut/energy/shape.hpp>
 #include <taut/map/deform.hpp>
 #include <taut/measure/rigid_motion.hpp>
@@ -93,6 +94,27 @@ TEST_CASE("deform: a bar is twisted, stretched and bent without an inverted elem
         CHECK(r.report.gradient < 1e-6);
         CHECK(r.report.energy > 2);
     }
+}
+
+TEST_CASE("deform: an energy that is 0 at rest takes steps from there, in any precision")
+{
+    const auto m = bar();
+    queue q;
+    for (const precision how : {precision::fp64, precision::mixed})
+        for (const double poisson : {0.3, 0.45})
+        {
+            CAPTURE(poisson);
+            deform_params<tetrahedron> params{.energy = energy::neo_hookean{poisson},
+                                              .constraints = taut::constraints(m).fix(bottom(m)).move(
+                                                  top(m), [](const vec3& p) { return p + vec3(0, 0, 0.5); }),
+                                              .precision = how};
+            const auto r = deform(q, m, params);
+            check_promises(m, params.constraints, r);
+            CHECK(r.report.notes.empty()); // it was not untangled
+            CHECK(r.report.converged);
+            CHECK(r.report.gradient < 1e-6);
+            CHECK(r.report.steps < 12);
+        }
 }
 
 TEST_CASE("deform: what is bent is no better for starting elsewhere, and the shape at rest costs nothing")

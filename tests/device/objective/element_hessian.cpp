@@ -230,8 +230,11 @@ double worst_error(queue& q, const any_energy& energy, const elements& e, defini
     {
         const matrix H = host.hessian(e.S[c]);
         const auto K = corner_map(e.inverse[c]);
-        const matrix expected =
-            e.weight[c] * (K.transpose() * (sign == definiteness::projected ? test::decompose(H).clamped() : H) * K);
+        const auto eigen = test::decompose(H);
+        const matrix filtered = sign == definiteness::projected  ? eigen.clamped()
+                                : sign == definiteness::absolute ? eigen.absolute()
+                                                                 : H;
+        const matrix expected = e.weight[c] * (K.transpose() * filtered * K);
         const double unit = A::epsilon * stretch_ratio(e.S[c]) * e.weight[c] * H.norm() * K.squaredNorm();
         const double error = (device[c] - expected).norm() / unit;
         worst = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(worst, error);
@@ -305,7 +308,7 @@ TEST_CASE("element Hessian: it is the derivative of the gradient, by finite diff
     }
 }
 
-TEST_CASE_TEMPLATE("element Hessian: unprojected and projected are those of the host, slivers included", A,
+TEST_CASE_TEMPLATE("element Hessian: as it is, projected and absolute are those of the host, slivers included", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     queue q;
@@ -315,8 +318,11 @@ TEST_CASE_TEMPLATE("element Hessian: unprojected and projected are those of the 
     for (const named_energy& tried : energies())
     {
         CAPTURE(tried.name);
-        CHECK(worst_error<A>(q, tried.energy, e, definiteness::indefinite) < 30);
-        CHECK(worst_error<A>(q, tried.energy, e, definiteness::projected) < 30);
+        for (const auto sign : {definiteness::indefinite, definiteness::projected, definiteness::absolute})
+        {
+            CAPTURE(static_cast<int>(sign));
+            CHECK(worst_error<A>(q, tried.energy, e, sign) < 30);
+        }
     }
 }
 
@@ -376,8 +382,8 @@ TEST_CASE("element Hessian: the twist mode of the isometric energy has its close
     CHECK(negative < 200);
 }
 
-TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in the plane and in space", Size,
-                   std::integral_constant<int, 4>, std::integral_constant<int, 9>)
+TEST_CASE_TEMPLATE("element Hessian: eigenvalues clamped or absolute are those of Eigen, in the plane and in space",
+                   Size, std::integral_constant<int, 4>, std::integral_constant<int, 9>)
 {
     constexpr int N = Size::value;
     tape recorded;
@@ -386,9 +392,12 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
     std::vector<sym<double>> unknowns, outputs;
     for (int j = 0; j < N; ++j)
         for (int i = 0; i <= j; ++i) unknowns.push_back(H(i, j) = sym<double>::variable());
-    const auto traced = eigenvalue_clamp<sym<double>, N>::apply(H, scalar_type::f64);
-    for (int j = 0; j < N; ++j)
-        for (int i = 0; i <= j; ++i) outputs.push_back(traced(i, j));
+    for (const bool absolute : {false, true})
+    {
+        const auto traced = filtered_matrix<sym<double>, N>::of(H, scalar_type::f64, {.absolute = absolute});
+        for (int j = 0; j < N; ++j)
+            for (int i = 0; i <= j; ++i) outputs.push_back(traced(i, j));
+    }
 
     std::mt19937 random(11);
     std::normal_distribution<double> normal;
@@ -410,11 +419,12 @@ TEST_CASE_TEMPLATE("element Hessian: clamped eigenvalues are those of Eigen, in 
             for (int i = 0; i <= j; ++i) values.emplace_back(unknowns[next++], M(i, j));
         const auto result = evaluate(outputs, values);
 
-        const matrix expected = test::decompose(M).clamped();
+        const auto eigen = test::decompose(M);
         double worst = 0;
         next = 0;
-        for (int j = 0; j < N; ++j)
-            for (int i = 0; i <= j; ++i) worst = std::max(worst, std::abs(result[next++] - expected(i, j)));
+        for (const matrix& expected : {matrix(eigen.clamped()), matrix(eigen.absolute())})
+            for (int j = 0; j < N; ++j)
+                for (int i = 0; i <= j; ++i) worst = std::max(worst, std::abs(result[next++] - expected(i, j)));
         CAPTURE(trial);
         CHECK(worst <= 1e-13 * M.norm());
     }

@@ -151,7 +151,7 @@ TEST_CASE("isometric: its derivatives by the invariants are those of its value")
     for (int n = 0; n < 20; ++n)
     {
         const mat2 S(1 + some(rng), some(rng), some(rng), 1 + some(rng));
-        const auto H = plane_modes<double>(S, psi(S), false).hessian(1.0);
+        const auto H = plane_modes<double>(S, psi(S), {.projected = false}).hessian(1.0);
         const double h = 1e-6;
         for (int i = 0; i < 4; ++i)
         {

@@ -13,8 +13,8 @@ using namespace taut::solve;
 namespace
 {
 
-/// Beads on a line, x_0 < x_1 < ...: each gap l between neighbours has the energy l + 1 / l, and none may close. The
-/// first one is tied to 0, the last one is prescribed.
+/// Beads on a line, x_0 < x_1 < ...: each gap l between neighbours has the energy l + 1 / l - 2, which is 0 at rest,
+/// and none may close. The first one is tied to 0, the last one is prescribed.
 class beads : public host_objective<double (*)(std::span<const double>, std::span<double>)>
 {
 public:
@@ -56,6 +56,7 @@ public:
         out.back() = 0;
     }
     void put(std::vector<double>& x) const { x.back() = wanted_; }
+    double value_scale() const { return 2 * double(n_ - 1); }
 
     static std::vector<double> evenly(std::size_t n, double end)
     {
@@ -73,7 +74,7 @@ private:
         for (std::size_t i = 0; i + 1 < x.size(); ++i)
         {
             const double l = x[i + 1] - x[i], force = 1 - 1 / (l * l);
-            value += l > 0 ? l + 1 / l : std::numeric_limits<double>::infinity();
+            value += l > 0 ? l + 1 / l - 2 : std::numeric_limits<double>::infinity();
             g[i] -= force;
             g[i + 1] += force;
         }
@@ -101,7 +102,7 @@ const auto on = [](const prescribed_report&) { return true; };
 
 } // namespace
 
-TEST_CASE("prescribed: a coordinate that is near arrives in one step, to the last bit, and the others follow")
+TEST_CASE("prescribed: from rest, where f is 0, a coordinate that is near arrives in one step, to the last bit")
 {
     beads f(8, 7.3);
     auto x = beads::evenly(8, 7);

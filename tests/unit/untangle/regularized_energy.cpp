@@ -73,8 +73,8 @@ TEST_CASE("regularized energy: the derivatives are those of the value, inverted 
         CHECK(first.by_I == doctest::Approx(psi.by_I));
         CHECK(first.by_d == doctest::Approx(psi.by_d));
         const mat2 g = gradient(S);
-        const auto exact = plane_modes<double>(S, psi, false).hessian(1);
-        const auto projected = plane_modes<double>(S, psi, true).hessian(1);
+        const auto exact = plane_modes<double>(S, psi, {.projected = false}).hessian(1);
+        const auto projected = plane_modes<double>(S, psi, {}).hessian(1);
         bool clamped = false;
         for (int i = 0; i < 4; ++i)
         {

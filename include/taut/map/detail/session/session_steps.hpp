@@ -15,10 +15,10 @@
 #include <taut/constrain/held_paths.hpp>
 #include <taut/map/detail/run_clock.hpp>
 #include <taut/map/detail/session/held_places.hpp>
-#include <taut/map/detail/session/live_map.hpp>
 #include <taut/map/detail/session/repair.hpp>
 #include <taut/map/detail/session/session_body.hpp>
 #include <taut/measure/describe_defects.hpp>
+#include <taut/untangle/device/live_map.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 #include <taut/untangle/untangle.hpp>
 
@@ -67,6 +67,9 @@ protected:
         if (solve_.method != solve::method::automatic && solve_.method != solve::method::newton)
             throw parameter_error("solve.method", "must be automatic or newton: a session makes Newton's steps");
     }
+
+    /// Puts the map at hand on the device in double; false where it is so already, or may not be.
+    virtual bool in_double() { return false; }
 
     /// Makes the first map, and puts it on the device; called again where there was none to be put there.
     virtual void begin(run_clock& clock) = 0;
@@ -127,32 +130,38 @@ protected:
         return steps_left_ > 0 && clock.left().count() > step_seconds_ && clock.proceed();
     }
 
-    /// Brings held coordinates nearer to their places, in parts where bodies of them turn.
+    /// Brings held coordinates nearer to their places.
     void follow(run_clock& clock)
     {
-        const held_paths<D> paths(rest().cells(), marks(), last.x, held_.places());
-        const int parts = paths.parts();
-        bool goes_on = true;
-        for (int part = 1; goes_on && part <= parts; ++part)
-        {
-            if (part > 1 && !may_step(clock))
-            {
-                goes_on = stuck_ = false;
-                break;
-            }
-            map way = held_.places();
-            paths.place(static_cast<double>(part) / parts, way);
-            if (parts > 1) live_->aim(scaled(way));
-            goes_on = follow(clock, part == 1 ? last.x : user_coordinates(), way);
-        }
-        on_way_ = !goes_on;
-        followed_.stop = goes_on ? "" : stuck_ ? "stuck" : clock.refused() ? "user" : "limit";
+        bool arrived = follow_parts(clock, last.x);
+        // In the plane steps stick where pins are in each other's way, which no arithmetic changes.
+        if (D == 3 && !arrived && stuck_ && may_step(clock) && in_double())
+            arrived = follow_parts(clock, user_coordinates());
+        on_way_ = !arrived;
+        followed_.stop = arrived ? "" : stuck_ ? "stuck" : clock.refused() ? "user" : "limit";
         book(clock, &session_seconds::follow, std::exchange(followed_, {}));
-        if (goes_on || !stuck_ || !may_step(clock)) return;
+        if (arrived || !stuck_ || !may_step(clock)) return;
         const int before = last.report.steps;
         const bool repaired = repair(clock);
         book(clock, &session_seconds::repair,
              {.stage = "repair", .iterations = last.report.steps - before, .stop = repaired ? "injective" : "stuck"});
+    }
+
+    /// From a map, in parts where bodies of held vertices turn; whether they have arrived.
+    bool follow_parts(run_clock& clock, const map& from)
+    {
+        const held_paths<D> paths(rest().cells(), marks(), from, held_.places());
+        const int parts = paths.parts();
+        bool goes_on = true;
+        for (int part = 1; goes_on && part <= parts; ++part)
+        {
+            if (part > 1 && !may_step(clock)) return stuck_ = false;
+            map way = held_.places();
+            paths.place(static_cast<double>(part) / parts, way);
+            if (parts > 1) live_->aim(scaled(way));
+            goes_on = follow(clock, part == 1 ? from : user_coordinates(), way);
+        }
+        return goes_on;
     }
 
     /// One part of the way from a map; whether it has been gone. stuck_: steps do not help.
@@ -256,19 +265,9 @@ protected:
     /// With what is held where it is.
     void minimise(run_clock& clock)
     {
-        auto how = solve_;
-        how.stopping.max_iterations = std::min(how.stopping.max_iterations, steps_left_);
-        how.stopping.time_limit = std::chrono::duration<double>(std::max(clock.left().count() - step_seconds_, 1e-9));
-        const auto found = live_->minimize(how,
-                                           [&](progress p)
-                                           {
-                                               const progress now = seen();
-                                               p.coordinates = now.coordinates;
-                                               p.positions = now.positions;
-                                               return clock.ask(p);
-                                           });
+        auto found = minimised(clock);
+        if (stalled(found) && may_step(clock) && in_double()) found = minimised(clock);
         session_report& r = last.report;
-        r.steps += found.iterations;
         r.energy = found.value;
         r.gradient = found.gradient_norm;
         r.converged = !on_way_ && is_converged(found.stop);
@@ -277,12 +276,38 @@ protected:
         book(clock, &session_seconds::solve, std::move(did));
     }
 
+    solve::report minimised(run_clock& clock)
+    {
+        auto how = solve_;
+        how.stopping.max_iterations = std::min(how.stopping.max_iterations, steps_left_);
+        how.stopping.time_limit = std::chrono::duration<double>(std::max(clock.left().count() - step_seconds_, 1e-9));
+        auto found = live_->minimize(how,
+                                     [&](progress p)
+                                     {
+                                         const progress now = seen();
+                                         p.coordinates = now.coordinates;
+                                         p.positions = now.positions;
+                                         return clock.ask(p);
+                                     });
+        last.report.steps += found.iterations;
+        steps_left_ -= found.iterations;
+        return found;
+    }
+
+    /// Whether it ended by rounding, and not where it should.
+    bool stalled(const solve::report& r) const
+    {
+        constexpr double of_rounding = 1e-8; // a tolerance that is larger is meant
+        return r.gradient_norm > solve_.stopping.gradient_tolerance &&
+               (r.stop == solve::stop::line_search || r.stop == solve::stop::barrier ||
+                (r.stop == solve::stop::decrease && solve_.stopping.decrease_tolerance < of_rounding));
+    }
+
     /// Makes the map on the device the last one, if it is certified; else goes back to the last one.
     void take(run_clock& clock)
     {
         session_report& r = last.report;
-        auto x = user_coordinates();
-        held_.impose(x, unscaled(live_->as_held(scaled(held_.places()))));
+        auto x = placed();
         auto flips = certified(x);
         if (flips)
         {
@@ -319,6 +344,14 @@ protected:
     held_marks<D> marks() const { return held_.marks().empty() ? held_marks<D>(last.x.size()) : held_.marks(); }
 
     map user_coordinates() const { return unscaled(live_->coordinates()); }
+
+    /// The same with what is at its place there to the last bit.
+    map placed() const
+    {
+        auto x = user_coordinates();
+        held_.impose(x, unscaled(live_->as_held(scaled(held_.places()))));
+        return x;
+    }
 
     /// In the lengths of the map.
     map unscaled(map x) const

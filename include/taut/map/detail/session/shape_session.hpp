@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -46,12 +47,12 @@ public:
           params_(validated(params)),
           start_(start_of(m, params_)),
           rest_(in_run_lengths(m, params_.rest)),
-          ideal_(ideals(rest_, params_))
+          ideal_(ideals(rest_, params_, unit_scale(m)))
     {
         require_deformable();
         params_.data.validate(m.cells().size());
         for (const auto& [size, field] :
-             {std::pair{params_.regular.size(), "regular"}, {params_.owners.size(), "owners"}})
+             {std::pair{params_.targets.size(), "targets"}, {params_.owners.size(), "owners"}})
             if (size != 0 && size != m.cells().size())
                 throw parameter_error(field,
                                       std::to_string(size) + " for " + std::to_string(m.cells().size()) + " cells");
@@ -91,14 +92,29 @@ private:
         const precision how = params_.precision != precision::automatic ? params_.precision
                               : this->queue_.device().has_fp64()        ? precision::mixed
                                                                         : precision::fp32;
-        this->live_.emplace(this->queue_, rest_, params_, how, this->scaled(start_),
-                            params_.shapes == wanted_shapes::rest ? nullptr : &ideal_);
-        this->load(this->scaled(start_)); // with what is held
+        put(how, this->scaled(start_));
         this->changed = true;
         this->book(clock, &session_seconds::start, {.stage = "start"});
         const auto notes = std::exchange(r.notes, {});
         this->advance(clock);
         r.notes.insert(r.notes.begin(), notes.begin(), notes.end());
+    }
+
+    bool in_double() override
+    {
+        if (!this->live_->in_float() || params_.precision != precision::automatic || !this->queue_.device().has_fp64())
+            return false;
+        put(precision::fp64, this->scaled(this->placed()));
+        last.report.notes.push_back("in float steps led no further; the last ones were in double");
+        return true;
+    }
+
+    /// Puts a map on the device, with what is held.
+    void put(precision how, const map& run_lengths)
+    {
+        this->live_.emplace(this->queue_, rest_, params_, how, run_lengths,
+                            params_.shapes == wanted_shapes::rest && params_.targets.empty() ? nullptr : &ideal_);
+        this->load(run_lengths);
     }
 
     void require_slides() const
@@ -132,9 +148,23 @@ private:
                     throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
     }
 
-    static ideal_elements<Element> ideals(const mesh<Element>& m, const deform_params<Element>& params)
+    /// unit: length of the run by that of the parameters.
+    static ideal_elements<Element> ideals(const mesh<Element>& m, const deform_params<Element>& params, double unit)
     {
-        if (params.shapes == wanted_shapes::rest) return ideal_elements<Element>(m);
+        const bool regular = params.shapes == wanted_shapes::regular;
+        if (params.targets.empty())
+            return regular ? regular_elements<Element>(m.cells().size(), whole(m)) : ideal_elements<Element>(m);
+        auto wanted = elements_with_edges<Element>(params.targets, unit, "targets");
+        if (!regular) return wanted;
+        const double factor = whole(m) / std::accumulate(wanted.measure.begin(), wanted.measure.end(), 0.0);
+        for (auto& inverse : wanted.inverse) inverse /= std::pow(factor, 1.0 / D);
+        for (double& measure : wanted.measure) measure *= factor;
+        return wanted;
+    }
+
+    /// Measure of all cells, inverted or not.
+    static double whole(const mesh<Element>& m)
+    {
         double total = 0;
         for (idx c = 0; c < m.cell_count(); ++c)
         {
@@ -143,21 +173,7 @@ private:
             for (std::size_t k = 0; k < x.size(); ++k) x[k] = vec<D>(rest[k]);
             total += std::abs(Element::determinant(x)) * Element::measure_factor;
         }
-        if (params.regular.empty()) return regular_elements<Element>(m.cells().size(), total);
-        std::vector<mat<D>> inverses;
-        std::vector<double> measures;
-        double sum = 0;
-        for (const auto& W : params.regular)
-        {
-            double measure = Element::measure_factor;
-            for (int k = 0; k < D; ++k) measure *= W[k][k];
-            inverses.push_back(invert_upper(W));
-            measures.push_back(measure);
-            sum += measure;
-        }
-        for (auto& inverse : inverses) inverse *= std::pow(sum / total, 1.0 / D);
-        for (double& measure : measures) measure *= total / sum;
-        return {std::move(inverses), std::move(measures)};
+        return total;
     }
 
     static map start_of(const mesh<Element>& m, const deform_params<Element>& params)
@@ -186,9 +202,10 @@ private:
 
     std::vector<mat<D>> wanted_elements() const override
     {
-        if (params_.shapes == wanted_shapes::rest) return {};
-        if (!params_.regular.empty()) return params_.regular;
-        return std::vector<mat<D>>(rest_.cells().size(), regular_ideal<Element>());
+        std::vector<mat<D>> edges;
+        if (params_.shapes == wanted_shapes::regular)
+            for (const auto& inverse : ideal_.inverse) edges.push_back(invert_upper(inverse));
+        return edges;
     }
     std::vector<idx> owners() const override { return params_.owners; }
 

@@ -80,6 +80,9 @@ public:
         return r;
     }
 
+    /// Whether energies and directions are in single precision.
+    bool in_float() const { return objective_.rounding() > 1e-12; }
+
     map coordinates() const
     {
         auto x = numbers_.undo(objective_.download(x_));

@@ -16,42 +16,57 @@ namespace taut
 template <class Real>
 using condition_of = decltype(std::declval<Real>() < std::declval<Real>());
 
-/// An eigenvalue, or 0 where it is negative and `projected` holds.
-template <class Real>
-Real clamped(condition_of<Real> projected, const Real& eigenvalue)
+/// How a positive semi-definite matrix stands in for the Hessian of an element: by what becomes of its negative
+/// eigenvalues.
+enum class negative_eigenvalues
 {
-    using std::max;
-    return select(projected, max(eigenvalue, Real(0.0)), eigenvalue);
-}
+    clamped, ///< 0: the nearest matrix in the Frobenius norm
+    absolute ///< without their sign (Chen et al. 2024, "Stabler neo-Hookean simulation: absolute eigenvalue filtering
+             ///< for projected Newton"): short steps where the curvature is strong, whatever its sign
+};
 
-/// The nearest positive semi-definite matrix in the Frobenius norm: negative eigenvalues become 0. Traced, so that it
-/// runs in a kernel: a fixed number of sweeps of cyclic Jacobi rotations, unrolled, with selects and square roots only
-/// (Golub, Van Loan, Matrix Computations, section 8.5). Sweeps converge quadratically from the third or so on; for
-/// N = 4 the fifth leaves nothing in double, the fourth in float.
+/// That as it applies to single eigenvalues.
+template <class Real>
+struct eigenvalue_filter
+{
+    condition_of<Real> projected = true; ///< where it does not hold, all stay as they are
+    condition_of<Real> absolute = false;
+
+    Real operator()(const Real& eigenvalue) const
+    {
+        using std::max;
+        return select(projected, max(eigenvalue, select(absolute, -eigenvalue, Real(0.0))), eigenvalue);
+    }
+};
+
+/// A symmetric matrix with its eigenvalues filtered. Traced, so that it runs in a kernel: a fixed number of sweeps of
+/// cyclic Jacobi rotations, unrolled, with selects and square roots only (Golub, Van Loan, Matrix Computations, section
+/// 8.5). Sweeps converge quadratically from the third or so on; for N = 4 the fifth leaves nothing in double, the
+/// fourth in float.
 template <class Real, int N>
-class eigenvalue_clamp
+class filtered_matrix
 {
 public:
     using real = Real;
 
-    /// type: of the numbers, f32 or f64. projected: where it does not hold, H comes back as it is.
-    static symmetric_matrix<real, N> apply(const symmetric_matrix<real, N>& H, scalar_type type,
-                                           condition_of<real> projected = true)
+    /// type: of the numbers, f32 or f64.
+    static symmetric_matrix<real, N> of(const symmetric_matrix<real, N>& H, scalar_type type,
+                                        const eigenvalue_filter<real>& filter = {})
     {
         const int sweeps = (type == scalar_type::f64 ? 5 : 4) + (N > 4 ? 2 : 0);
-        eigenvalue_clamp state(H);
+        filtered_matrix state(H);
         for (int sweep = 0; sweep < sweeps; ++sweep)
             for (int p = 0; p < N; ++p)
                 for (int q = p + 1; q < N; ++q) state.rotate(p, q);
-        auto result = state.clamped();
+        auto result = state.composed({.projected = true, .absolute = filter.absolute});
         for (int j = 0; j < N; ++j)
-            for (int i = 0; i <= j; ++i) result(i, j) = select(projected, result(i, j), H(i, j));
+            for (int i = 0; i <= j; ++i) result(i, j) = select(filter.projected, result(i, j), H(i, j));
         return result;
     }
 
 private:
     /// In units of the largest entry, so that squares neither overflow nor matter where they underflow.
-    explicit eigenvalue_clamp(const symmetric_matrix<real, N>& H) : largest_(0.0)
+    explicit filtered_matrix(const symmetric_matrix<real, N>& H) : largest_(0.0)
     {
         for (int j = 0; j < N; ++j)
             for (int i = 0; i <= j; ++i) largest_ = max(largest_, abs(H(i, j)));
@@ -92,7 +107,7 @@ private:
         x = turned;
     }
 
-    symmetric_matrix<real, N> clamped() const
+    symmetric_matrix<real, N> composed(const eigenvalue_filter<real>& filter) const
     {
         symmetric_matrix<real, N> result;
         for (int j = 0; j < N; ++j)
@@ -101,7 +116,7 @@ private:
                 real sum = 0.0;
                 for (int k = 0; k < N; ++k)
                 {
-                    const real eigenvalue = largest_ * max(a_(k, k), real(0.0));
+                    const real eigenvalue = largest_ * filter(a_(k, k));
                     const real term = eigenvalue * v_[j][k] * v_[i][k];
                     sum = k == 0 ? term : sum + term;
                 }

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/energy/isometric.hpp>
+#include <taut/map/deform.hpp>
+#include <taut/objective/map_evaluator.hpp>
+#include <taut/solve/minimize.hpp>
+
+#include "direct_solver.hpp"
+#include "measure.hpp"
+#include "solver_run.hpp"
+#include "volume_problem.hpp"
+
+namespace bench
+{
+
+/// Solvers of the isometric energy of a volume from the shape that has just brought the ends to their places: the
+/// library's, its L-BFGS with a scalar first Hessian, and projected Newton with a factorisation of each matrix.
+class volume_solvers
+{
+public:
+    using shape = std::vector<taut::vec3>;
+    using tetrahedra = taut::tetrahedron;
+
+    /// limit: seconds of one run. Throws where the ends could not be brought to their places.
+    volume_solvers(taut::queue& q, const volume_problem& p, const std::string& motion, double limit)
+        : queue_(q), mesh_(p.mesh), pins_(p.held(motion)), limit_(limit), held_(p.mesh.points().size())
+    {
+        for (const auto& [v, pin] : pins_.pins()) held_[static_cast<std::size_t>(v)] = held_.every;
+        taut::deform_params<tetrahedra> params;
+        params.constraints = pins_;
+        params.solve.stopping.max_iterations = 0;
+        auto found = taut::deform(q, mesh_, params);
+        if (!found.report.pins_held) throw std::runtime_error("the ends could not be brought to their places");
+        start_ = std::move(found.x);
+    }
+
+    /// From the call to the certified shape, all set-up included.
+    solver_run library()
+    {
+        solver_run run;
+        const auto begin = clock::now();
+        taut::deform_params<tetrahedra> params;
+        params.constraints = pins_;
+        params.initial = start_;
+        params.observer = [&](const taut::progress& p)
+        {
+            if (p.iterate) run.history.push_back({p.iteration, p.value, since(begin)});
+            return true;
+        };
+        const auto r = taut::deform(queue_, mesh_, params);
+        run.valid = r && r.report.pins_held;
+        run.iterations = r.report.steps;
+        run.energy = r.report.energy;
+        run.flipped = r.report.flips.flipped;
+        run.stop = r.report.converged ? "converged" : "not converged";
+        run.seconds.solve = since(begin);
+        return run;
+    }
+
+    /// enough: an energy that is low enough.
+    solver_run lbfgs(double enough)
+    {
+        solver_run run;
+        const auto begin = clock::now();
+        taut::map_objective<tetrahedra> f(queue_, std::make_shared<const taut::layout<tetrahedra>>(mesh_),
+                                          taut::energy::isometric{}, taut::energy::weighting::measure,
+                                          taut::types_of(taut::precision::mixed));
+        f.constrain({held_, {}, {}});
+        auto x = f.make_point();
+        f.upload(start_, x);
+        taut::solve::params how{.method = taut::solve::method::lbfgs};
+        how.stopping = {
+            .gradient_tolerance = 0, .max_iterations = 1000000, .time_limit = std::chrono::duration<double>(limit_)};
+        const auto r = taut::solve::minimize(f, x, how,
+                                             [&](const taut::progress& p)
+                                             {
+                                                 if (!p.iterate) return true;
+                                                 run.history.push_back({p.iteration, p.value, since(begin)});
+                                                 return p.value > enough;
+                                             });
+        run.valid = true;
+        run.iterations = r.iterations;
+        run.energy = r.value;
+        run.stop = taut::solve::to_string(r.stop);
+        run.seconds.solve = since(begin);
+        return run;
+    }
+
+    /// Not valid where the build has no direct solver.
+    solver_run direct_newton(double enough)
+    {
+        solver_run run;
+        const auto begin = clock::now();
+        taut::map_evaluator<tetrahedra> f(queue_, mesh_, taut::energy::isometric{});
+        auto x = start_;
+        shape g(x.size()), d(x.size());
+        std::vector<bool> free(x.size());
+        for (std::size_t v = 0; v < x.size(); ++v) free[v] = !held_.any(v);
+        double value = f.value_gradient(x, g);
+        std::unique_ptr<direct_solver> solver;
+        run.history.push_back({0, value, since(begin)});
+        while (value > enough && since(begin) < limit_ && run.iterations < 200)
+        {
+            const auto H = f.hessian(x, taut::definiteness::projected);
+            if (!solver) solver = make_direct_solver(H, free);
+            if (!solver) return run;
+            if (!solver->factorize(H)) break;
+            for (auto& c : g) c = -c;
+            solver->solve(g, d);
+            shape next = x;
+            double a = std::min(1.0, 0.9 * f.max_step(x, d));
+            for (;; a /= 2)
+            {
+                for (std::size_t v = 0; v < x.size(); ++v) next[v] = x[v] + a * d[v];
+                if (a < 1e-9 || f.value(next) < value) break;
+            }
+            if (a < 1e-9) break;
+            x = std::move(next);
+            value = f.value_gradient(x, g);
+            run.history.push_back({++run.iterations, value, since(begin)});
+        }
+        run.valid = true;
+        run.energy = value;
+        run.stop = value <= enough ? "low enough" : "time";
+        run.seconds.solve = since(begin);
+        return run;
+    }
+
+private:
+    static double since(clock::time_point begin) { return std::chrono::duration<double>(clock::now() - begin).count(); }
+
+    taut::queue& queue_;
+    const taut::mesh<tetrahedra>& mesh_;
+    taut::constraints<tetrahedra> pins_;
+    double limit_;
+    taut::held_marks<3> held_;
+    shape start_;
+};
+
+} // namespace bench
