@@ -4,7 +4,7 @@
 //   taut_bench_volume [--quick] [--json FILE] [--poisson 0.3,0.45] [--compare SECONDS] [CUBES_ACROSS|MESH...]
 // A bar has 30 n^3 tetrahedra for n cubes across; without arguments 8 and 16. --poisson: a neo-Hookean solid of these
 // ratios, with either stand-in for its Hessian, in the place of the isometric energy. --compare: other solvers of the
-// stretch, from where the ends have just come to their places, each for so long.
+// stretch, from an untangled start, each for so long.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -13,6 +13,7 @@
 #include <taut/map/deform.hpp>
 #include <taut/objective/map_evaluator.hpp>
 #include <taut/solve/minimize.hpp>
+#include <taut/untangle/untangle.hpp>
 
 #include "direct_solver.hpp"
 #include "measure.hpp"
@@ -22,7 +23,7 @@
 namespace bench
 {
 
-/// Solvers of the isometric energy of a volume from the shape that has just brought the ends to their places: the
+/// Solvers of the isometric energy of a volume from one untangled start with the ends at their places: the
 /// library's, its L-BFGS with a scalar first Hessian, and projected Newton with a factorisation of each matrix.
 class volume_solvers
 {
@@ -30,17 +31,21 @@ public:
     using shape = std::vector<taut::vec3>;
     using tetrahedra = taut::tetrahedron;
 
-    /// limit: seconds of one run. Throws where the ends could not be brought to their places.
+    /// limit: seconds of one run. Throws where the moved ends could not be untangled.
     volume_solvers(taut::queue& q, const volume_problem& p, const std::string& motion, double limit)
         : queue_(q), mesh_(p.mesh), pins_(p.held(motion)), limit_(limit), held_(p.mesh.points().size())
     {
-        for (const auto& [v, pin] : pins_.pins()) held_[static_cast<std::size_t>(v)] = held_.every;
-        taut::deform_params<tetrahedra> params;
-        params.constraints = pins_;
-        params.solve.stopping.max_iterations = 0;
-        auto found = taut::deform(q, mesh_, params);
-        if (!found.report.pins_held) throw std::runtime_error("the ends could not be brought to their places");
-        start_ = std::move(found.x);
+        taut::untangle_problem<tetrahedra> tangled{mesh_, {mesh_.points().begin(), mesh_.points().end()}, {}};
+        for (const auto& [v, pin] : pins_.pins())
+        {
+            held_[static_cast<std::size_t>(v)] = held_.every;
+            tangled.initial[static_cast<std::size_t>(v)] = pin.value;
+        }
+        tangled.held = held_;
+        // Not the stage `lead`, whose shapes are all but the best ones.
+        auto found = taut::untangle(q, tangled, {.stages = {"operator", "newton"}});
+        if (!found) throw std::runtime_error("the ends could not be brought to their places: " + found.reason);
+        start_ = std::move(found.map);
     }
 
     /// From the call to the certified shape, all set-up included.
