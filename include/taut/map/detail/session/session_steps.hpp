@@ -14,25 +14,25 @@
 
 #include <taut/constrain/held_paths.hpp>
 #include <taut/map/detail/run_clock.hpp>
-#include <taut/map/detail/session/held_places.hpp>
+#include <taut/map/detail/session/held_map.hpp>
 #include <taut/map/detail/session/repair.hpp>
-#include <taut/map/detail/session/session_body.hpp>
 #include <taut/measure/describe_defects.hpp>
-#include <taut/untangle/device/live_map.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 #include <taut/untangle/untangle.hpp>
 
 namespace taut::detail
 {
 
-/// A session at work: the map on the device that goes from the last map to what is asked. How the first map comes about
-/// is for derived classes. A template, as parameterize() is, so that only files that make a session compile it.
+/// A session at work: the map on the device goes from the last map to what is asked. How the first map comes about is
+/// for derived classes. A template, as parameterize() is, so that only files that make a session compile it.
 template <class Element>
-class session_steps : public session_body<Element>
+class session_steps : public held_map<Element>
 {
+    using base = held_map<Element>;
+
 public:
     static constexpr int D = Element::dimension;
-    using typename session_body<Element>::map;
+    using typename base::map;
 
     session_result<Element> solve(const session_budget& budget) override
     {
@@ -53,12 +53,15 @@ public:
     }
 
 protected:
-    using session_body<Element>::last, session_body<Element>::changed, session_body<Element>::wanted;
+    using base::last, base::changed, base::queue_, base::lengths_, base::live_, base::held_, base::on_way_;
+    using base::rest, base::constrain, base::load, base::problem, base::certified, base::seen, base::marks,
+        base::scaled;
+    using base::user_coordinates, base::placed;
 
     /// Params: of maps or shapes, validated. time_limit is for the first map.
     template <class Params>
     session_steps(queue q, const Params& params)
-        : queue_(std::move(q)),
+        : base(std::move(q)),
           solve_(params.solve),
           untangling_(params.untangling),
           observer_(params.observer),
@@ -73,14 +76,6 @@ protected:
 
     /// Makes the first map, and puts it on the device; called again where there was none to be put there.
     virtual void begin(run_clock& clock) = 0;
-
-    /// The mesh at rest, in the lengths of the run, and its ideal elements' measures.
-    virtual const mesh<Element>& rest() const = 0;
-    virtual std::span<const double> rest_measure() const = 0;
-
-    /// What an untangling wants elements to look like, and what they are corners of, as in an untangle_problem.
-    virtual std::vector<mat<D>> wanted_elements() const { return {}; }
-    virtual std::vector<idx> owners() const { return {}; }
 
     /// From the last map on.
     void advance(run_clock& clock)
@@ -101,28 +96,6 @@ protected:
         if (on_way_ && r.reason.empty()) follow(clock);
         if (r.steps == 0 || (!on_way_ && may_step(clock))) minimise(clock);
         take(clock);
-    }
-
-    /// Tells the map on the device who is held, if that has changed, and where.
-    void constrain()
-    {
-        auto springs = point_constraints<D>{{}, directed(wanted.springs())}.scaled(lengths_).springs;
-        const bool other_marks = held_.take(wanted);
-        if (other_marks || !springs.empty() || !springs_.empty())
-        {
-            springs_ = std::move(springs);
-            live_->constrain(held_.marks(), springs_, held_.slides());
-        }
-        live_->aim(scaled(held_.places()));
-        on_way_ = held_.gap(last.x).vertex >= 0;
-    }
-
-    /// Takes another map in the place of the one on the device.
-    void load(const map& run_lengths)
-    {
-        live_->load(run_lengths);
-        live_->constrain(held_.marks(), springs_, held_.slides());
-        live_->aim(scaled(held_.places()));
     }
 
     bool may_step(run_clock& clock)
@@ -193,18 +166,6 @@ protected:
         return found.arrived;
     }
 
-    /// A map with held coordinates at their places, whatever flips. draft: it is injective as it is.
-    untangle_problem<Element> problem(const map& x, bool draft) const
-    {
-        map there = x;
-        held_.impose(there);
-        auto held = marks();
-        for (const auto& s : held_.slides())
-            held[static_cast<std::size_t>(s.vertex)] = held.every; // not while it untangles
-        return {rest(),  scaled(std::move(there)), std::move(held), draft ? scaled(x) : map(), wanted_elements(),
-                owners()};
-    }
-
     /// Whether it is proved that no map has the held coordinates at their places; x: any map.
     bool proved(const map& x)
     {
@@ -252,14 +213,6 @@ protected:
         on_way_ = false;
         last.report.notes.push_back("steps stuck; the map was untangled with the pins at their places");
         return true;
-    }
-
-    /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.
-    certificate certified(const map& x) const
-    {
-        auto flips = certify<D>(rest().cells(), std::span<const vec<D>>(x), rest_measure());
-        for (double* det : {&flips.min_det, &flips.max_det}) *det *= std::pow(lengths_, D);
-        return flips;
     }
 
     /// With what is held where it is.
@@ -331,42 +284,6 @@ protected:
 
     static bool is_converged(solve::stop s) { return s == solve::stop::gradient || s == solve::stop::decrease; }
 
-    /// What an observer sees of the map.
-    progress seen() const
-    {
-        if constexpr (D == 2)
-            return {.coordinates = [this] { return user_coordinates(); }};
-        else
-            return {.positions = [this] { return user_coordinates(); }};
-    }
-
-    /// One a vertex, also where nothing is held.
-    held_marks<D> marks() const { return held_.marks().empty() ? held_marks<D>(last.x.size()) : held_.marks(); }
-
-    map user_coordinates() const { return unscaled(live_->coordinates()); }
-
-    /// The same with what is at its place there to the last bit.
-    map placed() const
-    {
-        auto x = user_coordinates();
-        held_.impose(x, unscaled(live_->as_held(scaled(held_.places()))));
-        return x;
-    }
-
-    /// In the lengths of the map.
-    map unscaled(map x) const
-    {
-        for (vec<D>& p : x) p /= lengths_;
-        return x;
-    }
-
-    /// In the lengths of the run.
-    map scaled(map x) const
-    {
-        for (vec<D>& p : x) p *= lengths_;
-        return x;
-    }
-
     /// The time since the last stage ended is that of this one.
     void book(run_clock& clock, double session_seconds::*phase, stage_report did)
     {
@@ -375,11 +292,6 @@ protected:
         clock.stages.add(std::move(did));
     }
 
-    queue queue_;
-    double lengths_ = 1; ///< of the run by those of the map
-    std::optional<live_map<Element>> live_;
-    held_places<Element> held_;
-    bool on_way_ = false; ///< held coordinates of the map on the device are not at their places
     session_seconds seconds_;
 
 private:
@@ -387,10 +299,9 @@ private:
     untangle_params untangling_;
     taut::observer observer_;
     std::chrono::duration<double> limit_;
-    stage_report followed_;                   ///< what bringing held coordinates to their places came to so far
-    std::vector<directed_spring<D>> springs_; ///< in the lengths of the run
-    bool stuck_ = false;                      ///< steps bring held coordinates no nearer to their places
-    double step_seconds_ = 0;                 ///< of the last step
+    stage_report followed_;   ///< what bringing held coordinates to their places came to so far
+    bool stuck_ = false;      ///< steps bring held coordinates no nearer to their places
+    double step_seconds_ = 0; ///< of the last step
     int steps_left_ = 0;
 };
 
