@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <taut/constrain/point_constraints.hpp>
+#include <taut/constrain/untangle_problem.hpp>
 #include <taut/exact/certify.hpp>
 #include <taut/map/detail/session/held_places.hpp>
 #include <taut/map/detail/session/session_body.hpp>
