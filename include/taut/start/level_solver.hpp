@@ -52,11 +52,14 @@ public:
     }
 
     /// Launches every kernel once, on the coarsest level, so that what drivers compile at the first launch is compiled.
-    void warm_up()
+    /// springs: those of springs, too.
+    void warm_up(bool springs = false)
     {
         const std::size_t coarsest = levels_.size() - 1;
         plan host(levels_, coarsest, lane_form::for_device(queue_.device()));
-        level(*this, std::move(host), detail::some_map(levels_.level(coarsest))).warm_up();
+        point_constraints<D> slack;
+        if (springs) slack.springs.push_back({0, vec<D>(0), vec<D>(0)});
+        level(*this, std::move(host), detail::some_map(levels_.level(coarsest)), slack).warm_up();
     }
 
     double energy_at_rest() const { return energy::rest_value<D>(energy_); }

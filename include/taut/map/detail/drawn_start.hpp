@@ -69,7 +69,7 @@ public:
                                         {
                                             solver.emplace(run_.queue, levels_, run_.params.energy, run_.params.weights,
                                                            types_of(run_.first_precision()));
-                                            solver->warm_up();
+                                            solver->warm_up(true);
                                         });
         if (built)
         {
