@@ -87,7 +87,7 @@ public:
                 more = !longer.empty();
                 if (!more)
                 {
-                    if (result.steps > 0 || k > 1) n = descent(K, in.zr, k);
+                    if (result.steps > 0 || k > 1) n = descent(K, in.zr, k, result.decrease + gained);
                     break;
                 }
                 double decrease = 0;
@@ -275,20 +275,23 @@ private:
     }
 
     /// The k-th vector made conjugate to those before it, along which the model falls with a negative curvature; empty
-    /// if rounding may have made that. b: slopes. The first k - 1 rows of K are positive definite.
-    static std::vector<double> descent(const small& K, const std::vector<double>& b, std::size_t k)
+    /// if rounding may have made that, or where the residual is next to nothing. b: slopes; gained: the decrease so
+    /// far. The first k - 1 rows of K are positive definite.
+    static std::vector<double> descent(const small& K, const std::vector<double>& b, std::size_t k, double gained)
     {
         constexpr double least = 1e-6; // as in minimiser()
+        constexpr double least_slope = 1e-8;
         std::vector<double> row(K[k - 1].begin(), K[k - 1].begin() + std::ptrdiff_t(k - 1));
         auto n = minimiser(K, row, k - 1);
         n.push_back(1);
-        double curvature = 0, slope = 0;
+        double curvature = 0, slope = 0, terms = 0; // terms: of which the curvature is the difference
         for (std::size_t i = 0; i < k; ++i)
         {
             curvature += n[i] * K[k - 1][i];
             slope += n[i] * b[i];
+            for (std::size_t j = 0; j < k; ++j) terms += std::abs(n[i] * K[i][j] * n[j]);
         }
-        if (!(curvature < -least * std::abs(K[k - 1][k - 1])) || !(std::abs(slope) > 0)) return {};
+        if (!(curvature < -least * terms) || !(std::abs(slope) > least_slope * gained)) return {};
         if (slope > 0)
             for (double& x : n) x = -x;
         return n;
