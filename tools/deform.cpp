@@ -129,6 +129,7 @@ private:
     {
         params.observer = [this](const taut::progress& p)
         {
+            keep(p.usable);
             if (p.iterate)
                 progress_.update({.phase = smoothing_ ? "smooth" : "deform",
                                   .step = p.iteration,
@@ -173,6 +174,7 @@ private:
                     report_ = std::move(r.report);
                 }
             });
+        keep(!x.empty());
         take(std::move(x));
     }
 
@@ -195,9 +197,9 @@ private:
         valid_ = held && after_.simplices;
         if (valid_) return;
         code_ = exit_code::no_valid_map;
-        report_.reason =
-            held ? "in the single precision of the file the mesh has " + describe_defects<Element>(after_.simplices)
-                 : "a pin has moved";
+        report_.reason = held ? "in the single precision of the file the mesh has " +
+                                    describe_defects<Element>(after_.simplices, input_.owners())
+                              : "a pin has moved";
     }
 
     [[noreturn]] void refuse() const
@@ -325,6 +327,7 @@ private:
 exit_code run(const shape_options& options, bool smoothing, std::chrono::steady_clock::time_point launch)
 {
     outputs files;
+    require_file(options.output);
     files.add("-o", options.output, {});
     files.add("--stats", options.stats, {".json"});
     files.add("--picture", options.picture, {".png", ".svg"});
@@ -339,12 +342,8 @@ exit_code run(const shape_options& options, bool smoothing, std::chrono::steady_
     auto file = read_volume_at_rest(options.input, options.rest);
     if (smoothing) file.rest.clear();
     require_drawable(file, {options.picture, options.cut, smoothing});
-    return with_case(file,
-                     [&]<class Element>(const volume_case<Element>& input)
-                     {
-                         require_triangles(input, 0, smoothing ? "smooth" : "deform");
-                         return shape_run<Element>(options, smoothing, clock, progress, place_of_report, input)();
-                     });
+    return with_case(file, [&]<class Element>(const volume_case<Element>& input)
+                     { return shape_run<Element>(options, smoothing, clock, progress, place_of_report, input)(); });
 }
 
 /// What both commands have.

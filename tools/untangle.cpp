@@ -207,11 +207,11 @@ private:
         const bool valid = held && report_.after;
         report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
         report_.code = interrupted() ? interruption() : valid ? exit_code::valid : exit_code::no_valid_map;
-        report_.reason =
-            valid    ? ""
-            : !held  ? "a pin has moved"
-            : result ? "in the single precision of the file there is " + describe_defects<Element>(report_.after)
-                     : result.reason;
+        report_.reason = valid    ? ""
+                         : !held  ? "a pin has moved"
+                         : result ? "in the single precision of the file there is " +
+                                        describe_defects<Element>(report_.after, problem_->owners)
+                                  : result.reason;
         report_.ids = std::move(result.ids);
         report_.least_det = result.flips.min_det;
         report_.least_relative_det = result.least_relative_det;
@@ -323,6 +323,7 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
     const bool volume = names_volume(options.input);
     if (!volume) require_problem_options(options);
     outputs files;
+    if (volume) require_file(options.output);
     files.add("-o", options.output, {});
     files.add("-o (not valid)", name_of_invalid(options.output), {});
     files.add("--stats", options.stats, {".json"});
@@ -348,12 +349,8 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
         std::optional<io::volume_file> file;
         report.seconds.read = clock.timed([&] { file = read_volume_at_rest(options.input, options.rest); });
         require_drawable(*file, {options.picture, options.cut});
-        return with_case(*file,
-                         [&]<class Element>(const volume_case<Element>& input)
-                         {
-                             require_triangles(input, 4000, "untangle"); // the direct solver's, untangle_on_device.hpp
-                             return untangled(problem_of(input, options, report), &input);
-                         });
+        return with_case(*file, [&]<class Element>(const volume_case<Element>& input)
+                         { return untangled(problem_of(input, options, report), &input); });
     }
     std::optional<decltype(io::read_any_prob({}))> file;
     report.seconds.read = clock.timed([&] { file = io::read_any_prob(options.input); });

@@ -1036,6 +1036,15 @@ test_stops()
         stopped user
     done
 
+    # A volume comes as far as its handles have.
+    volume 12 >bar.mesh
+    run_until '"phase":"deform","iteration":[1-9]' INT deform bar.mesh -o bent.mesh --stats stats.json --fix triangles:1 \
+        --move triangles:2:rotate:0,0,1,170
+    expect 0 check bent.mesh
+    says out '^inverted +0 of'
+    keys stats.json inverted pins_held
+    says values '^inverted=0'
+
     # Of a problem that is interrupted, what is left has the name only if it is valid.
     star 200 >large.prob
     run_until '"phase":"untangle","iteration":[1-9]' INT untangle large.prob -o map.txt --stats stats.json
@@ -1289,8 +1298,10 @@ test_volumes()
     expect 0 untangle quads.mesh -o flat.mesh --picture quads.svg
     says quads.svg '<svg ' 'before'
     expect 0 check flat.mesh
-    expect 4 smooth flat.mesh -o late.mesh
-    error_says 'quads'
+    expect 0 smooth flat.mesh -o even.mesh --boundary fixed
+    says out '^inverted +0 -> 0' 'mean ratio 1 worst'
+    expect 2 smooth flat.mesh -o -
+    error_says 'a mesh goes to a file'
 
     # Turned as another format has it: the convention is named, not 16 inverted cells.
     awk '$1 == 8 { print 8, $6, $7, $8, $9, $2, $3, $4, $5; next } 1' hex.vtk >turned.vtk

@@ -20,6 +20,11 @@ bool names_volume(const std::string& path)
     return std::any_of(names.begin(), names.end(), [&](const char* known) { return name == known; });
 }
 
+void require_file(const std::string& output)
+{
+    if (output == "-") throw usage_error("-o -: a mesh goes to a file, in the format of the input; name one");
+}
+
 io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest)
 {
     auto file = io::read_volume_file(path);
@@ -54,14 +59,6 @@ void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_
                           if (verdict == cell_validity::invalid) state.negative_inside.push_back(number);
                           if (verdict == cell_validity::undecided) state.undecided.push_back(number);
                       });
-}
-
-void require_triangles(const volume_case<triangle>& input, std::size_t most, const std::string& command)
-{
-    if (input.parts().overlapping && input.parts().cells.size() > most)
-        throw unsuitable_input(input.file().path + ": quads of the plane are not taken by `taut " + command + '`' +
-                               (most > 0 ? " from " + std::to_string(most) + " corners on" : "") +
-                               "; split each into two triangles");
 }
 
 std::string count_cells(const io::volume_file& file, int dimension)

@@ -21,6 +21,9 @@ namespace taut::tools
 /// Whether a name is that of a volume file, problems aside.
 bool names_volume(const std::string& path);
 
+/// Throws usage_error for "-": a mesh is one file or two.
+void require_file(const std::string& output);
+
 /// Reads a volume file. rest: the file of the shape at rest, or empty; its points become the `rest` of the result.
 /// Throws io_error, and unsuitable_input where the two are not of the same vertices and cells.
 io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest);
@@ -142,10 +145,6 @@ private:
     const io::volume_file& file_;
     io::corner_simplices<Element> parts_;
 };
-
-/// Throws unsuitable_input for quads of the plane, where there are more than `most` corners of them.
-void require_triangles(const volume_case<triangle>& input, std::size_t most, const std::string& command);
-inline void require_triangles(const volume_case<tetrahedron>&, std::size_t, const std::string&) {}
 
 /// Calls f(volume_case) for the cells that the file has: of the plane or of space.
 template <class F>

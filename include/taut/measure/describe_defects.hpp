@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <taut/exact/certify.hpp>
@@ -9,12 +10,13 @@
 namespace taut
 {
 
-/// What keeps a map from being locally injective, with the first ids; "no defect" if nothing does.
+/// What keeps a map from being locally injective, with the first ids; "no defect" if nothing does. owners: where the
+/// elements are the corners of cells, the cell of each.
 template <class Element>
-std::string describe_defects(const certificate& c)
+std::string describe_defects(const certificate& c, std::span<const idx> owners = {})
 {
     std::string text;
-    if (c.flipped > 0) text = detail::list_first_ids(Element::name, Element::names, c.flipped, c.ids) + " flipped";
+    if (c.flipped > 0) text = detail::list_first_elements<Element>(c.flipped, c.ids, owners) + " flipped";
     if (c.branched > 0)
     {
         text += text.empty() ? "" : ", and ";

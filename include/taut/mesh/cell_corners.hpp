@@ -56,4 +56,17 @@ std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Elem
     return result;
 }
 
+/// A flag a triangle: lone ones, and of the four at the corners of a quad those at two opposite ones, which do not
+/// overlap, so that these are the surface, once.
+inline std::vector<char> triangle_cover(std::span<const idx> owners)
+{
+    std::vector<char> whole(owners.size());
+    for (std::size_t c = 0, first = 0; c < owners.size(); ++c)
+    {
+        if (owners[c] != owners[first]) first = c;
+        whole[c] = (c - first) % 2 == 0;
+    }
+    return whole;
+}
+
 } // namespace taut

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,11 +47,26 @@ inline std::string list_ids(const char* thing, const char* things, const std::ve
     return list_first_ids(thing, things, ids.size() / group, ids, group);
 }
 
+/// The first elements of n; where these are the corners of cells, "9 corners of cells (3, 14, ...)".
+template <class Element>
+std::string list_first_elements(std::size_t n, const std::vector<idx>& ids, std::span<const idx> owners)
+{
+    if (owners.empty()) return list_first_ids(Element::name, Element::names, n, ids);
+    std::vector<idx> cells;
+    for (const idx c : ids) cells.push_back(owners[static_cast<std::size_t>(c)]);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    const std::size_t unseen = n - ids.size();
+    const std::string text = list_first_ids("", "", cells.size() + unseen, cells);
+    return counted(n, "corner", "corners") + (cells.size() == 1 && unseen == 0 ? " of cell " : " of cells ") +
+           text.substr(text.find('('));
+}
+
 } // namespace detail
 
-/// The sentence for a fault of a mesh of `Element`s: how many, the first ids, what is wrong, and the remedy.
+/// The sentence for a fault of a mesh of `Element`s: how many, the first ids, what is wrong, and the remedy. owners:
+/// where these are the corners of cells, the cell of each.
 template <class Element>
-mesh_finding describe(mesh_fault fault, std::vector<idx> ids)
+mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<const idx> owners = {})
 {
     const std::string cells = Element::names, facets = Element::facet_names;
     const auto of_cells = [&](std::size_t group = 1)
@@ -72,9 +88,11 @@ mesh_finding describe(mesh_fault fault, std::vector<idx> ids)
         case mesh_fault::repeated_vertex:
             return of_cells() + " naming a vertex twice; remove them";
         case mesh_fault::degenerate_cell:
-            return of_cells() + " flat at rest; collapse an edge or move a vertex of each";
+            return detail::list_first_elements<Element>(ids.size(), ids, owners) +
+                   " flat at rest; collapse an edge or move a vertex of each";
         case mesh_fault::inverted_cell:
-            return of_cells() + " of negative rest volume; swap two corners of each";
+            return detail::list_first_elements<Element>(ids.size(), ids, owners) +
+                   " of negative rest volume; untangle the mesh, give a shape at rest, or swap two corners of each";
         case mesh_fault::duplicate_cell:
             return pairs() + " with the same corners; remove one of each";
         case mesh_fault::inconsistent_orientation:

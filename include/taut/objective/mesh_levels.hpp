@@ -10,6 +10,7 @@
 
 #include <taut/hierarchy/make_hierarchy.hpp>
 #include <taut/hierarchy/make_volume_hierarchy.hpp>
+#include <taut/mesh/cell_corners.hpp>
 #include <taut/mesh/layout.hpp>
 #include <taut/sparse/transfer_weights.hpp>
 
@@ -23,11 +24,12 @@ class mesh_levels
 {
 public:
     /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level of a surface. data: of the cells of
-    /// m; coarser levels have the means. kept: other vertices that are on every level, or empty. Throws mesh_error,
+    /// m; coarser levels have the means. kept: other vertices that are on every level, or empty. owners: of cells that
+    /// overlap (mesh/cell_corners.hpp), whose coarser levels are those of triangle_cover(). Throws mesh_error,
     /// parameter_error.
     explicit mesh_levels(const mesh<Element>& m, const std::vector<bool>& pinned = {},
                          const hierarchy_params& params = {}, const cell_data& data = {},
-                         const std::vector<bool>& kept = {})
+                         const std::vector<bool>& kept = {}, std::span<const idx> owners = {})
         : numbering_(m, pinned), finest_(permute(m, numbering_.order))
     {
         data.validate(m.cells().size());
@@ -45,7 +47,17 @@ public:
             for (std::size_t v = 0; v < kept.size(); ++v)
                 if (kept[v]) keep[static_cast<std::size_t>(numbering_.order.vertices.old_to_new[v])] = 1;
         }
-        hierarchy_ = make_hierarchy(finest_, keep, params);
+        if (Element::dimension == 2 && !owners.empty())
+        {
+            const auto whole = numbering_.order.cells.apply(triangle_cover(owners));
+            std::vector<typename mesh<Element>::cell> cells;
+            for (std::size_t c = 0; c < whole.size(); ++c)
+                if (whole[c]) cells.push_back(finest_.cells()[c]);
+            hierarchy_ = make_hierarchy(mesh<Element>(finest_.points(), std::move(cells)), keep, params);
+            hierarchy_.levels[0].cells = finest_.cells();
+        }
+        else
+            hierarchy_ = make_hierarchy(finest_, keep, params);
         for (const auto& level : hierarchy_.levels)
         {
             const auto end = std::lower_bound(level.vertices.begin(), level.vertices.end(), numbering_.free_count);

@@ -31,6 +31,7 @@ struct regularized_problem
     std::vector<detail::target_shape<D>> shapes{}; ///< one an element
     double area_weight = 1;                        ///< of det + 1 / det against the shape
     std::vector<directed_spring<D>> springs{};
+    std::span<const idx> owners{}; ///< as in untangle_problem, which the state fills in; referred to
 };
 
 /// Steps of Newton's method on a regularised energy, with the Hessian of each element projected to positive

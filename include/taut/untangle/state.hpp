@@ -70,6 +70,7 @@ public:
     /// Newton's steps for a stage.
     std::unique_ptr<regularized_newton<Element>> make_newton(regularized_problem<Element> p) const
     {
+        p.owners = problem().owners;
         return newton_(std::move(p));
     }
 

@@ -100,7 +100,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
     if (result.outcome == untangle_outcome::gave_up)
     {
         result.ids = result.flips.flipped > 0 ? result.flips.ids : result.flips.branch_ids;
-        const std::string left = describe_defects<Element>(result.flips);
+        const std::string left = describe_defects<Element>(result.flips, problem.owners);
         result.reason = state.cancelled() ? "cancelled: " + left
                         : state.stopped() ? "time limit: " + left
                                           : "no stage makes progress: " + left +

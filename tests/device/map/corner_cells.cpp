@@ -45,6 +45,28 @@ io::volume_file bar(idx n)
     return file;
 }
 
+/// A sheet of n x n squares of the plane, every other column split into triangles.
+io::volume_file sheet(idx n)
+{
+    io::volume_file file;
+    file.dimension = 2;
+    for (idx j = 0; j <= n; ++j)
+        for (idx i = 0; i <= n; ++i) file.points.push_back(vec3(i, j, 0) / double(n));
+    io::cell_block quads{io::cell_kind::quad, {}}, triangles{io::cell_kind::triangle, {}};
+    for (idx j = 0; j < n; ++j)
+        for (idx i = 0; i < n; ++i)
+        {
+            const idx at = j * (n + 1) + i;
+            const std::array c{at, at + 1, at + n + 2, at + n + 1};
+            if (i % 2 == 0)
+                quads.corners.insert(quads.corners.end(), c.begin(), c.end());
+            else
+                for (const int corner : {0, 1, 2, 0, 2, 3}) triangles.corners.push_back(c[corner]);
+        }
+    file.cells = {quads, triangles};
+    return file;
+}
+
 bool all_valid(const io::volume_file& file, const std::vector<vec3>& x)
 {
     bool valid = true;
@@ -110,4 +132,55 @@ TEST_CASE("corner cells: tangled ones are smoothed to regular ones, and flat sid
         for (int k = 0; k < 3; ++k)
             if (const double side = file.points[v][k]; side == 0 || side == (k == 2 ? 2 : 1)) CHECK(r.x[v][k] == side);
     CHECK_THROWS_WITH_AS(smooth(q, tangled, {.owners = parts.cells}), doctest::Contains("regular"), parameter_error);
+}
+
+TEST_CASE("corner cells: quads among triangles of the plane are bent, on a hierarchy that covers them once")
+{
+    const auto parts = io::corner_simplices_of<triangle>(sheet(test::sized(40, 30))); // has coarser levels
+    const auto& m = parts.simplices;
+    const rigid_motion<3> turn{.from = vec3(1, 0.5, 0), .to = vec3(0.9, 0.9, 0), .axis = vec3(0, 0, 1), .angle = 1};
+    deform_params<triangle> how;
+    how.owners = parts.cells;
+    how.data.weights = parts.weights;
+    how.constraints = constraints(m);
+    for (idx v = 0; v < m.vertex_count(); ++v)
+    {
+        const vec3& p = m.points()[static_cast<std::size_t>(v)];
+        if (p.x == 0 || p.x == 1) how.constraints.pin(v, vec2(p.x == 0 ? p : turn(p)));
+    }
+    queue q;
+    const auto [x, report] = deform(q, m, how);
+    REQUIRE(report.outcome == outcome::valid);
+    CHECK(report.pins_held);
+    CHECK(report.converged);
+    CHECK(report.flips.flipped == 0);
+    for (const auto& [v, pin] : how.constraints.pins()) CHECK(x[static_cast<std::size_t>(v)] == pin.value);
+}
+
+TEST_CASE("corner cells: tangled quads are smoothed to squares; that they cannot be at rest is said by cell")
+{
+    const idx n = test::sized(40, 36);
+    const auto parts = io::corner_simplices_of<triangle>(sheet(n));
+    auto points = parts.simplices.points();
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> move(-0.6 / n, 0.6 / n);
+    for (vec3& p : points)
+        if (std::min(p.x, p.y) > 0 && std::max(p.x, p.y) < 1) p += vec3(move(random), move(random), 0);
+    queue q;
+    const auto r =
+        smooth(q, mesh<triangle>(points, parts.simplices.cells()), {.regular = parts.regular, .owners = parts.cells});
+    REQUIRE(r);
+    CHECK(r.before.worst.mean_ratio < 0);
+    CHECK(r.after.worst.mean_ratio > 0.4);
+    REQUIRE(!r.report.notes.empty());
+    CHECK(doctest::String(r.report.notes[0].c_str()) == doctest::Contains("corners of cells ("));
+
+    const auto file = bar(2);
+    const auto solid = io::corner_simplices_of(file);
+    auto turned = solid.simplices.points();
+    std::swap(turned.front(), turned.back());
+    deform_params<tetrahedron> how;
+    how.owners = solid.cells;
+    CHECK_THROWS_WITH_AS(deform(q, mesh<tetrahedron>(turned, solid.simplices.cells()), how),
+                         doctest::Contains("corners of cells ("), mesh_error);
 }

@@ -33,7 +33,8 @@ public:
     template <class Params>
     live_map(queue q, const mesh<Element>& m, const Params& params, precision how, const map& x,
              const ideal_elements<Element>* wanted = nullptr)
-        : live_map(q, mesh_levels<Element>(m, {}, {}, params.data), wanted, params, types_of(how))
+        : live_map(q, mesh_levels<Element>(m, {}, {}, params.data, {}, owners_of(params)), wanted, params,
+                   types_of(how))
     {
         load(x);
     }
@@ -113,6 +114,14 @@ private:
           x_(objective_.make_point()),
           single_(types.position == scalar_type::f32)
     {
+    }
+
+    static std::span<const idx> owners_of(const auto& params)
+    {
+        if constexpr (requires { params.owners; })
+            return params.owners;
+        else
+            return {}; // of a map: its triangles do not overlap
     }
 
     static newton_plan<Element> plan(const mesh_levels<Element>& levels, const ideal_elements<Element>* wanted,

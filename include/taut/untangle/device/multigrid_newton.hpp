@@ -44,7 +44,7 @@ newton_plan<Element> regularized_plan(const regularized_problem<Element>& proble
     const auto pinned = problem.held.pinned();
     try
     {
-        const mesh_levels<Element> levels(problem.rest, pinned);
+        const mesh_levels<Element> levels(problem.rest, pinned, {}, {}, {}, problem.owners);
         const auto fixed = levels.fixed(0);
         const auto free = static_cast<idx>(std::count(fixed.begin(), fixed.end(), char(0)));
         return {layout_of(levels.level(0), levels.order(), free), levels.cells(0), levels.transfers(0), fixed, form};

@@ -67,7 +67,8 @@ void judge_elements(const untangle_problem<Element>& p, infeasibility& found)
         };
         if (sign(std::make_index_sequence<Element::corners>{}) <= 0) inverted.push_back(c);
     }
-    const auto cells = [](const std::vector<idx>& ids) { return list_ids(Element::name, Element::names, ids); };
+    const auto cells = [&](const std::vector<idx>& ids)
+    { return list_first_elements<Element>(ids.size(), ids, p.owners); };
     found.prove(infeasibility_kind::inverted_element, std::move(inverted),
                 [&](const auto& ids)
                 { return cells(ids) + " with all vertices pinned, flipped or flat; move or free a vertex of each"; });

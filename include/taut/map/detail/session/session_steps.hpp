@@ -269,7 +269,7 @@ protected:
         }
         else
         {
-            r.notes.push_back("in exact arithmetic the map had " + describe_defects<Element>(flips) +
+            r.notes.push_back("in exact arithmetic the map had " + describe_defects<Element>(flips, owners()) +
                               "; the last one is returned");
             r.converged = false;
             load(scaled(last.x));

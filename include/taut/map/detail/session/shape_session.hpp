@@ -47,15 +47,8 @@ public:
           params_(validated(params)),
           start_(start_of(m, params_)),
           rest_(in_run_lengths(m, params_.rest)),
-          ideal_(ideals(rest_, params_, unit_scale(m)))
+          ideal_((require_deformable(), ideals(rest_, params_, unit_scale(m))))
     {
-        require_deformable();
-        params_.data.validate(m.cells().size());
-        for (const auto& [size, field] :
-             {std::pair{params_.targets.size(), "targets"}, {params_.owners.size(), "owners"}})
-            if (size != 0 && size != m.cells().size())
-                throw parameter_error(field,
-                                      std::to_string(size) + " for " + std::to_string(m.cells().size()) + " cells");
         require_slides();
         this->lengths_ = unit_scale(m);
         wanted = params_.constraints.on(rest_);
@@ -81,7 +74,8 @@ private:
                 return;
             }
             r.reason.clear();
-            r.notes.push_back("the shape had " + describe_defects<Element>(flips) + "; it was untangled");
+            r.notes.push_back("the shape had " + describe_defects<Element>(flips, params_.owners) +
+                              "; it was untangled");
             start_ = this->unscaled(std::move(found.map));
             flips = std::move(found.flips);
         }
@@ -130,6 +124,12 @@ private:
     /// Any number of components, holes and handles; vertices without cells stay where they are.
     void require_deformable() const
     {
+        params_.data.validate(rest_.cells().size());
+        for (const auto& [size, field] :
+             {std::pair{params_.targets.size(), "targets"}, {params_.owners.size(), "owners"}})
+            if (size != 0 && size != rest_.cells().size())
+                throw parameter_error(field,
+                                      std::to_string(size) + " for " + std::to_string(rest_.cells().size()) + " cells");
         auto found =
             check(rest_,
                   {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
@@ -141,7 +141,7 @@ private:
         if (!params_.owners.empty()) // which share facets
             std::erase_if(found, [](const mesh_finding& f)
                           { return f.fault != mesh_fault::degenerate_cell && f.fault != mesh_fault::inverted_cell; });
-        if (!found.empty()) throw mesh_error(std::move(found.front()));
+        if (!found.empty()) throw mesh_error(describe<Element>(found[0].fault, found[0].ids, params_.owners));
         if constexpr (D == 2)
             for (const vec3& p : rest_.points())
                 if (p.z != 0)
