@@ -56,7 +56,7 @@ protected:
     using base::last, base::changed, base::queue_, base::lengths_, base::live_, base::held_, base::on_way_;
     using base::rest, base::constrain, base::load, base::problem, base::certified, base::seen, base::marks,
         base::scaled;
-    using base::user_coordinates, base::placed;
+    using base::user_coordinates, base::placed, base::owners;
 
     /// Params: of maps or shapes, validated. time_limit is for the first map.
     template <class Params>
