@@ -94,6 +94,15 @@ public:
         return change([&](auto& c) { c.release(v); });
     }
 
+    /// Goes back to what was once asked and to the map of that time, as for an undo: the next solve() goes on from
+    /// there. x: one position a vertex. Throws parameter_error, and all is as before, where x has another size or is
+    /// not injective, or where there was no map yet; constraint_error for constraints of another mesh.
+    session& restore(const taut::constraints<Element>& asked, const std::vector<point>& x)
+    {
+        body_->restore(asked, x);
+        return *this;
+    }
+
     /// What is asked at present.
     const taut::constraints<Element>& constraints() const { return body_->wanted; }
 

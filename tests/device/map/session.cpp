@@ -460,6 +460,40 @@ TEST_CASE("session: what cannot be is refused, and everything is as before")
     CHECK_THROWS_AS(session(q, m, {.constraints = taut::constraints(larger).pin(1600, {0, 0})}), constraint_error);
 }
 
+TEST_CASE("session: restored, it has the map and the constraints of before, and goes on from there")
+{
+    const auto surface = bump();
+    queue q;
+    session s(q, surface);
+    CHECK_THROWS_WITH_AS(s.restore({}, {}), doctest::Contains("no map yet"), parameter_error);
+    REQUIRE(s.solve());
+    const idx v = surface.vertex_count() / 2;
+    const auto asked = s.constraints();
+    const auto x = s.x();
+    const vec2 there = x[static_cast<std::size_t>(v)] + vec2(0.1 * extent(x), 0);
+    REQUIRE(s.pin(v, there).solve().report.pins_held);
+    REQUIRE(s.x() != x);
+
+    s.restore(asked, x);
+    CHECK(s.x() == x);
+    CHECK(s.constraints().empty());
+    const auto back = s.solve();
+    CHECK(back.report.converged);
+    CHECK(longest_move(back.x, x) < 1e-4 * extent(x));
+
+    auto folded = x;
+    folded[static_cast<std::size_t>(v)] += vec2(3 * extent(x), 0);
+    CHECK_THROWS_WITH_AS(s.restore(asked, folded), doctest::Contains("not injective"), parameter_error);
+    CHECK_THROWS_AS(s.restore(asked, {}), parameter_error);
+    CHECK(s.x() == back.x);
+
+    const auto pinned = s.pin(v, there).solve();
+    s.restore(asked, x);
+    s.restore(s.constraints(), x).pin(v, there); // and what is asked then holds
+    CHECK(s.solve().x[static_cast<std::size_t>(v)] == there);
+    CHECK(pinned.x[static_cast<std::size_t>(v)] == there);
+}
+
 TEST_CASE("session: infeasible first pins are no map but a proof; once they are changed there is one")
 {
     queue q;

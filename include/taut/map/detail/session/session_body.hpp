@@ -29,6 +29,10 @@ public:
 
     virtual session_result<Element> solve(const session_budget& budget) = 0;
 
+    /// Puts other constraints and another map in the place of the last ones. Throws parameter_error, constraint_error,
+    /// and nothing has changed.
+    virtual void restore(const constraints<Element>& asked, const map& x) = 0;
+
     /// Where the last map has vertices. Throws constraint_error.
     map places_of(std::span<const idx> vertices) const
     {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,23 @@ public:
         last.report.stages = clock.stages.stages();
         last.report.counters = counted_since(before, queue_.counters());
         return last;
+    }
+
+    void restore(const constraints<Element>& asked, const map& x) override
+    {
+        if (!live_) throw parameter_error("x", "cannot be restored: there is no map yet; call solve() first");
+        if (x.size() != last.x.size())
+            throw parameter_error("x", std::to_string(x.size()) + " positions for " + std::to_string(last.x.size()) +
+                                           " vertices");
+        auto there = asked.on(rest());
+        auto flips = certified(x);
+        if (!flips) throw parameter_error("x", "is not injective: restore a map that solve() returned");
+        this->wanted = std::move(there);
+        last.x = x;
+        last.report.flips = std::move(flips);
+        last.report.converged = false;
+        changed = true; // so that the next solve() sees who is held
+        load(scaled(x));
     }
 
 protected:
