@@ -22,6 +22,7 @@ command add_deform(CLI::App& program, std::chrono::steady_clock::time_point laun
 command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_check(CLI::App& program);
 command add_eval(CLI::App& program);
+command add_view(CLI::App& program);
 command add_devices(CLI::App& program);
 
 /// All of them, in the order in which the help lists them.
@@ -30,7 +31,7 @@ inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_
     return {add_unwrap(program, launch), add_untangle(program, launch),
             add_deform(program, launch), add_smooth(program, launch),
             add_check(program),          add_eval(program),
-            add_devices(program)};
+            add_view(program),           add_devices(program)};
 }
 
 } // namespace taut::tools

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+"""Drives a headless Chromium over the pipes of its debugging protocol."""
+import base64
+import json
+import os
+import subprocess
+import tempfile
+import time
+
+
+class Browser:
+    """One page at a time. Use as a context."""
+
+    def __init__(self, program="chromium", size=(1280, 720), dark=False):
+        self.profile = tempfile.TemporaryDirectory()
+        to_child, self.to = os.pipe()
+        self.back, from_child = os.pipe()
+
+        def pipes():  # 3: it reads, 4: it writes
+            os.dup2(to_child, 13)
+            os.dup2(from_child, 14)
+            os.dup2(13, 3)
+            os.dup2(14, 4)
+
+        self.process = subprocess.Popen(
+            [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader",
+             "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--no-first-run", "--hide-scrollbars",
+             "--disable-background-networking", "--disable-component-update", "--force-device-scale-factor=1",
+             "--remote-debugging-pipe", f"--window-size={size[0]},{size[1]}",
+             f"--user-data-dir={self.profile.name}", "about:blank"],
+            preexec_fn=pipes, close_fds=False, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        os.close(to_child)
+        os.close(from_child)
+        self.pending = b""
+        self.number = 0
+        self.session = None
+        self.events = []
+        target = next(t for t in self.call("Target.getTargets")["targetInfos"] if t["type"] == "page")
+        self.session = self.call("Target.attachToTarget", targetId=target["targetId"], flatten=True)["sessionId"]
+        self.call("Page.enable")
+        self.call("Runtime.enable")
+        self.call("Log.enable")
+        self.call("Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1, mobile=False)
+        if dark:
+            self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        os.close(self.to)
+        os.close(self.back)
+        try:
+            self.profile.cleanup()
+        except OSError:  # its last processes may still write
+            pass
+
+    def call(self, method, **params):
+        """The result of a command; what else comes in between is kept in events."""
+        self.number += 1
+        message = {"id": self.number, "method": method, "params": params}
+        if self.session:
+            message["sessionId"] = self.session
+        os.write(self.to, json.dumps(message).encode() + b"\0")
+        while True:
+            while b"\0" not in self.pending:
+                chunk = os.read(self.back, 1 << 20)
+                if not chunk:
+                    raise RuntimeError("the browser has ended")
+                self.pending += chunk
+            one, self.pending = self.pending.split(b"\0", 1)
+            answer = json.loads(one)
+            if answer.get("id") != self.number:
+                self.events.append(answer)
+                continue
+            if "error" in answer:
+                raise RuntimeError(f"{method}: {answer['error']['message']}")
+            return answer["result"]
+
+    def open(self, url):
+        self.call("Page.navigate", url=url)
+
+    def evaluate(self, expression):
+        r = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        if "exceptionDetails" in r:
+            raise RuntimeError(f"{expression}: {r['exceptionDetails']}")
+        return r["result"].get("value")
+
+    def wait(self, expression, seconds=60):
+        end = time.monotonic() + seconds
+        while not self.evaluate(f"Boolean({expression})"):
+            if time.monotonic() > end:
+                raise RuntimeError(f"still not so after {seconds} s: {expression}")
+            time.sleep(0.02)
+
+    def mouse(self, kind, x, y, modifiers=0, button="left"):
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, buttons=0 if kind == "mouseReleased" else 1,
+                  clickCount=1, modifiers=modifiers)
+
+    def drag(self, start, end, steps=10, pause=0.016, modifiers=0):
+        self.mouse("mousePressed", *start, modifiers)
+        for k in range(1, steps + 1):
+            self.mouse("mouseMoved", start[0] + (end[0] - start[0]) * k / steps, start[1] + (end[1] - start[1]) * k / steps, modifiers)
+            time.sleep(pause)
+        self.mouse("mouseReleased", *end, modifiers)
+
+    def key(self, key, modifiers=0):
+        code = {"z": 90, " ": 32}.get(key, 0)
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, modifiers=modifiers, windowsVirtualKeyCode=code)
+
+    def screenshot(self, path):
+        with open(path, "wb") as f:
+            f.write(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
+
+    def errors(self):
+        """Exceptions and refusals that the page met."""
+        self.evaluate("0")
+        bad = [e["params"]["exceptionDetails"]["text"] for e in self.events if e.get("method") == "Runtime.exceptionThrown"]
+        return bad + [e["params"]["entry"]["text"] for e in self.events
+                      if e.get("method") == "Log.entryAdded" and e["params"]["entry"]["level"] == "error"]

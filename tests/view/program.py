@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: MIT
+"""program.py TAUT FOLDER: `taut view` as a page and as a stranger meets it."""
+import math
+import os
+import struct
+import sys
+import time
+import tempfile
+
+from client import Program, align, focus, places, read, redo, relax, release, save, seen, undo
+
+
+def dome(path, n=24):
+    """A round dome as OBJ: n x n squares, bent."""
+    with open(path, "w") as f:
+        for j in range(n + 1):
+            for i in range(n + 1):
+                x, y = i / n, j / n
+                f.write(f"v {x} {y} {0.6 * math.sin(3 * x) * math.sin(3 * y)}\n")
+        for j in range(n):
+            for i in range(n):
+                a = 1 + j * (n + 1) + i
+                f.write(f"f {a} {a + 1} {a + n + 2}\nf {a} {a + n + 2} {a + n + 1}\n")
+    return n
+
+
+def bar(path, n=(6, 2, 2)):
+    """A bar of tetrahedra as MEDIT."""
+    index = lambda i, j, k: 1 + i + (n[0] + 1) * (j + (n[1] + 1) * k)
+    points = [(i, j, k) for k in range(n[2] + 1) for j in range(n[1] + 1) for i in range(n[0] + 1)]
+    cells = []
+    for k in range(n[2]):
+        for j in range(n[1]):
+            for i in range(n[0]):
+                for a, b in ((0, 1), (1, 0), (0, 2), (2, 0), (1, 2), (2, 1)):
+                    corner = [i, j, k]
+                    way = [tuple(corner)]
+                    for axis in (a, b, 3 - a - b):
+                        corner[axis] += 1
+                        way.append(tuple(corner))
+                    if (a, b) in ((1, 0), (0, 2), (2, 1)):
+                        way[2], way[3] = way[3], way[2]
+                    cells.append([index(*c) for c in way])
+    with open(path, "w") as f:
+        f.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n")
+        f.writelines(f"{x} {y} {z} 0\n" for x, y, z in points)
+        f.write(f"Tetrahedra\n{len(cells)}\n")
+        f.writelines(f"{a} {b} {c} {d} 0\n" for a, b, c, d in cells)
+        f.write("End\n")
+
+
+def at(state, v, d=2):
+    return state["positions"][d * v:d * v + d]
+
+
+def near(a, b, tolerance=1e-6):
+    return all(abs(x - y) <= tolerance for x, y in zip(a, b, strict=True))
+
+
+def areas(model, positions):
+    f = model["faces"]
+    for i in range(0, len(f), 3):
+        (ax, ay), (bx, by), (cx, cy) = (positions[2 * v:2 * v + 2] for v in f[i:i + 3])
+        yield (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
+def a_page(path, n):
+    with Program(program, path) as p:
+        s = p.socket()
+        model = s.message("model")
+        assert (model["dimension"], model["map"], model["name"]) == (2, 1, "dome.obj")
+        assert len(model["points"]) == 3 * (n + 1) ** 2 and len(model["faces"]) == 6 * n * n
+        first = s.message("state")
+        assert first["converged"] and first["writer"] and not first["pins"] and not first["can_undo"]
+        middle = (n + 1) ** 2 // 2
+        x, y = at(first, middle)
+
+        for k in range(1, 11):  # one drag
+            s.send(places(7, [(middle, 3, (x + 0.02 * k, y, 0))]))
+            shown = s.message("state")
+            assert shown["flipped"] == 0 and min(areas(model, shown["positions"])) > 0
+        corner = 0
+        s.send(places(8, [(corner, 3, (*at(first, corner), 0))]))
+        s.send(places(9, [(middle, 3, (x + 0.1, y + 0.1, 0))]))
+        while True:
+            rest = s.rest()
+            if rest["held"] and rest["pins"].get(middle, (0, [0, 0]))[1][:2] == [x + 0.1, y + 0.1]:
+                break
+        assert near(at(rest, middle), (x + 0.1, y + 0.1)) and near(at(rest, corner), at(first, corner)), rest
+        assert rest["energy"] > first["energy"] and min(areas(model, rest["positions"])) > 0
+
+        s.send(undo())  # of the second drag of the middle
+        s.send(undo())  # of the pin at the corner
+        s.send(undo())  # of the first drag, all ten of its messages
+        while True:
+            back = s.rest()
+            if not back["pins"]:
+                break
+        assert back["positions"] == first["positions"] and back["energy"] == first["energy"] and not back["can_undo"]
+        s.send(redo())
+        while not (state := s.rest())["pins"]:
+            pass
+        assert list(state["pins"]) == [middle]
+        s.send(release(10, [middle]))
+        while s.rest()["pins"]:
+            pass
+
+        # What is outside of a focus stays where it is.
+        inside = [f for f in range(2 * n * n) if n // 4 <= (f // 2) % n < 3 * n // 4 and n // 4 <= f // 2 // n < 3 * n // 4]
+        s.send(focus(11, inside))
+        s.send(places(12, [(middle, 3, (x + 0.05, y - 0.05, 0))]))
+        while not ((state := s.rest())["pins"] and state["held"]):
+            pass
+        s.send(release(13, [middle]))
+        s.send(relax(14))
+        while (focused := s.rest())["pins"] or not focused["converged"]:
+            pass
+        s.send(relax(15, afresh=True))
+        while (afresh := s.rest())["number"] <= focused["number"] or not afresh["converged"]:
+            pass
+        border = [v for v in range((n + 1) ** 2) if v % (n + 1) < n // 4 or v // (n + 1) < n // 4]
+        assert all(near(at(focused, v), at(state, v), 1e-6) and near(at(afresh, v), at(state, v), 1e-6) for v in border)
+        assert abs(afresh["energy"] - focused["energy"]) < 1e-4 * focused["energy"]
+        s.send(focus(16, []))
+
+        line = [(n // 2) * (n + 1) + i for i in range(n + 1)]
+        s.send(align(17, 1, line))
+        while not (len((state := s.rest())["pins"]) == len(line) and state["held"]):
+            pass
+        heights = {at(state, v)[1] for v in line}
+        assert len(heights) == 1 and all(held == 2 for held, _ in state["pins"].values()), heights
+
+        s.send(save())
+        file = s.message("file")
+        assert file["name"] == "dome-flat.obj" and file["bytes"].count(b"\nvt ") + file["bytes"].startswith(b"vt ") == (n + 1) ** 2
+
+        # Wishes that cannot be granted are answered, and nothing changes.
+        s.send(places(18, [(10 ** 6, 3, (0, 0, 0))]))
+        assert "1000000" in s.message("note")["text"]
+        s.send(focus(19, [10 ** 6]))
+        assert "face 1000000" in s.message("note")["text"]
+        s.send(align(20, 2, line))
+        assert "coordinate" in s.message("note")["text"]
+
+        # A second page looks on until the first one goes.
+        other = p.socket()
+        assert other.message("model")["name"] == "dome.obj" and not other.message("state")["writer"]
+        other.send(places(21, [(middle, 3, (0, 0, 0))]))
+        assert "another page" in other.message("note")["text"]
+        s.close()
+        while not other.message("state")["writer"]:
+            pass
+        other.close()
+
+
+def strangers(path):
+    with Program(program, path) as p:
+        here = f"http://127.0.0.1:{p.port}"
+        assert p.request()[0] == 200
+        status, head, text = p.request("/page.js")
+        assert status == 200 and len(text) > 10000 and "nosniff" in head and "frame-ancestors 'none'" in head
+        assert p.request(method="HEAD")[2] == b""
+        assert p.request("/page.css", origin=here)[0] == 200
+        assert p.request(host=f"localhost:{p.port}")[0] == 200
+        for rude in ({"host": "evil.example"}, {"host": f"evil.example:{p.port}"}, {"host": "127.0.0.1"}, {"origin": "http://evil.example"},
+                     {"origin": "null"}, {"origin": f"http://localhost:{p.port}"}, {"target": "/live", "host": "evil.example"}):
+            assert p.request(**rude)[0] == 403, rude
+        assert p.request("/../etc/passwd")[0] == 404 and p.request("/live")[0] == 404
+        assert p.request(method="POST", extra=("Content-Length: 0",))[0] == 405
+        assert p.request(extra=("Content-Length: 100000",), body=b"x" * 1000)[0] == 413
+        assert p.request(extra=("X: " + "x" * 20000,))[0] == 413
+        for rude in ({"host": "evil.example"}, {"origin": "http://evil.example"}, {"origin": ""}, {"token": ""}, {"token": "0" * 64},
+                     {"token": p.token[:-1]}, {"token": p.token + "0"}, {"target": "/"}, {"host": f"localhost:{p.port}", "origin": here}):
+            assert p.socket(**rude) == 403, rude
+        assert not isinstance(p.socket(host=f"localhost:{p.port}"), int)
+
+        s = p.socket()
+        s.message("state")
+        for nonsense in (b"", b"\x00", b"\x63abcdefgh", places(1, [])[:-1], places(1, []) + b"x", struct.pack("<BII", 1, 1, 2 ** 32 - 1),
+                         places(1, [(1, 3, (math.nan, 0, 0))]), places(1, [(1, 9, (0, 0, 0))]), struct.pack("<BIIi", 2, 1, 1, -1)):
+            s.send(nonsense)
+            assert s.message("note")["text"], nonsense
+        s.send(b"text", opcode=1)
+        assert "binary" in s.message("note")["text"]
+        try:
+            for _ in range(200):
+                s.send(b"\x00")
+                s.message("note")
+            raise AssertionError("nonsense for ever")
+        except (EOFError, ConnectionError):
+            s.close()
+
+        s = p.socket()
+        s.message("state")
+        try:
+            s.send(b"", length=1 << 40)
+            s.message("note")
+            raise AssertionError("an endless frame")
+        except (EOFError, ConnectionError):
+            s.close()
+
+        # A page that does not read gets no more than it was promised, and others are served.
+        deaf = p.socket()
+        for k in range(500):
+            deaf.send(places(k, [(5, 3, (0.001 * k, 0, 0))]))
+        assert p.request()[0] == 200
+        idle = [p.socket() for _ in range(14)]
+        for i in idle:
+            i.close()
+        deaf.close()
+        time.sleep(0.5)
+        assert p.request()[0] == 200 and p.process.poll() is None
+
+        # At rest it costs no time.
+        s = p.socket()
+        while not (state := s.message("state"))["writer"] or state["working"]:
+            pass
+        spent = lambda: sum(map(int, open(f"/proc/{p.process.pid}/stat").read().rsplit(")", 1)[1].split()[11:13]))
+        time.sleep(1)
+        begin = spent()
+        time.sleep(3)
+        assert spent() - begin <= 6, "an idle page must cost nothing"  # ticks of 10 ms
+
+
+def volume(path):
+    with Program(program, path) as p:
+        s = p.socket()
+        model = s.message("model")
+        assert model["dimension"] == 3 and not model["map"]
+        state = s.message("state")
+        last = len(model["points"]) // 3 - 1
+        s.send(places(1, [(0, 7, (0, 0, 0)), (last, 7, (6.5, 2.5, 2))]))
+        while not (len((state := s.rest())["pins"]) == 2 and state["held"]):
+            pass
+        assert near(at(state, last, 3), (6.5, 2.5, 2)) and state["flipped"] == 0
+        s.send(save())
+        file = s.message("file")
+        assert file["name"] == "bar.mesh" and b"\n6.5 2.5 2 0\n" in file["bytes"], file["bytes"][-400:]
+
+
+if __name__ == "__main__":
+    program, folder = sys.argv[1], tempfile.mkdtemp(dir=sys.argv[2])
+    n = dome(f"{folder}/dome.obj")
+    bar(f"{folder}/bar.mesh")
+    a_page(f"{folder}/dome.obj", n)
+    strangers(f"{folder}/dome.obj")
+    volume(f"{folder}/bar.mesh")
+    print("view: all as it should be")

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <spawn.h>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "open_queue.hpp"
+#include "shared_options.hpp"
+#include "view/page_files.hpp"
+#include "view/server.hpp"
+#include "view/subjects.hpp"
+#include "view/workbench.hpp"
+
+extern char** environ;
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct view_options
+{
+    view::source from;
+    std::string device;
+    unsigned short port = 0;
+    double frame = 15; ///< milliseconds
+    bool no_browser = false;
+};
+
+void open_browser(const std::string& url)
+{
+    std::string program = "xdg-open", address = url;
+    char* arguments[] = {program.data(), address.data(), nullptr};
+    pid_t child = 0;
+    posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments,
+                 environ); // where there is none, there is the URL
+}
+
+exit_code serve(const view_options& options)
+{
+    queue q = tools::open_queue(options.device, false);
+    auto subject = view::make_subject(q, options.from);
+    std::optional<view::server> server;
+    try
+    {
+        server.emplace(options.port, view::page{view::page_html, view::page_script, view::page_style},
+                       encode(subject->model()));
+    }
+    catch (const std::exception& e)
+    {
+        throw usage_error("--port " + std::to_string(options.port) + ": " + e.what() + "; leave it out for a free one");
+    }
+    view::workbench bench(std::move(subject),
+                          {.show = [&](auto state) { server->show(std::move(state)); },
+                           .tell = [&](std::string m) { server->tell(std::move(m)); }},
+                          std::chrono::duration<double>(options.frame / 1000));
+    std::cout << server->url() << std::endl;
+    keep(true); // Ctrl-C ends it as it should be ended
+    if (!options.no_browser) open_browser(server->url());
+    server->run([&](view::message m) { return bench.wish(std::move(m)); }, [] { return !interrupted(); });
+    return exit_code::valid;
+}
+
+} // namespace
+
+command add_view(CLI::App& program)
+{
+    const auto options = std::make_shared<view_options>();
+    auto& app =
+        *program.add_subcommand("view", "Work on a map or shape with a mouse, on a page that only this machine sees");
+    add_path(app, "IN", options->from.path, standard_input, "Surface, volume or planar mesh")
+        ->required()
+        ->type_name("FILE");
+    add_format(app, options->from.format);
+    add_path(app, "--pins", options->from.pins, standard_input, "First pins and springs, as for unwrap and deform")
+        ->type_name("FILE.csv");
+    app.add_flag("--holes", options->from.holes, "Take surfaces with holes");
+    app.add_option("--port", options->port, "Port of 127.0.0.1; 0: a free one")->type_name("N")->capture_default_str();
+    app.add_option("--frame", options->frame, "Milliseconds of work between two pictures")
+        ->type_name("MS")
+        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
+        ->capture_default_str();
+    app.add_flag("--no-browser", options->no_browser, "Only print the address");
+    add_device(app, options->device);
+    return [options] { return serve(*options); };
+}
+
+} // namespace taut::tools

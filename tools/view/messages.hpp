@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace taut::view
+{
+
+/// The language of page and program: binary messages, little-endian, one a frame; docs/view.md has the table.
+
+/// A message that is none. what() says where it ends to make sense.
+class message_error : public std::runtime_error
+{
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Where a vertex has to be: bit k of held says that coordinate k is x[k].
+struct place
+{
+    std::int32_t vertex;
+    std::uint8_t held;
+    double x[3];
+};
+
+/// What a page asks for.
+namespace ask
+{
+struct places ///< pins vertices, or moves their pins
+{
+    std::vector<place> pins;
+};
+struct release ///< takes pins back
+{
+    std::vector<std::int32_t> vertices;
+};
+struct focus ///< holds all outside of some faces; of none: nothing
+{
+    std::vector<std::int32_t> faces;
+};
+struct relax ///< goes on until it has converged; afresh: from a new first map
+{
+    bool afresh;
+};
+struct align ///< gives a coordinate of vertices one value, their mean
+{
+    std::uint8_t axis;
+    std::vector<std::int32_t> vertices;
+};
+struct undo
+{
+};
+struct redo
+{
+};
+struct save
+{
+};
+struct seen ///< the state of this number has been drawn: the next one may come
+{
+    std::uint32_t state;
+};
+} // namespace ask
+
+using wish = std::variant<ask::places, ask::release, ask::focus, ask::relax, ask::align, ask::undo, ask::redo,
+                          ask::save, ask::seen>;
+
+/// Wishes of one gesture, say of a drag, are undone together.
+struct message
+{
+    std::uint32_t gesture;
+    wish what;
+};
+
+/// Throws message_error: a kind that there is not, too short or too long, numbers that are not finite.
+message parse(std::span<const unsigned char> bytes);
+
+/// What is shown. Points have three coordinates.
+struct model
+{
+    std::uint8_t dimension;           ///< of the positions in states: 2 or 3
+    bool map;                         ///< of a surface; else a shape that deforms
+    std::string name;                 ///< of the file
+    std::vector<float> points;        ///< at rest
+    std::vector<std::uint32_t> faces; ///< three corners each
+};
+
+/// How it is at one time.
+struct state
+{
+    std::uint32_t number = 0;
+    bool converged = false;
+    bool held = true; ///< pins are at their places
+    bool working = false;
+    bool can_undo = false, can_redo = false;
+    std::uint32_t flipped = 0;
+    double energy = 0;
+    double distance = 0; ///< of the farthest vertex from its pin
+    double seconds = 0;  ///< from the wishes to this state
+    std::vector<place> pins;
+    std::vector<float> positions;
+};
+
+std::string encode(const model& m);
+
+/// writer: whether the page that gets it may change things.
+std::string encode(const state& s, bool writer);
+
+/// A sentence for the person at the page.
+std::string encode_note(std::string_view text);
+
+/// A file to be saved.
+std::string encode_file(std::string_view name, std::string_view bytes);
+
+} // namespace taut::view

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "messages.hpp"
+
+namespace taut::view
+{
+
+/// What a page works on: a map of a surface, or a shape. Called from one thread.
+class subject
+{
+public:
+    virtual ~subject() = default;
+
+    virtual view::model model() const = 0;
+
+    /// These throw what the library does, and nothing has changed.
+    virtual void pin(std::span<const place> pins) = 0;
+    virtual void release(std::span<const std::int32_t> vertices) = 0;
+    virtual void focus(std::span<const std::int32_t> faces) = 0;
+    virtual void align(int axis, std::span<const std::int32_t> vertices) = 0;
+    virtual void start_afresh() = 0;
+
+    /// Goes on for some milliseconds, and at least for a step; whether there is more to gain.
+    virtual bool advance(std::chrono::duration<double> time) = 0;
+
+    /// Energy, pins, positions and whether it has converged; what is about the workbench stays as it is.
+    virtual void describe(state& s) const = 0;
+
+    /// All that undo brings back.
+    class memory
+    {
+    public:
+        virtual ~memory() = default;
+    };
+    virtual std::shared_ptr<const memory> remember() const = 0;
+    virtual void go_back(const memory& before) = 0;
+
+    /// The name and the bytes of the file that `taut` would write.
+    struct saved
+    {
+        std::string name, bytes;
+    };
+    virtual saved write() const = 0;
+};
+
+} // namespace taut::view

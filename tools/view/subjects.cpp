@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "subjects.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <taut/io/cell_faces.hpp>
+#include <taut/io/make_untangle_problem.hpp>
+#include <taut/io/pins.hpp>
+#include <taut/io/read_volume.hpp>
+#include <taut/io/write_obj.hpp>
+#include <taut/map/deform.hpp>
+#include <taut/map/parameterize.hpp>
+
+#include "../failure.hpp"
+#include "../seams.hpp"
+#include "../volume/volume_case.hpp"
+#include "session_subject.hpp"
+
+namespace taut::view
+{
+
+namespace
+{
+
+using corners = std::array<std::uint32_t, 3>;
+
+std::vector<float> as_floats(const std::vector<vec3>& points)
+{
+    std::vector<float> list;
+    list.reserve(3 * points.size());
+    for (const vec3& p : points)
+        for (int k = 0; k < 3; ++k) list.push_back(static_cast<float>(p[k]));
+    return list;
+}
+
+std::vector<std::uint32_t> as_list(const std::vector<corners>& faces)
+{
+    std::vector<std::uint32_t> list;
+    list.reserve(3 * faces.size());
+    for (const corners& f : faces) list.insert(list.end(), f.begin(), f.end());
+    return list;
+}
+
+std::vector<corners> as_corners(const std::vector<std::array<idx, 3>>& cells)
+{
+    std::vector<corners> faces;
+    faces.reserve(cells.size());
+    for (const auto& c : cells)
+        faces.push_back(
+            {static_cast<std::uint32_t>(c[0]), static_cast<std::uint32_t>(c[1]), static_cast<std::uint32_t>(c[2])});
+    return faces;
+}
+
+std::string base_name(const std::string& path)
+{
+    return std::filesystem::path(path).filename().string();
+}
+
+template <class Element>
+taut::constraints<Element> pinned(const mesh<Element>& m, const std::vector<io::pin<Element::dimension>>& pins)
+{
+    taut::constraints<Element> c(m);
+    add_pins(c, pins);
+    return c;
+}
+
+/// What a surface file has, cut open along its seams where it must be. At one place: a session refers to it.
+struct opened_surface
+{
+    explicit opened_surface(const source& from)
+        : file(io::read_surface_file(from.path, from.format)),
+          cut(tools::cut_open(file, {.one_boundary = !from.holes}, false))
+    {
+        if (from.pins.empty()) return;
+        const auto pins = io::read_pins<2>(from.pins, file.surface.vertex_count());
+        if (cut) tools::require_undivided(pins, *cut);
+        constraints = pinned(surface(), pins);
+    }
+    const mesh<triangle>& surface() const { return cut ? cut->surface : file.surface; }
+
+    io::surface_file file;
+    std::optional<io::cut_surface> cut;
+    taut::constraints<triangle> constraints;
+};
+
+parameterize_params params_of(const opened_surface& in)
+{
+    parameterize_params p;
+    p.constraints = in.constraints;
+    return p;
+}
+
+/// Of this user alone.
+struct temporary_folder
+{
+    temporary_folder()
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "taut-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw error("no temporary folder can be made: set TMPDIR");
+        path = name;
+    }
+    temporary_folder(const temporary_folder&) = delete;
+    temporary_folder& operator=(const temporary_folder&) = delete;
+    ~temporary_folder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    std::filesystem::path path;
+};
+
+class map_subject final : private opened_surface, public session_subject<triangle>
+{
+public:
+    map_subject(queue& q, const source& from)
+        : opened_surface(from),
+          session_subject<triangle>(surface(), std::make_unique<session<triangle>>(q, surface(), params_of(*this))),
+          queue_(q),
+          name_(base_name(from.path)),
+          faces_(as_corners(surface().cells()))
+    {
+    }
+
+    view::model model() const override { return {2, true, name_, as_floats(surface().points()), as_list(faces_)}; }
+
+    void start_afresh() override
+    {
+        parameterize_params p;
+        p.constraints = all_held();
+        auto result = parameterize(queue_, surface(), p);
+        if (!result) throw error(result.reason());
+        go_to(result.uv);
+    }
+
+    subject::saved write() const override
+    {
+        const temporary_folder folder;
+        const auto path = folder.path / "map.obj";
+        if (cut)
+            io::write_obj(path, file, *cut, x());
+        else
+            io::write_obj(path, file, x());
+        std::ifstream in(path, std::ios::binary);
+        std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        return {std::filesystem::path(name_).stem().string() + "-flat.obj", std::move(bytes)};
+    }
+
+private:
+    const std::vector<corners>& shown() const override { return faces_; }
+
+    queue& queue_;
+    std::string name_;
+    std::vector<corners> faces_;
+};
+
+/// What a volume file has, at one place.
+template <class Element>
+struct opened_volume
+{
+    opened_volume(io::volume_file f, const source& from) : file(std::move(f)), input(file)
+    {
+        if (!from.pins.empty())
+            constraints = pinned(input.simplices(),
+                                 io::read_pins<Element::dimension>(from.pins, static_cast<idx>(file.points.size())));
+    }
+
+    deform_params<Element> params() const
+    {
+        deform_params<Element> p;
+        p.constraints = constraints;
+        p.owners = input.owners();
+        if (input.parts().overlapping) p.data.weights = input.parts().weights;
+        return p;
+    }
+
+    /// The skin, or all of a planar mesh.
+    std::vector<corners> faces() const
+    {
+        std::vector<corners> list;
+        if constexpr (Element::dimension == 2)
+            list = as_corners(input.simplices().cells());
+        else
+        {
+            const auto sides = io::cell_faces_of(file);
+            for (std::size_t f = 0; f < sides.faces.size(); ++f)
+                if (sides.twin[f] < 0)
+                {
+                    const auto around = sides.faces[f].corners();
+                    for (std::size_t k = 2; k < around.size(); ++k)
+                        list.push_back({static_cast<std::uint32_t>(around[0]),
+                                        static_cast<std::uint32_t>(around[k - 1]),
+                                        static_cast<std::uint32_t>(around[k])});
+                }
+        }
+        return list;
+    }
+
+    io::volume_file file;
+    tools::volume_case<Element> input;
+    taut::constraints<Element> constraints;
+};
+
+template <class Element>
+class shape_subject final : private opened_volume<Element>, public session_subject<Element>
+{
+    using opened = opened_volume<Element>;
+    using base = session_subject<Element>;
+    using opened::input;
+
+public:
+    shape_subject(queue& q, io::volume_file f, const source& from)
+        : opened(std::move(f), from),
+          base(input.simplices(), std::make_unique<session<Element>>(q, input.simplices(), opened::params())),
+          queue_(q),
+          name_(base_name(from.path)),
+          faces_(opened::faces())
+    {
+    }
+
+    view::model model() const override
+    {
+        return {static_cast<std::uint8_t>(Element::dimension), false, name_, as_floats(opened::file.points),
+                as_list(faces_)};
+    }
+
+    void start_afresh() override
+    {
+        auto p = opened::params();
+        p.constraints = base::all_held();
+        auto result = deform(queue_, input.simplices(), p);
+        if (!result) throw error(result.report.reason);
+        base::go_to(result.x);
+    }
+
+    subject::saved write() const override { return {name_, io::with_points(opened::file, input.in_file(base::x()))}; }
+
+private:
+    const std::vector<corners>& shown() const override { return faces_; }
+
+    queue& queue_;
+    std::string name_;
+    std::vector<corners> faces_;
+};
+
+} // namespace
+
+std::unique_ptr<subject> make_subject(queue& q, const source& from)
+{
+    if (!tools::names_volume(from.path)) return std::make_unique<map_subject>(q, from);
+    auto file = io::read_volume_file(from.path);
+    if (file.dimension == 2) return std::make_unique<shape_subject<triangle>>(q, std::move(file), from);
+    return std::make_unique<shape_subject<tetrahedron>>(q, std::move(file), from);
+}
+
+} // namespace taut::view

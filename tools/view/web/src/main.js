@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+import * as messages from './messages.js';
+import { Mesh, distortion } from './mesh.js';
+import { Pane } from './pane.js';
+
+const element = (id) => document.getElementById(id);
+const accent = { pin: '#e8590c', ahead: '#d6336c', current: '#7048e8', line: '#2f9e44' };
+const reach = 14; // pixels from the pointer to a vertex
+
+class Page {
+  gesture = 1;
+  tool = 'drag';
+  region = new Set(); // faces
+  line = []; // vertices
+  current = -1; // the pin that keys move
+  focused = false;
+  frames = []; // times of the last pictures
+  #drag = null;
+  #sending = false;
+
+  constructor() {
+    this.right = new Pane(element('map'), { flat: true, afterDraw: () => this.#drawn() });
+    this.#connect();
+    this.#listenToButtons();
+    this.#listenToKeys();
+    this.#listenToPointer(this.right);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.panes().forEach((p) => p.applyTheme()));
+    this.choose('drag');
+  }
+
+  panes() { return this.left ? [this.left, this.right] : [this.right]; }
+
+  #connect() {
+    const token = location.hash.slice(1);
+    this.socket = new WebSocket(`ws://${location.host}/live`, ['taut', `token.${token}`]);
+    this.socket.binaryType = 'arraybuffer';
+    this.socket.onmessage = (e) => this.#take(messages.read(e.data));
+    this.socket.onclose = () => this.note('not connected: the program has ended, or the address is not the one that it printed', true);
+  }
+
+  send(message) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(message);
+  }
+
+  note(text, bad = false) {
+    element('note').textContent = text;
+    element('note').className = bad ? 'bad' : '';
+  }
+
+  #take(message) {
+    if (message.kind === 'model') this.#open(message);
+    else if (message.kind === 'state') this.#show(message);
+    else if (message.kind === 'note') this.note(message.text, true);
+    else download(message.name, message.bytes);
+  }
+
+  #open(model) {
+    this.model = model;
+    element('name').textContent = model.name;
+    document.title = `${model.name} - taut`;
+    this.mesh = new Mesh(model.points, model.faces);
+    this.values = new Float32Array(this.mesh.faceCount);
+    if (model.map) {
+      this.left ??= new Pane(element('model'), { flat: false });
+      this.#listenToPointer(this.left);
+      this.left.setMesh(this.mesh);
+      this.left.setPositions(model.points, 3);
+      this.left.fit();
+    } else {
+      element('left').parentElement.classList.add('single');
+      for (const id of ['straight-u', 'straight-v']) element(id).hidden = model.dimension === 3;
+      if (model.dimension === 3) {
+        this.right.flat = false;
+        this.right.controls.enableRotate = true;
+        this.right.controls.mouseButtons.LEFT = 0;
+      }
+    }
+    this.right.setMesh(this.mesh);
+    this.state = null;
+  }
+
+  #show(state) {
+    const first = !this.state;
+    this.state = state;
+    this.right.setPositions(state.positions, this.model.dimension);
+    if (first) {
+      this.right.fit();
+      this.checks = 24 / this.right.extent;
+    }
+    distortion(this.mesh, state.positions, this.model.dimension, this.values);
+    for (const p of this.panes()) p.setFaces('value', this.values);
+    this.left?.setUv(state.positions, this.checks);
+    if (state.writer && this.#drag?.vertex >= 0) this.#sendDrag();
+    this.#mark();
+    element('energy').textContent = `energy ${state.energy.toPrecision(8)}`;
+    element('flips').textContent = `${state.flipped} flipped`;
+    element('flips').className = state.flipped > 0 ? 'bad' : '';
+    const ahead = state.held ? '' : `, farthest ${state.distance.toPrecision(3)} ahead`;
+    element('pins').textContent = `${state.pins.size} pinned${ahead}`;
+    element('time').textContent = state.working ? `${(1000 * state.seconds).toFixed(0)} ms a frame` : state.converged ? 'converged' : 'at rest';
+    element('undo').disabled = !state.writer || !state.canUndo;
+    element('redo').disabled = !state.writer || !state.canRedo;
+    if (!state.writer) this.note('another page is open and writes; this one looks on');
+    this.#pending = state.number;
+  }
+
+  #pending = null;
+
+  /** A picture is done: the program may send the next state. */
+  #drawn() {
+    if (this.#pending === null) return;
+    this.frames.push(performance.now());
+    if (this.frames.length > 240) this.frames.shift();
+    this.send(messages.seen(this.#pending));
+    this.#pending = null;
+  }
+
+  #mark() {
+    if (!this.state) return;
+    const marks = [];
+    for (const v of this.line) marks.push({ vertex: v, colour: accent.line });
+    for (const [v, p] of this.state.pins) {
+      const held = p.x.every((x, k) => ((p.held >> k) & 1) === 0 || Math.fround(x) === this.state.positions[this.model.dimension * v + k]);
+      marks.push({ vertex: v, colour: v === this.current ? accent.current : held ? accent.pin : accent.ahead });
+    }
+    for (const p of this.panes()) p.setMarks(marks);
+    const chosen = new Float32Array(this.mesh.faceCount);
+    for (const f of this.region) chosen[f] = 1;
+    for (const p of this.panes()) p.setFaces('chosen', chosen);
+  }
+
+  choose(tool) {
+    this.tool = tool;
+    for (const b of document.querySelectorAll('[data-tool]')) b.setAttribute('aria-checked', String(b.dataset.tool === tool));
+    if (tool !== 'path') this.line = [];
+    this.#mark();
+  }
+
+  position(v) {
+    const d = this.model.dimension;
+    return Array.from(this.state.positions.subarray(d * v, d * v + d));
+  }
+
+  /** Pins a vertex, all coordinates or those that it is pinned in. */
+  pin(v, x) {
+    const all = this.model.dimension === 3 ? 7 : 3;
+    this.current = v;
+    this.send(messages.places(this.gesture, [{ vertex: v, held: all, x }]));
+  }
+
+  relax(afresh = false) { this.send(messages.relax(++this.gesture, afresh)); this.note(''); }
+
+  toggleFocus() {
+    if (!this.focused && this.region.size === 0) return this.note('choose a region first: the tool Region, then drag from a vertex outwards');
+    this.focused = !this.focused;
+    element('focus').setAttribute('aria-pressed', String(this.focused));
+    this.send(messages.focus(++this.gesture, this.focused ? [...this.region] : []));
+  }
+
+  straighten(axis) {
+    if (this.line.length < 2) return this.note('click vertices along a line first: the tool Line');
+    this.send(messages.align(++this.gesture, axis, [...new Set(this.line)]));
+    this.line = [];
+  }
+
+  unpin() {
+    const pins = this.state.pins;
+    let list = pins.has(this.current) ? [this.current] : [];
+    if (this.region.size > 0) {
+      const inside = new Set();
+      for (const f of this.region) for (let k = 0; k < 3; ++k) inside.add(this.mesh.faces[3 * f + k]);
+      list = [...pins.keys()].filter((v) => inside.has(v));
+    } else if (list.length === 0) list = [...pins.keys()];
+    this.current = -1;
+    if (list.length > 0) this.send(messages.release(++this.gesture, list));
+  }
+
+  savePins() {
+    const axes = this.model.dimension === 3 ? ['x', 'y', 'z'] : ['u', 'v'];
+    const rows = [...this.state.pins].map(([v, p]) => [v, ...axes.map((_, k) => ((p.held >> k) & 1 ? p.x[k] : ''))].join(','));
+    download('pins.csv', new TextEncoder().encode([['vertex', ...axes].join(','), ...rows, ''].join('\n')));
+  }
+
+  #listenToButtons() {
+    for (const b of document.querySelectorAll('[data-tool]')) b.onclick = () => this.choose(b.dataset.tool);
+    const actions = {
+      relax: () => this.relax(), afresh: () => this.relax(true), focus: () => this.toggleFocus(),
+      'straight-u': () => this.straighten(0), 'straight-v': () => this.straighten(1), release: () => this.unpin(),
+      undo: () => this.send(messages.undo()), redo: () => this.send(messages.redo()),
+      save: () => this.send(messages.save()), 'save-pins': () => this.savePins(),
+    };
+    for (const [id, f] of Object.entries(actions)) element(id).onclick = () => { if (this.state) f(); };
+  }
+
+  #listenToKeys() {
+    const keys = {
+      d: () => this.choose('drag'), s: () => this.choose('region'), l: () => this.choose('path'), n: () => this.relax(true),
+      f: () => this.toggleFocus(), u: () => this.straighten(0), v: () => this.straighten(1), ' ': () => this.relax(),
+      Delete: () => this.unpin(), Backspace: () => this.unpin(), Escape: () => { this.region.clear(); this.line = []; this.#mark(); },
+      w: () => { for (const p of this.panes()) { p.wires.visible = !p.wires.visible; p.draw(); } },
+      '[': () => this.#nextPin(-1), ']': () => this.#nextPin(1),
+      ArrowLeft: (e) => this.#nudge(0, -1, e), ArrowRight: (e) => this.#nudge(0, 1, e),
+      ArrowUp: (e) => this.#nudge(1, 1, e), ArrowDown: (e) => this.#nudge(1, -1, e),
+    };
+    addEventListener('keydown', (e) => {
+      if (!this.state) return;
+      if (e.ctrlKey || e.metaKey) {
+        const key = e.key.toLowerCase();
+        if (key === 'z') this.send(e.shiftKey ? messages.redo() : messages.undo());
+        else if (key === 'y') this.send(messages.redo());
+        else if (key === 's') this.send(messages.save());
+        else return;
+        return e.preventDefault();
+      }
+      if (e.key === ' ' && e.target instanceof HTMLButtonElement) return; // presses it
+      const f = keys[e.key];
+      if (!f) return;
+      e.preventDefault();
+      f(e);
+    });
+    addEventListener('keyup', (e) => { if (e.key.startsWith('Arrow')) ++this.gesture; });
+  }
+
+  #nextPin(step) {
+    const pins = [...this.state.pins.keys()];
+    if (pins.length === 0) return;
+    const at = pins.indexOf(this.current);
+    this.current = pins[(at + step + pins.length + (at < 0 && step < 0 ? 1 : 0)) % pins.length];
+    this.note(`vertex ${this.current}`);
+    this.#mark();
+  }
+
+  /** By a two-hundredth of the map, with Shift a twentieth. */
+  #nudge(axis, sign, e) {
+    const pin = this.state.pins.get(this.current);
+    if (!pin) return this.note('no current pin: [ and ] go from one to the next');
+    const x = pin.x.map((value, k) => ((pin.held >> k) & 1 ? value : this.position(this.current)[k] ?? 0));
+    x[axis] += (sign * this.right.extent * (e.shiftKey ? 10 : 1)) / 200;
+    this.pin(this.current, x);
+  }
+
+  #listenToPointer(pane) {
+    const canvas = pane.canvas;
+    const pixel = (e) => { const r = canvas.getBoundingClientRect(); return [e.clientX - r.left, e.clientY - r.top]; };
+    const movable = () => pane === this.right;
+    canvas.addEventListener('pointerdown', (e) => {
+      if (!this.state || e.button !== 0 || !e.isPrimary) return;
+      const at = pixel(e);
+      let v = movable() ? pane.vertexAt(at, reach, this.state.pins.keys()) : -1;
+      if (v < 0) v = pane.vertexAt(at, reach);
+      if (v < 0 || (this.tool === 'drag' && !movable())) return; // the view moves
+      pane.controls.enabled = false;
+      canvas.setPointerCapture(e.pointerId);
+      if (this.tool === 'path') {
+        this.line.push(...(this.line.length > 0 ? this.mesh.path(this.line.at(-1), v).slice(1) : [v]));
+        this.#mark();
+      } else if (this.tool === 'region') {
+        this.#drag = { centre: v, pane, start: at, before: e.shiftKey ? new Set(this.region) : new Set() };
+        this.#grow(at);
+      } else {
+        ++this.gesture;
+        this.#drag = { vertex: v, pane, x: null };
+        this.current = v;
+      }
+    }, { capture: true });
+    canvas.addEventListener('pointermove', (e) => {
+      if (this.#drag?.pane !== pane) return;
+      if (this.tool === 'region') return this.#grow(pixel(e));
+      this.#drag.x = pane.toModel(pixel(e), this.#drag.vertex);
+      this.#drag.fresh = true;
+      this.#schedule();
+    });
+    const end = (e) => {
+      pane.controls.enabled = true;
+      if (this.#drag?.pane !== pane) return;
+      if (this.tool === 'drag') { // a click pins the vertex where it is
+        this.#drag.x = this.#drag.x ? pane.toModel(pixel(e), this.#drag.vertex) : this.position(this.#drag.vertex);
+        this.#drag.fresh = true;
+        this.#sendDrag();
+      }
+      this.#drag = null;
+      ++this.gesture;
+    };
+    canvas.addEventListener('pointerup', end);
+    canvas.addEventListener('pointercancel', end);
+    canvas.addEventListener('contextmenu', (e) => {
+      e.preventDefault();
+      const v = movable() ? pane.vertexAt(pixel(e), reach, this.state.pins.keys()) : -1;
+      if (v >= 0) this.send(messages.release(++this.gesture, [v]));
+    });
+  }
+
+  /** One message a picture, however fast the pointer reports. */
+  #schedule() {
+    if (this.#sending) return;
+    this.#sending = true;
+    requestAnimationFrame(() => { this.#sending = false; this.#sendDrag(); });
+  }
+
+  #sendDrag() {
+    if (!this.#drag?.fresh) return;
+    this.#drag.fresh = false;
+    this.pin(this.#drag.vertex, this.#drag.x);
+  }
+
+  /** The disk around where the pointer went down, as far as the pointer has come. */
+  #grow(at) {
+    const { centre, pane, start, before } = this.#drag;
+    const height = pane.camera.top - pane.camera.bottom;
+    const radius = (Math.hypot(at[0] - start[0], at[1] - start[1]) * height) / pane.canvas.clientHeight / pane.camera.zoom;
+    this.region = new Set(before);
+    for (const f of this.mesh.disk(centre, radius)) this.region.add(f);
+    this.#mark();
+  }
+}
+
+function download(name, bytes) {
+  const a = document.createElement('a');
+  a.href = URL.createObjectURL(new Blob([bytes]));
+  a.download = name;
+  a.click();
+  setTimeout(() => URL.revokeObjectURL(a.href), 10000);
+}
+
+window.taut = new Page(); // for scripts that drive it

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// One canvas with a mesh: flat, seen from above, or in space, seen from anywhere. Drawn only when something changed.
+import {
+  BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh as Drawn, OrthographicCamera,
+  Points, PointsMaterial, Scene, ShaderMaterial, Vector3, WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+
+const vertexShader = `
+  attribute vec2 flatUv;
+  attribute float value;
+  attribute float chosen;
+  varying vec3 seen;
+  varying vec2 st;
+  varying float v;
+  varying float c;
+  void main() {
+    vec4 p = modelViewMatrix * vec4(position, 1.0);
+    seen = p.xyz;
+    st = flatUv;
+    v = value;
+    c = chosen;
+    gl_Position = projectionMatrix * p;
+  }`;
+
+// From the surface's own colour at 4, where shape is kept, over yellow to red.
+const fragmentShader = `
+  uniform vec3 base;
+  uniform float checks;
+  uniform float shade;
+  varying vec3 seen;
+  varying vec2 st;
+  varying float v;
+  varying float c;
+  void main() {
+    float t = clamp(log(max(v, 4.0) / 4.0) / log(5.0), 0.0, 1.0);
+    vec3 warm = mix(vec3(0.96, 0.80, 0.35), vec3(0.80, 0.16, 0.18), smoothstep(0.35, 1.0, t));
+    vec3 colour = mix(base, warm, smoothstep(0.0, 0.35, t));
+    vec2 square = floor(st * checks);
+    if (checks > 0.0 && mod(square.x + square.y, 2.0) > 0.5) colour *= 0.80;
+    colour = mix(colour, vec3(0.25, 0.48, 0.95), 0.55 * c);
+    vec3 n = normalize(cross(dFdx(seen), dFdy(seen)));
+    colour *= mix(1.0, 0.45 + 0.55 * abs(n.z), shade);
+    gl_FragColor = vec4(colour, 1.0);
+  }`;
+
+export class Pane {
+  #waiting = false;
+
+  /** flat: seen from above, moved but not turned. afterDraw is called when a picture is done. */
+  constructor(canvas, { flat, afterDraw = () => {} }) {
+    this.canvas = canvas;
+    this.flat = flat;
+    this.afterDraw = afterDraw;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.scene = new Scene();
+    this.camera = new OrthographicCamera(-1, 1, 1, -1, -100, 100);
+    this.camera.position.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableRotate = !flat;
+    this.controls.zoomToCursor = true;
+    if (flat) this.controls.mouseButtons.LEFT = 2; // pan
+    this.controls.addEventListener('change', () => this.draw());
+    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
+  }
+
+  setMesh(mesh) {
+    this.mesh = mesh;
+    const corners = 3 * mesh.faceCount;
+    this.geometry = new BufferGeometry();
+    for (const [name, size] of [['position', 3], ['flatUv', 2], ['value', 1], ['chosen', 1]])
+      this.geometry.setAttribute(name, new BufferAttribute(new Float32Array(size * corners), size));
+    this.material = new ShaderMaterial({
+      vertexShader, fragmentShader, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      uniforms: { base: { value: new Color() }, checks: { value: 0 }, shade: { value: this.flat ? 0 : 1 } },
+    });
+    const surface = new Drawn(this.geometry, this.material);
+    this.vertices = new Float32Array(3 * mesh.vertexCount);
+    const shared = new BufferAttribute(this.vertices, 3);
+    const wires = new BufferGeometry();
+    wires.setAttribute('position', shared);
+    wires.setIndex(new BufferAttribute(mesh.edges(), 1));
+    this.wires = new LineSegments(wires, new LineBasicMaterial({ transparent: true, opacity: 0.35 }));
+    this.wires.visible = this.flat && mesh.faceCount < 30000;
+    this.marks = new Points(new BufferGeometry(), new PointsMaterial({ size: 9, sizeAttenuation: false, vertexColors: true, depthTest: false }));
+    this.marks.renderOrder = 1;
+    this.scene.clear();
+    this.scene.add(surface, this.wires, this.marks);
+    surface.frustumCulled = this.wires.frustumCulled = this.marks.frustumCulled = false;
+    this.applyTheme();
+  }
+
+  /** Colours of the page's style. */
+  applyTheme() {
+    const style = getComputedStyle(document.documentElement);
+    this.material?.uniforms.base.value.set(style.getPropertyValue('--surface').trim());
+    this.wires?.material.color.set(style.getPropertyValue('--wire').trim());
+    this.draw();
+  }
+
+  /** x: two or three coordinates a vertex. */
+  setPositions(x, dimension) {
+    const position = this.geometry.getAttribute('position');
+    for (let v = 0; v < this.mesh.vertexCount; ++v)
+      for (let k = 0; k < 3; ++k) this.vertices[3 * v + k] = k < dimension ? x[dimension * v + k] : 0;
+    scatter(this.mesh.faces, this.vertices, 3, position.array);
+    position.needsUpdate = this.wires.geometry.getAttribute('position').needsUpdate = true;
+    this.draw();
+  }
+
+  /** Flat coordinates for the checkerboard. */
+  setUv(x, checks) {
+    const uv = this.geometry.getAttribute('flatUv');
+    scatter(this.mesh.faces, x, 2, uv.array);
+    uv.needsUpdate = true;
+    this.material.uniforms.checks.value = checks;
+    this.draw();
+  }
+
+  /** One number a face. */
+  setFaces(name, values) {
+    const attribute = this.geometry.getAttribute(name);
+    for (let f = 0; f < values.length; ++f) attribute.array.fill(values[f], 3 * f, 3 * f + 3);
+    attribute.needsUpdate = true;
+    this.draw();
+  }
+
+  /** marks: [{vertex, colour}]. */
+  setMarks(marks) {
+    const x = new Float32Array(3 * marks.length), colours = new Float32Array(3 * marks.length);
+    const colour = new Color();
+    marks.forEach((m, i) => {
+      x.set(this.vertices.subarray(3 * m.vertex, 3 * m.vertex + 3), 3 * i);
+      colour.set(m.colour).toArray(colours, 3 * i);
+    });
+    this.marks.geometry.dispose();
+    this.marks.geometry = new BufferGeometry();
+    this.marks.geometry.setAttribute('position', new BufferAttribute(x, 3));
+    this.marks.geometry.setAttribute('color', new BufferAttribute(colours, 3));
+    this.draw();
+  }
+
+  /** Shows all of it. */
+  fit() {
+    const low = new Vector3(Infinity, Infinity, Infinity), high = low.clone().negate(), p = new Vector3();
+    for (let v = 0; v < this.mesh.vertexCount; ++v) {
+      p.fromArray(this.vertices, 3 * v);
+      if (!Number.isFinite(p.x)) continue;
+      low.min(p);
+      high.max(p);
+    }
+    this.extent = Math.max(high.distanceTo(low), 1e-12);
+    this.size = this.flat ? [high.x - low.x, high.y - low.y] : [this.extent, this.extent];
+    const middle = low.add(high).multiplyScalar(0.5);
+    this.controls.target.copy(middle);
+    this.camera.position.copy(middle).add(new Vector3(0, 0, this.extent));
+    this.camera.near = -10 * this.extent;
+    this.camera.far = 10 * this.extent;
+    this.camera.zoom = 1;
+    this.camera.up.set(0, 1, 0);
+    this.#resize();
+    this.controls.update();
+  }
+
+  /** Where a vertex is on the page, in pixels of the canvas. */
+  toScreen(v) {
+    const p = new Vector3().fromArray(this.vertices, 3 * v).project(this.camera);
+    return [((p.x + 1) / 2) * this.canvas.clientWidth, ((1 - p.y) / 2) * this.canvas.clientHeight];
+  }
+
+  /** The point under a pixel, on the plane through a vertex that faces the camera. */
+  toModel(pixel, v) {
+    const p = new Vector3().fromArray(this.vertices, 3 * v).project(this.camera);
+    p.x = (2 * pixel[0]) / this.canvas.clientWidth - 1;
+    p.y = 1 - (2 * pixel[1]) / this.canvas.clientHeight;
+    p.unproject(this.camera);
+    return [p.x, p.y, p.z];
+  }
+
+  /** The vertex within reach (pixels) that is nearest to a pixel, in space that of the face under it; -1: none. */
+  vertexAt(pixel, reach, among = null) {
+    let best = -1, least = reach;
+    const consider = (v) => {
+      const [x, y] = this.toScreen(v);
+      const d = Math.hypot(x - pixel[0], y - pixel[1]);
+      if (d < least) { least = d; best = v; }
+    };
+    if (among) { for (const v of among) consider(v); return best; }
+    if (this.flat) { for (let v = 0; v < this.mesh.vertexCount; ++v) consider(v); return best; }
+    const f = this.faceAt(pixel);
+    least = Infinity;
+    if (f >= 0) for (let k = 0; k < 3; ++k) consider(this.mesh.faces[3 * f + k]);
+    return best;
+  }
+
+  /** The face under a pixel, the nearest to the camera; -1: none. */
+  faceAt(pixel) {
+    const m = this.camera.projectionMatrix.clone().multiply(this.camera.matrixWorldInverse).elements;
+    const x = (2 * pixel[0]) / this.canvas.clientWidth - 1, y = 1 - (2 * pixel[1]) / this.canvas.clientHeight;
+    const v = this.vertices, faces = this.mesh.faces;
+    let best = -1, nearest = Infinity;
+    const corner = (i, k) => {
+      const a = 3 * faces[i];
+      return m[k] * v[a] + m[4 + k] * v[a + 1] + m[8 + k] * v[a + 2] + m[12 + k];
+    };
+    for (let f = 0; f < this.mesh.faceCount; ++f) {
+      const ax = corner(3 * f, 0) - x, bx = corner(3 * f + 1, 0) - x, cx = corner(3 * f + 2, 0) - x;
+      if ((ax > 0 && bx > 0 && cx > 0) || (ax < 0 && bx < 0 && cx < 0)) continue;
+      const ay = corner(3 * f, 1) - y, by = corner(3 * f + 1, 1) - y, cy = corner(3 * f + 2, 1) - y;
+      const a = bx * cy - by * cx, b = cx * ay - cy * ax, c = ax * by - ay * bx, sum = a + b + c;
+      if (!((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0)) || sum === 0) continue;
+      const z = (a * corner(3 * f, 2) + b * corner(3 * f + 1, 2) + c * corner(3 * f + 2, 2)) / sum;
+      if (z < nearest) { nearest = z; best = f; }
+    }
+    return best;
+  }
+
+  draw() {
+    if (this.#waiting || !this.mesh) return;
+    this.#waiting = true;
+    requestAnimationFrame(() => {
+      this.#waiting = false;
+      this.renderer.render(this.scene, this.camera);
+      this.afterDraw();
+    });
+  }
+
+  #resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height);
+    const aspect = width / height, size = this.size ?? [2, 2];
+    const h = 0.54 * Math.max(size[1], size[0] / aspect, 1e-12), w = h * aspect;
+    Object.assign(this.camera, { left: -w, right: w, top: h, bottom: -h });
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+}
+
+function scatter(faces, values, size, out) {
+  for (let c = 0; c < faces.length; ++c)
+    for (let k = 0; k < size; ++k) out[size * c + k] = values[size * faces[c] + k];
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "workbench.hpp"
+
+#include <exception>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace taut::view
+{
+
+workbench::workbench(std::unique_ptr<subject> what, listener who, std::chrono::duration<double> frame)
+    : subject_(std::move(what)), listener_(std::move(who)), frame_(frame), thread_([this] { work(); })
+{
+}
+
+workbench::~workbench()
+{
+    {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+}
+
+bool workbench::wish(message m)
+{
+    constexpr std::size_t most = 1000;
+    {
+        const std::lock_guard lock(mutex_);
+        if (inbox_.size() >= most) return false;
+        inbox_.push_back(std::move(m));
+    }
+    changed_.notify_one();
+    return true;
+}
+
+void workbench::work()
+{
+    using clock = std::chrono::steady_clock;
+    show(0);
+    for (;;)
+    {
+        std::deque<message> wishes;
+        {
+            std::unique_lock lock(mutex_);
+            changed_.wait(lock, [this] { return over_ || working_ || !inbox_.empty(); });
+            if (over_) return;
+            std::swap(wishes, inbox_);
+        }
+        const auto begin = clock::now();
+        try
+        {
+            for (const message& m : wishes) grant(m);
+            if (working_) working_ = subject_->advance(frame_);
+        }
+        catch (const std::exception& e)
+        {
+            working_ = false;
+            listener_.tell(encode_note(e.what()));
+        }
+        show(std::chrono::duration<double>(clock::now() - begin).count());
+    }
+}
+
+/// One that is refused is told, and the others are granted.
+void workbench::grant(const message& m)
+{
+    const auto change = [&](bool works, const auto& f)
+    {
+        remember(m.gesture);
+        f();
+        working_ = works || working_;
+    };
+    try
+    {
+        std::visit(
+            [&](const auto& w)
+            {
+                using kind = std::remove_cvref_t<decltype(w)>;
+                if constexpr (std::is_same_v<kind, ask::places>)
+                    change(true, [&] { subject_->pin(w.pins); });
+                else if constexpr (std::is_same_v<kind, ask::release>)
+                    change(false, [&] { subject_->release(w.vertices); });
+                else if constexpr (std::is_same_v<kind, ask::focus>)
+                    change(false, [&] { subject_->focus(w.faces); });
+                else if constexpr (std::is_same_v<kind, ask::align>)
+                    change(true, [&] { subject_->align(w.axis, w.vertices); });
+                else if constexpr (std::is_same_v<kind, ask::relax>)
+                    change(true,
+                           [&]
+                           {
+                               if (w.afresh) subject_->start_afresh();
+                           });
+                else if constexpr (std::is_same_v<kind, ask::undo>)
+                    go(before_, after_);
+                else if constexpr (std::is_same_v<kind, ask::redo>)
+                    go(after_, before_);
+                else if constexpr (std::is_same_v<kind, ask::save>)
+                {
+                    const auto file = subject_->write();
+                    listener_.tell(encode_file(file.name, file.bytes));
+                }
+            },
+            m.what);
+    }
+    catch (const std::exception& e)
+    {
+        listener_.tell(encode_note(e.what()));
+    }
+}
+
+/// Before the first wish of a gesture.
+void workbench::remember(std::uint32_t gesture)
+{
+    constexpr std::size_t most = 100;
+    if (std::exchange(gesture_, gesture) == gesture) return;
+    before_.push_back(subject_->remember());
+    if (before_.size() > most) before_.pop_front();
+    after_.clear();
+}
+
+void workbench::go(std::deque<moment>& from, std::deque<moment>& to)
+{
+    if (from.empty()) return;
+    to.push_back(subject_->remember());
+    subject_->go_back(*from.back());
+    from.pop_back();
+    gesture_.reset();
+    working_ = false;
+}
+
+void workbench::show(double seconds)
+{
+    auto s = std::make_shared<state>();
+    subject_->describe(*s);
+    s->number = ++number_;
+    s->working = working_;
+    s->can_undo = !before_.empty();
+    s->can_redo = !after_.empty();
+    s->seconds = seconds;
+    listener_.show(std::move(s));
+}
+
+} // namespace taut::view
