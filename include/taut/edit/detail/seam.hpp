@@ -115,6 +115,10 @@ inline seam make_seam(const landing_place& place, std::span<const vec2> polygon)
     for (const auto& e : open) next[static_cast<std::size_t>(e[0])] = e[1];
     for (idx v = open.at(0)[0]; loop.empty() || v != loop[0]; v = next[static_cast<std::size_t>(v)]) loop.push_back(v);
     if (loop.size() != open.size()) too_near();
+    // Beyond the rim of the place nobody has looked for edges between vertices of the loop.
+    const auto on_rim = boundary_flags(surface.points().size(), std::span(&place.region.rim, 1));
+    for (const idx v : loop)
+        if (on_rim[static_cast<std::size_t>(v)]) too_near();
 
     auto x = place.uv;
     std::vector<idx> inner;
