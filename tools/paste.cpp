@@ -118,7 +118,11 @@ private:
         const auto uv = parameterize_feature(q, *paste_);
         if (!uv) throw no_valid_map("the feature has no map with its rim where it meets the target: " + uv.reason());
         map_ = make_feature_map(q, paste_->part(), uv.uv, {.resolution = options_.texels});
-        if (options_.triangles > 0) paste_->refill(tessellate(q, paste_->part(), *map_, uv.uv, options_.triangles));
+        if (options_.triangles == 0) return;
+        const auto before = paste_->part().region.surface;
+        paste_->refill(tessellate(q, paste_->part(), *map_, uv.uv, options_.triangles));
+        const auto& after = paste_->part().region.surface;
+        distance_ = std::max(largest_distance(before, after), largest_distance(after, before));
     }
 
     /// Of the vertices of one surface from another one.

@@ -15,7 +15,7 @@ namespace taut::detail
 {
 
 /// A point of a triangulated surface.
-struct surface_point
+struct surface_place
 {
     idx face = -1;
     vec3 weights{0.0}; ///< of its corners, which sum to 1
@@ -67,9 +67,9 @@ public:
         build(0, order_.size());
     }
 
-    surface_point nearest(const vec3& p) const
+    surface_place nearest(const vec3& p) const
     {
-        surface_point best;
+        surface_place best;
         std::vector<std::pair<double, std::size_t>> stack{{nodes_[0].distance(p), 0}};
         while (!stack.empty())
         {
@@ -104,7 +104,7 @@ private:
         return x_[static_cast<std::size_t>(cells_[static_cast<std::size_t>(f)][k])];
     }
 
-    void look(const vec3& p, idx f, surface_point& best) const
+    void look(const vec3& p, idx f, surface_place& best) const
     {
         const vec3 w = nearest_weights(p, corner(f, 0), corner(f, 1), corner(f, 2));
         const double d = glm::distance(p, w.x * corner(f, 0) + w.y * corner(f, 1) + w.z * corner(f, 2));
