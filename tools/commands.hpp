@@ -20,6 +20,7 @@ command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point laun
 command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_deform(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch);
+command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_check(CLI::App& program);
 command add_eval(CLI::App& program);
 command add_view(CLI::App& program);
@@ -28,10 +29,9 @@ command add_devices(CLI::App& program);
 /// All of them, in the order in which the help lists them.
 inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_clock::time_point launch)
 {
-    return {add_unwrap(program, launch), add_untangle(program, launch),
-            add_deform(program, launch), add_smooth(program, launch),
-            add_check(program),          add_eval(program),
-            add_view(program),           add_devices(program)};
+    return {add_unwrap(program, launch), add_untangle(program, launch), add_deform(program, launch),
+            add_smooth(program, launch), add_paste(program, launch),    add_check(program),
+            add_eval(program),           add_view(program),             add_devices(program)};
 }
 
 } // namespace taut::tools

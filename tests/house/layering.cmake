@@ -18,6 +18,7 @@ set(allowed_objective core exact symbolic compute sparse mesh energy hierarchy m
 set(allowed_start ${allowed_objective} start)
 set(allowed_untangle ${allowed_start} untangle)
 set(allowed_map ${allowed_untangle} map)
+set(allowed_edit ${allowed_map} io edit)
 set(extra_edges "")
 
 set(failures "")

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <taut/edit/paste.hpp>
+#include <taut/map/parameterize.hpp>
+
+namespace taut
+{
+
+/// A vertex of a feature and where it shall be in the map of the target.
+struct feature_pin
+{
+    idx vertex; ///< of the feature's region
+    vec2 at;
+};
+
+/// The feature of a paste in the map of the target (paper, section 4.1): its rim is pinned to the correspondences of
+/// the paste, with any other vertices that are named, and the rest is mapped as isometrically as that allows, without
+/// flips. The rim is a simple polygon, so without other pins there is a map; where these contradict it, the outcome is
+/// infeasible, and report.ids names the triangles or vertices. Throws constraint_error, device_error.
+inline map_result parameterize_feature(queue& q, const paste& p, std::span<const feature_pin> pins = {})
+{
+    const auto& region = p.part().region;
+    constraints<triangle> wanted(region.surface);
+    for (std::size_t i = 0; i < region.rim.size(); ++i) wanted.pin(region.rim[i], p.rim_uv()[i]);
+    for (const auto& pin : pins) wanted.pin(pin.vertex, pin.at);
+    return parameterize(q, region.surface, {.constraints = wanted});
+}
+
+} // namespace taut

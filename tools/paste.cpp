@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <picture/render_picture.hpp>
+#include <taut/edit/parameterize_feature.hpp>
+#include <taut/edit/tessellate.hpp>
+#include <taut/edit/write_feature_map.hpp>
+#include <taut/edit/write_paste.hpp>
+#include <taut/io/read_file.hpp>
+#include <taut/io/read_surface.hpp>
+#include <taut/io/write_files.hpp>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "open_queue.hpp"
+#include "outputs.hpp"
+#include "run_clock.hpp"
+#include "shared_options.hpp"
+#include "text_table.hpp"
+#include "writing.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct paste_options
+{
+    std::string source, target, region, output, map, stats, picture, device;
+    int at = -1, onto = -1, triangles = 0, texels = feature_map_params{}.resolution;
+    double radius = 0, degrees = 0, reach = paste_params{}.reach;
+    paste_pose pose;
+    double time_limit = std::numeric_limits<double>::infinity();
+    bool quiet = false;
+};
+
+/// Triangles by their numbers, from 0, apart by white space or commas; comments from #.
+std::vector<idx> read_faces(const std::string& path)
+{
+    const std::string text = io::read_file(path);
+    std::vector<idx> faces;
+    std::size_t line = 1;
+    for (const char *at = text.data(), *const end = at + text.size(); at != end;)
+    {
+        if (*at == '#')
+            while (at != end && *at != '\n') ++at;
+        else if (*at == '\n' || *at == ' ' || *at == '\t' || *at == '\r' || *at == ',')
+            line += *at++ == '\n' ? 1 : 0;
+        else
+        {
+            idx face = 0;
+            const auto [next, error] = std::from_chars(at, end, face);
+            if (error != std::errc{})
+                throw io::io_error(path,
+                                   "line " + std::to_string(line) + ": no number of a triangle; write them from 0");
+            faces.push_back(face);
+            at = next;
+        }
+    }
+    return faces;
+}
+
+/// One run of `taut paste`.
+class paste_run
+{
+public:
+    paste_run(const paste_options& options, run_clock clock, const char* place_of_report)
+        : options_(options), clock_(clock), place_of_report_(place_of_report)
+    {
+    }
+
+    exit_code operator()()
+    {
+        read_seconds_ = clock_.timed(
+            [&]
+            {
+                source_.emplace(io::read_surface_file(options_.source));
+                target_.emplace(io::read_surface_file(options_.target));
+            });
+        const auto& surface = source_->surface;
+        feature part = make_feature(options_.region.empty() ? geodesic_disk(surface, options_.at, options_.radius)
+                                                            : region_of_faces(surface, read_faces(options_.region)));
+        std::optional<queue> q;
+        device_seconds_ = clock_.timed([&] { q = open_queue(options_.device, false); });
+        device_ = q->device().name();
+        paste_params params{.pose = options_.pose, .reach = options_.reach};
+        params.pose.turn = options_.degrees * std::numbers::pi / 180;
+        paste_seconds_ =
+            clock_.timed([&] { paste_.emplace(*q, target_->surface, std::move(part), options_.onto, params); });
+        if (!options_.map.empty() || options_.triangles > 0) map_seconds_ = clock_.timed([&] { draw_map(*q); });
+        look();
+        write();
+        return exit_code::valid;
+    }
+
+private:
+    /// The feature's map, and its tessellation if that is asked for.
+    void draw_map(queue& q)
+    {
+        const auto uv = parameterize_feature(q, *paste_);
+        if (!uv) throw no_valid_map("the feature has no map with its rim where it meets the target: " + uv.reason());
+        map_ = make_feature_map(q, paste_->part(), uv.uv, {.resolution = options_.texels});
+        if (options_.triangles == 0) return;
+        const auto before = paste_->part().region.surface;
+        paste_->refill(tessellate(q, paste_->part(), *map_, uv.uv, options_.triangles));
+        const auto& after = paste_->part().region.surface;
+        distance_ = std::max(largest_distance(before, after), largest_distance(after, before));
+    }
+
+    /// Of the vertices of one surface from another one.
+    static double largest_distance(const mesh<triangle>& from, const mesh<triangle>& to)
+    {
+        const taut::detail::surface_tree tree(to.points(), to.cells());
+        double largest = 0;
+        for (const vec3& p : from.points()) largest = std::max(largest, tree.nearest(p).distance);
+        return largest;
+    }
+
+    /// The map as an image, x, y and z from their smallest to their largest values as red, green and blue.
+    std::string preview() const
+    {
+        const auto& map = *map_;
+        vec3 low(std::numeric_limits<double>::infinity()), high = -low;
+        const auto at = [&](idx i, idx j)
+        {
+            const float* v = &map.values[4 * static_cast<std::size_t>(j * map.width + i)];
+            return vec3(double(v[0]), double(v[1]), double(v[2]));
+        };
+        for (idx j = 0; j < map.height; ++j)
+            for (idx i = 0; i < map.width; ++i)
+                if (map.covers(i, j)) low = glm::min(low, at(i, j)), high = glm::max(high, at(i, j));
+        io::image picture(map.width, map.height, {255, 255, 255});
+        for (idx j = 0; j < map.height; ++j)
+            for (idx i = 0; i < map.width; ++i)
+            {
+                if (!map.covers(i, j)) continue;
+                const vec3 c = 255.0 * (at(i, j) - low) / glm::max(high - low, vec3(1e-300));
+                picture(i, map.height - 1 - j) = {static_cast<std::uint8_t>(c.x), static_cast<std::uint8_t>(c.y),
+                                                  static_cast<std::uint8_t>(c.z)};
+            }
+        return encode_png(picture);
+    }
+
+    /// The result is looked at as it is written, not taken from the library's word.
+    void look()
+    {
+        const auto edges_before = measure_seam(target_->surface, 0, 0);
+        quality_ = measure_seam(paste_->surface(), paste_->first_gap(), paste_->first_feature());
+        if (!quality_.manifold || quality_.boundary_edges != edges_before.boundary_edges)
+            throw no_valid_map("the pasted surface is not manifold, or has another boundary than the target; choose "
+                               "another vertex, radius or scale");
+    }
+
+    void write()
+    {
+        std::vector<io::file_to_write> files{
+            {options_.output, [&](io::atomic_file& file) { io::write_paste(file, *paste_, *target_, *source_); }}};
+        if (!options_.map.empty())
+            files.push_back({options_.map, [&](io::atomic_file& file)
+                             { file.write(extension(options_.map) == ".png" ? preview() : io::exr_of(*map_)); }});
+        if (!options_.picture.empty())
+            files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
+        if (!options_.stats.empty())
+            files.push_back({options_.stats, [&](io::atomic_file& file) { file.write(json().dump(2) + '\n'); }});
+        if (place_of_report_ && has_reader(place_of_report_))
+            files.push_back({place_of_report_, [&](io::atomic_file& file) { file.write(text()); }});
+        writing([&] { io::write_files(files); });
+    }
+
+    /// The result, seen from where the feature is and from behind.
+    std::string picture() const
+    {
+        const vec3 front = paste_->transform().rotation * paste_->part().normal;
+        const auto& points = paste_->points();
+        vec3 up = io::guess_orientation(points, paste_->cells()).up;
+        if (std::abs(glm::dot(up, front)) > 0.8) up = std::abs(front.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        return encode_png(
+            io::render_picture(points, paste_->cells(), std::vector<vec2>(points.size(), vec2(none)),
+                               {.title = options_.source + " on " + options_.target, .up = up, .front = front}));
+    }
+
+    nlohmann::ordered_json json() const
+    {
+        const auto& r = paste_->report();
+        const auto& s = r.seconds;
+        nlohmann::ordered_json json;
+        json["schema"] = "taut.paste/1";
+        json["source"] = options_.source;
+        json["target"] = options_.target;
+        json["output"] = options_.output;
+        json["device"] = device_;
+        json["source_triangles"] = source_->surface.cell_count();
+        json["target_triangles"] = target_->surface.cell_count();
+        json["vertices"] = paste_->points().size();
+        json["triangles"] = paste_->cells().size();
+        json["feature_triangles"] = r.feature_triangles;
+        json["rim_vertices"] = paste_->part().region.rim.size();
+        json["rim_radius"] = paste_->part().radius;
+        json["removed_triangles"] = r.removed_triangles;
+        json["gap_triangles"] = r.gap_triangles;
+        json["bent_vertices"] = r.bent_vertices;
+        json["correspondence"] = r.way;
+        json["controls"] = r.controls;
+        json["reciprocal_condition"] = r.reciprocal_condition;
+        if (map_)
+            json["map"] = {{"width", map_->width},
+                           {"height", map_->height},
+                           {"footprint", map_->footprint},
+                           {"round_trip", map_->round_trip},
+                           {"round_trip_rms", map_->round_trip_rms},
+                           {"distance", distance_}};
+        json["manifold"] = quality_.manifold;
+        json["boundary_edges"] = quality_.boundary_edges;
+        json["degenerate_triangles"] = quality_.degenerate;
+        json["smallest_gap_angle"] = quality_.smallest_angle;
+        json["rim_angle_median"] = quality_.median_angle;
+        json["rim_angle_largest"] = quality_.largest_angle;
+        json["seconds"] = {{"read", read_seconds_},   {"device", device_seconds_},
+                           {"region", s.region},      {"map", s.map},
+                           {"land", s.land},          {"seam", s.seam},
+                           {"factor", s.factor},      {"transform", s.transform},
+                           {"paste", paste_seconds_}, {"feature_map", map_seconds_},
+                           {"total", clock_.now()}};
+        json["peak_memory_bytes"] = peak_memory();
+        return json;
+    }
+
+    std::string text() const
+    {
+        const auto& r = paste_->report();
+        const auto triangles = [](auto n) { return count(static_cast<std::uint64_t>(n), "triangle", "triangles"); };
+        labelled_lines lines;
+        lines.add("feature", options_.source + ": " + triangles(r.feature_triangles) + ", rim of " +
+                                 count(paste_->part().region.rim.size(), "vertex", "vertices"));
+        lines.add("target", options_.target + ": " + triangles(target_->surface.cell_count()) + ", " +
+                                triangles(r.removed_triangles) + " replaced, rim " + r.way);
+        lines.add("device", device_);
+        lines.add("result",
+                  triangles(paste_->cells().size()) + ", manifold, " +
+                      count(static_cast<std::uint64_t>(quality_.boundary_edges), "boundary edge", "boundary edges"));
+        lines.add("seam", "angle " + number(quality_.median_angle, 3) + " degrees (median), " +
+                              number(quality_.largest_angle, 3) + " at most");
+        lines.add("time", duration(clock_.now()) + ": read " + duration(read_seconds_) + ", device " +
+                              duration(device_seconds_) + ", paste " + duration(paste_seconds_));
+        lines.add("wrote", options_.output + (options_.picture.empty() ? "" : ", " + options_.picture) +
+                               (options_.stats.empty() ? "" : ", " + options_.stats));
+        return (std::ostringstream() << lines).str();
+    }
+
+    const paste_options& options_;
+    run_clock clock_;
+    const char* place_of_report_; ///< null: there is none
+    std::optional<io::surface_file> source_, target_;
+    std::optional<paste> paste_;
+    std::optional<feature_map> map_;
+    seam_quality quality_;
+    std::string device_;
+    double distance_ = 0; ///< of the tessellation from the feature, in units of the source
+    double read_seconds_ = 0, device_seconds_ = 0, paste_seconds_ = 0, map_seconds_ = 0;
+};
+
+exit_code run(const paste_options& options, std::chrono::steady_clock::time_point launch)
+{
+    if (options.region.empty() == (options.at < 0 || !(options.radius > 0)))
+        throw usage_error("say what to cut out: --at V --radius R, or --region FILE, and not both");
+    outputs files;
+    files.add("-o", options.output, {".obj"});
+    files.add("--map", options.map, {".exr", ".png"});
+    files.add("--stats", options.stats, {".json"});
+    files.add("--picture", options.picture, {".png"});
+    files.protect("the source", options.source);
+    files.protect("the target", options.target);
+    if (!options.region.empty()) files.protect("the file of triangles", options.region);
+    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
+    const run_clock clock(launch);
+    limit_time(options.time_limit - clock.now());
+    return paste_run(options, clock, place_of_report)();
+}
+
+} // namespace
+
+command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<paste_options>();
+    auto& app = *program.add_subcommand("paste", "Cut a feature out of one surface and paste it on another");
+    const auto positive = number_that([](double x) { return x > 0 && std::isfinite(x); }, "is not positive");
+    app.add_option("--source", options->source, "Surface that has the feature: OBJ, OFF or PLY")
+        ->required()
+        ->type_name("FILE");
+    app.add_option("--at", options->at, "Its vertex in the middle of the feature, from 0")
+        ->type_name("V")
+        ->check(whole_number());
+    app.add_option("--radius", options->radius, "How far the feature reaches along the surface, in units of the source")
+        ->type_name("R")
+        ->check(positive);
+    app.add_option("--region", options->region,
+                   "Instead of these: triangles of the source, from 0, that are the feature")
+        ->type_name("FILE");
+    app.add_option("--target", options->target, "Surface to paste it on")->required()->type_name("FILE");
+    app.add_option("--onto", options->onto, "Its vertex where the middle of the rim goes, from 0")
+        ->required()
+        ->type_name("V")
+        ->check(whole_number());
+    app.add_option("--rotate", options->degrees, "Turn it about the normal of the target, counter-clockwise")
+        ->type_name("DEGREES")
+        ->check(number_that([](double x) { return std::isfinite(x); }, "is no angle"));
+    app.add_option("--scale", options->pose.scale, "Lengths in the result by those in the source")
+        ->type_name("S")
+        ->check(positive);
+    app.add_option(
+           "--softness", options->pose.softness,
+           "0: the feature keeps its shape, the target bends; 1: its rim is laid on the target, the feature bends")
+        ->type_name("0..1")
+        ->check(number_that([](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1"));
+    app.add_option("--reach", options->reach, "Radius of what may bend on the target, by that of the feature")
+        ->type_name("1.2..")
+        ->check(number_that([](double x) { return x >= 1.2 && std::isfinite(x); }, "is not 1.2 or more"));
+    add_path(app, "-o,--output", options->output, standard_output, "Surface to write; - is standard output")
+        ->required()
+        ->type_name("OUT.obj");
+    app.add_option("--triangles", options->triangles, "Make the feature anew from its map, of about so many triangles")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100'000'000));
+    app.add_option("--map", options->map, "Write the feature's map of positions: .exr floats, .png colours")
+        ->type_name("FILE");
+    app.add_option("--texels", options->texels, "Texels along the longer side of the map")
+        ->type_name("8..8192")
+        ->check(CLI::Range(8, 8192));
+    add_path(app, "--stats", options->stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    app.add_option("--picture", options->picture, "Draw the result")->type_name("FILE.png");
+    add_time_limit(app, options->time_limit, "Give up after S seconds");
+    add_device(app, options->device);
+    app.add_flag("-q,--quiet", options->quiet, "No report");
+    app.footer("exit codes: 0 written; 2 usage; 3 unreadable input; 4 unsuitable input: no disk, or no place for it;\n"
+               "  5 no device; 6 out of time; 9 device failure; 130 interrupted, 143 terminated");
+    return [options, launch] { return run(*options, launch); };
+}
+
+} // namespace taut::tools
