@@ -232,29 +232,25 @@ corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span
     for_each_cell(file, Element::dimension,
                   [&](cell_kind kind, idx number, std::span<const idx> corners)
                   {
-                      const auto [W, weight] = detail::regular_corner(kind, Element{});
+                      const auto regular_one = detail::regular_corner(kind, Element{});
                       const auto table = detail::corner_table(kind, Element{});
                       overlapping = overlapping || table.size() > 1;
-                      const auto add = [&](const auto& t, const mat<Element::dimension>& edges, double share)
+                      const std::size_t more = std::binary_search(edged.begin(), edged.end(), number)
+                                                   ? taut::detail::edge_tetrahedra(corners.size()).size()
+                                                   : 0;
+                      const double weight = regular_one.second * double(table.size()) / double(table.size() + more);
+                      const auto add = [&](const auto& t, const mat<Element::dimension>& edges)
                       {
                           auto& simplex = simplices.emplace_back();
                           for (std::size_t k = 0; k < t.size(); ++k) simplex[k] = corners[t[k]];
                           cells.push_back(number);
                           regular.push_back(edges);
-                          weights.push_back(share * weight);
+                          weights.push_back(weight);
                       };
-                      double share = 1;
+                      for (const auto& t : table) add(t, regular_one.first);
                       if constexpr (Element::dimension == 3)
-                          if (std::binary_search(edged.begin(), edged.end(), number))
-                          {
-                              const auto more = taut::detail::edge_tetrahedra(corners.size());
-                              share = double(table.size()) / double(table.size() + more.size());
-                          }
-                      for (const auto& t : table) add(t, W, share);
-                      if constexpr (Element::dimension == 3)
-                          if (share < 1)
-                              for (const auto& t : taut::detail::edge_tetrahedra(corners.size()))
-                                  add(t, detail::regular_edges(kind, t), share);
+                          for (const auto& t : taut::detail::edge_tetrahedra(corners.size()).first(more))
+                              add(t, detail::regular_edges(kind, t));
                       orientation.add<Element>(kind, number, corners);
                   });
     if (simplices.empty())
