@@ -42,7 +42,10 @@ std::vector<std::pair<std::string, any_energy>> energies(const std::vector<doubl
         {
             std::ostringstream name;
             name << ratio << (treated == negative_eigenvalues::clamped ? " clamped" : " absolute");
-            all.emplace_back(name.str(), any_energy(energy::neo_hookean{ratio}).with_eigenvalues(treated));
+            const auto lame = energy::neo_hookean::of_poisson(ratio);
+            all.emplace_back(name.str(), any_energy(energy::neo_hookean_of_parameters{})
+                                             .with_parameters({lame.begin(), lame.end()})
+                                             .with_eigenvalues(treated));
         }
     return all;
 }

@@ -6,36 +6,15 @@
 
 #include <taut/taut.hpp>
 
-using namespace taut;
+#include "bar.hpp"
 
-/// 12 by 1 by 4 cubes of six tetrahedra each.
-mesh<tetrahedron> plate()
-{
-    const int size[] = {12, 1, 4};
-    std::vector<vec3> points;
-    std::vector<mesh<tetrahedron>::cell> cells;
-    const auto at = [&](int i, int j, int k)
-    { return static_cast<taut::idx>((k * (size[1] + 1) + j) * (size[0] + 1) + i); };
-    for (int k = 0; k <= size[2]; ++k)
-        for (int j = 0; j <= size[1]; ++j)
-            for (int i = 0; i <= size[0]; ++i) points.emplace_back(i / 2.0, j / 2.0, k / 2.0);
-    for (int k = 0; k < size[2]; ++k)
-        for (int j = 0; j < size[1]; ++j)
-            for (int i = 0; i < size[0]; ++i)
-            {
-                const taut::idx a = at(i, j, k), b = at(i + 1, j + 1, k + 1);
-                const taut::idx ring[] = {at(i + 1, j, k),     at(i + 1, j + 1, k), at(i, j + 1, k),
-                                          at(i, j + 1, k + 1), at(i, j, k + 1),     at(i + 1, j, k + 1)};
-                for (int s = 0; s < 6; ++s) cells.push_back({a, ring[s], ring[(s + 1) % 6], b}); // around a diagonal
-            }
-    return {std::move(points), std::move(cells)};
-}
+using namespace taut;
 
 int main()
 try
 {
     queue q;
-    const auto flat = plate();
+    const auto flat = bar(12, 1, 4, 0.5);
     std::vector<vec3> rolled;
     for (const vec3& p : flat.points())
     {

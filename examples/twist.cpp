@@ -5,34 +5,15 @@
 
 #include <taut/taut.hpp>
 
-using namespace taut;
+#include "bar.hpp"
 
-/// n by n by 4 n cubes of six tetrahedra each.
-mesh<tetrahedron> bar(int n)
-{
-    std::vector<vec3> points;
-    std::vector<mesh<tetrahedron>::cell> cells;
-    const auto at = [n](int i, int j, int k) { return static_cast<taut::idx>((k * (n + 1) + j) * (n + 1) + i); };
-    for (int k = 0; k <= 4 * n; ++k)
-        for (int j = 0; j <= n; ++j)
-            for (int i = 0; i <= n; ++i) points.push_back(vec3(i, j, k) / double(n));
-    for (int k = 0; k < 4 * n; ++k)
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
-            {
-                const taut::idx a = at(i, j, k), b = at(i + 1, j + 1, k + 1);
-                const taut::idx ring[] = {at(i + 1, j, k),     at(i + 1, j + 1, k), at(i, j + 1, k),
-                                          at(i, j + 1, k + 1), at(i, j, k + 1),     at(i + 1, j, k + 1)};
-                for (int s = 0; s < 6; ++s) cells.push_back({a, ring[s], ring[(s + 1) % 6], b}); // around a diagonal
-            }
-    return {std::move(points), std::move(cells)};
-}
+using namespace taut;
 
 int main()
 try
 {
     queue q;
-    const auto volume = bar(6);
+    const auto volume = bar(6, 6, 24, 1.0 / 6);
     std::vector<taut::idx> bottom, top;
     for (taut::idx v = 0; v < volume.vertex_count(); ++v)
     {

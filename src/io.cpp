@@ -8,5 +8,7 @@
 #include <taut/io/detail/write_files.ipp>
 #include <taut/io/detail/write_obj.ipp>
 
-template taut::io::corner_simplices<taut::tetrahedron> taut::io::corner_simplices_of(const volume_file&);
-template taut::io::corner_simplices<taut::triangle> taut::io::corner_simplices_of(const volume_file&);
+template taut::io::corner_simplices<taut::tetrahedron> taut::io::corner_simplices_of(const volume_file&,
+                                                                                     std::span<const taut::idx>);
+template taut::io::corner_simplices<taut::triangle> taut::io::corner_simplices_of(const volume_file&,
+                                                                                  std::span<const taut::idx>);

@@ -10,29 +10,11 @@
 #include <taut/untangle/result.hpp>
 
 #include "exit_codes.hpp"
+#include "untangle_options.hpp"
 #include "volume/volume_case.hpp"
 
 namespace taut::tools
 {
-
-/// Whether the boundary of a volume file stays where it is while it is untangled.
-enum class untangle_boundary
-{
-    automatic, ///< unless something else is held
-    fixed,
-    free
-};
-
-/// What the user asked `taut untangle` for.
-struct untangle_options
-{
-    std::string input, output, stats, picture, device, progress;
-    std::string rest, pins, cut;    ///< of volume files
-    std::vector<std::string> fixed; ///< groups
-    untangle_boundary boundary = untangle_boundary::automatic;
-    double time_limit = std::numeric_limits<double>::infinity();
-    bool quiet = false;
-};
 
 /// Everything that a run of `taut untangle` has to say; the map itself aside, it knows no dimension.
 struct untangle_report

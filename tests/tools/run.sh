@@ -1002,6 +1002,9 @@ run_until()
     [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted after SIG$signal"
 }
 
+# A file is a picture.
+png() { [ "$(od -An -tx1 -N8 "$1" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$1 is no PNG"; }
+
 test_stops()
 {
     grid 150 >in.obj
@@ -1176,6 +1179,11 @@ test_deform()
         expect 0 deform bar.mesh -o out.mesh --fix 1 --pins spring.csv --energy $energy --quiet
         silent out
     done
+    # It ends where it is told to.
+    expect 0 deform bar.mesh -o out.mesh --fix triangles:1 --move triangles:2:rotate:0,0,1,90 --tolerance 0.5 --stats stats.json
+    keys stats.json gradient
+    expect 2 deform bar.mesh -o out.mesh --tolerance 1
+    error_says '--tolerance'
     printf '150,0.4,0.6,3.1\n' >end.csv
     expect 4 deform bar.mesh -o late.mesh --move triangles:1=end.csv
     error_says 'vertex 150 is not in group triangles:1'
@@ -1215,8 +1223,6 @@ test_smooth()
 
 test_volumes()
 {
-    png() { [ "$(od -An -tx1 -N8 "$1" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$1 is no PNG"; }
-
     # Tangled inside: the boundary stays, all but coordinates too.
     volume 3 | tangled >in.mesh
     expect 4 check in.mesh
@@ -1287,6 +1293,23 @@ test_volumes()
     says out 'inverted +[1-9][0-9]* -> 0 of 17' '^insides +all valid'
     expect 0 check out.vtk
 
+    # A cube whose pinned corners leave it negative inside has three free ones to mend that.
+    {
+        printf '# vtk DataFile Version 3.0\ncube\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n'
+        printf '0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\n'
+        printf 'CELLS 1 9\n8 0 1 3 2 4 5 7 6\nCELL_TYPES 1\n12\n'
+    } >cube.vtk
+    printf '%s\n' 1,1.0692934568388306,-0.15830407000287444,-0.3420696437258779 \
+        2,-0.08620260108766986,1.1336117301987767,0.2836630446159438 \
+        3,0.7048490965511671,1.1249750254767161,-0.49951596637542817 \
+        6,0.08104777577813349,1.131208164454124,0.4083118954171219 \
+        7,0.5979066562316748,0.954349491440637,1.080404339472751 >pins.csv
+    expect 0 deform cube.vtk -o out.vtk --pins pins.csv --stats stats.json
+    says out '^insides +all valid'
+    says err '1 cell was negative inside; solved again .* none left'
+    keys stats.json insides.negative pins_held
+    says values '^insides.negative=0$' '^pins_held=(true|ON)'
+
     # Quads of the plane.
     {
         printf 'MeshVersionFormatted 2\nDimension 2\nVertices\n9\n'
@@ -1296,7 +1319,7 @@ test_volumes()
     expect 4 check quads.mesh
     says out 'MEDIT, planar, 9 vertices, 4 quads' 'error .*inverted'
     expect 0 untangle quads.mesh -o flat.mesh --picture quads.svg
-    says quads.svg '<svg ' 'before'
+    says quads.svg '<svg ' 'before' '>4 quads, 0 inverted  |'
     expect 0 check flat.mesh
     expect 0 smooth flat.mesh -o even.mesh --boundary fixed
     says out '^inverted +0 -> 0' 'mean ratio 1 worst'
@@ -1373,8 +1396,12 @@ test_untangle()
     expect 0 untangle volume.prob -o volume.txt --stats stats.json
     keys stats.json element outcome
     says values '^element=tetrahedron$' '^outcome=injective$'
-    expect 2 untangle volume.prob -o volume.txt --picture volume.png
-    error_says '--picture' 'tetrahedra'
+    expect 0 untangle volume.prob -o volume.txt --picture volume.png --cut x:0.9 --quiet
+    png volume.png
+    expect 2 untangle volume.prob -o volume.txt --picture volume.svg
+    error_says 'volume.svg' '.png'
+    expect 2 untangle in.prob -o out.txt --picture out.png --cut x
+    error_says '--cut' 'planar'
 
     expect 2 untangle in.prob
     error_says '--output is required'

@@ -82,8 +82,10 @@ inline std::vector<std::pair<rgb, std::string>> legend_entries(const face_survey
 /// The second line of a layout: "22,704 faces, 3 flipped, energy 4.12; distortion median ...".
 inline std::string layout_caption(const face_survey& faces, const layout_style& style, const layout_overlay& overlay)
 {
-    std::string text = format_count(faces.faces) + (faces.faces == 1 ? " face, " : " faces, ");
-    text += format_count(faces.flipped.size()) + " flipped";
+    std::string text = style.census;
+    if (text.empty())
+        text = format_count(faces.faces) + (faces.faces == 1 ? " face, " : " faces, ") +
+               format_count(faces.flipped.size()) + " flipped";
     if (const std::size_t n = overlay.branch_points.size(); n > 0)
         text += ", " + format_count(n) + (n == 1 ? " branch point" : " branch points");
     if (style.energy) text += ", energy " + format_number(*style.energy);

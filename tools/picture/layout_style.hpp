@@ -17,6 +17,7 @@ struct layout_style
 
     std::string title = {};            ///< first line; a map's name
     std::optional<double> energy = {}; ///< stated in the caption when given
+    std::string census = {};           ///< how many cells, in words, where faces are parts of cells; else faces count
     std::string note = {};             ///< last line of the caption when not empty
 
     double lowest = 1;                     ///< distortion at the pale end of the scale

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include <taut/map/smooth.hpp>
+
+#include "outputs.hpp"
 
 namespace taut::tools
 {
@@ -24,7 +29,8 @@ struct shape_options
 {
     std::string input, output, stats, picture, cut, device, progress;
     double time_limit = std::numeric_limits<double>::infinity();
-    bool quiet = false;
+    std::optional<double> tolerance; ///< relative gradient; none: as the library has it
+    bool quiet = false, smoothing = false;
 
     // deform
     std::string pins, rest;
@@ -35,5 +41,15 @@ struct shape_options
     smooth_boundary boundary = smooth_boundary::sliding;
     int worst_exponent = 2;
 };
+
+/// Declare the options of either command; they are filled when the program's arguments are parsed.
+void declare_deform(CLI::App& app, shape_options& options);
+void declare_smooth(CLI::App& app, shape_options& options);
+
+/// Throws usage_error for outputs that could not be written.
+outputs check(const shape_options& options);
+
+/// The energy to minimise while a mesh deforms.
+any_energy energy_of(shape_energy choice);
 
 } // namespace taut::tools

@@ -51,8 +51,11 @@ public:
     static constexpr int D = Element::dimension;
     using map = std::vector<vec<D>>;
 
-    /// The file is referred to. Throws mesh_error, io_error.
-    explicit volume_case(const io::volume_file& file) : file_(file), parts_(io::corner_simplices_of<Element>(file)) {}
+    /// The file is referred to. edged: as io::corner_simplices_of() has it. Throws mesh_error, io_error.
+    explicit volume_case(const io::volume_file& file, std::span<const idx> edged = {})
+        : file_(file), parts_(io::corner_simplices_of<Element>(file, edged))
+    {
+    }
 
     const io::volume_file& file() const { return file_; }
     const mesh<Element>& simplices() const { return parts_.simplices; } ///< at rest

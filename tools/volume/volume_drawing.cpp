@@ -23,12 +23,17 @@ namespace taut::tools
 namespace
 {
 
+std::string census_of(const io::volume_file& file, const drawn_state& state)
+{
+    return count_cells(file, file.dimension) + ", " + count(state.inverted.size()) + " inverted";
+}
+
 std::string note_of(const io::volume_file& file, const drawn_state& state)
 {
     std::vector<double> known;
     for (const double d : state.distortion)
         if (std::isfinite(d)) known.push_back(d);
-    std::string note = count_cells(file, file.dimension) + ", " + count(state.inverted.size()) + " inverted";
+    std::string note = census_of(file, state);
     if (known.empty()) return note;
     const auto rank = [&](double part)
     {
@@ -128,6 +133,7 @@ std::string draw_layouts(const io::volume_file& file, const std::vector<drawn_st
         for (const std::size_t c : owners) distortion.push_back(state.distortion[c]);
         style.title = state.title;
         style.note = note_of(file, state);
+        if (owners.size() > owners.back() + 1) style.census = census_of(file, state);
         if (extension(options.path) == ".svg")
             texts.push_back(io::layout_svg(x, triangles, distortion, outline, style));
         else

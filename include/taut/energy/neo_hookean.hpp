@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include <taut/energy/element.hpp>
@@ -20,10 +21,36 @@ struct neo_hookean
     template <class T, int D>
     T operator()(const element<T, D>& e) const
     {
+        const auto lame = of_poisson(poisson);
+        return density(e, lame[0], lame[1]);
+    }
+
+    /// mu and lambda for a Poisson ratio, at Young's modulus 1.
+    static std::array<double, 2> of_poisson(double ratio)
+    {
+        return {0.5 / (1 + ratio), ratio / ((1 + ratio) * (1 - 2 * ratio))};
+    }
+
+    /// With these mu and lambda.
+    template <class T, int D, class Number>
+    static T density(const element<T, D>& e, const Number& mu, const Number& lambda)
+    {
         using std::log;
-        const double mu = 0.5 / (1 + poisson), lambda = poisson / ((1 + poisson) * (1 - 2 * poisson));
         const T log_j = log(e.det);
         return T(0.5 * mu) * (norm2(e.S) - T(double(D)) - T(2) * log_j) + T(0.5 * lambda) * log_j * log_j;
+    }
+};
+
+/// The same with mu = e.parameter(0) and lambda = e.parameter(1), as neo_hookean::of_poisson() has them: other values
+/// take no other kernels.
+struct neo_hookean_of_parameters
+{
+    static constexpr bool barrier = true;
+
+    template <class T, int D>
+    T operator()(const element<T, D>& e) const
+    {
+        return neo_hookean::density(e, e.parameter(0), e.parameter(1));
     }
 };
 

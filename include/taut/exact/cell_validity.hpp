@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/exact/cell_tetrahedra.hpp>
 #include <taut/exact/predicates.hpp>
 
 namespace taut
@@ -157,37 +158,6 @@ inline jacobian_polynomial pyramid_jacobian(std::span<const vec3> x)
                   x[4] - at(i2, j2));
         }
     return p;
-}
-
-/// The corners of the tetrahedra at the corners of a cell of so many corners, four to eight, positive in VTK's order.
-inline std::span<const std::array<std::size_t, 4>> corner_tetrahedra(std::size_t count)
-{
-    using corners = std::array<std::size_t, 4>;
-    static constexpr std::array<corners, 1> tetrahedron = {{{0, 1, 2, 3}}};
-    static constexpr std::array<corners, 4> pyramid = {{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
-    static constexpr std::array<corners, 6> wedge = {
-        {{0, 2, 1, 3}, {1, 0, 2, 4}, {2, 1, 0, 5}, {3, 4, 5, 0}, {4, 5, 3, 1}, {5, 3, 4, 2}}};
-    static constexpr std::array<corners, 8> hexahedron = {{{0, 1, 3, 4},
-                                                           {1, 2, 0, 5},
-                                                           {2, 3, 1, 6},
-                                                           {3, 0, 2, 7},
-                                                           {4, 7, 5, 0},
-                                                           {5, 4, 6, 1},
-                                                           {6, 5, 7, 2},
-                                                           {7, 6, 4, 3}}};
-    switch (count)
-    {
-    case 4:
-        return tetrahedron;
-    case 5:
-        return pyramid;
-    case 6:
-        return wedge;
-    case 8:
-        return hexahedron;
-    default:
-        return {};
-    }
 }
 
 /// Whether a simplex at a corner of the cell is not positive, by exact signs.

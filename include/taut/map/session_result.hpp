@@ -12,7 +12,7 @@ namespace taut
 {
 
 /// How much one call of session::solve may do. What ends first ends it; one step is made in any case, if there is
-/// something to do.
+/// something to do, but by the first call, which may end with the shape that it began with.
 struct session_budget
 {
     /// Wall-clock limit. A step that would take longer than what is left, as the last one did, is not begun.

@@ -37,9 +37,9 @@ struct smooth_params
     /// The shape at rest for wanted_shapes::rest, one position a vertex; none: that of the mesh.
     std::vector<vec3> rest = {};
 
-    /// What regular cells look like, if not like regular simplices, and what they are corners of, as `targets` and
-    /// `owners` of deform_params.
-    std::vector<mat<Element::dimension>> regular = {};
+    /// What single elements are wanted to look like, and what they are corners of, as in deform_params: those of
+    /// corner_simplices::regular where they are corners of regular cells.
+    std::vector<mat<Element::dimension>> targets = {};
     std::vector<idx> owners = {};
 
     /// The energy, shape distortion by itself, is taken to this power: larger ones put the worst elements first, 1 the
@@ -85,15 +85,15 @@ template <class Element>
 smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_params<Element>& params = {})
 {
     params.validate();
-    if (!params.owners.empty() && params.regular.size() != m.cells().size())
-        throw parameter_error("regular", "one matrix a cell where there are owners");
+    if (!params.owners.empty() && params.targets.size() != m.cells().size())
+        throw parameter_error("targets", "one matrix a cell where there are owners");
     using point = vec<Element::dimension>;
     deform_params<Element> how;
     how.energy = energy::shape_power{params.worst_exponent};
     how.weights = energy::weighting::uniform;
     how.shapes = params.shapes;
     how.rest = params.rest;
-    how.targets = params.regular;
+    how.targets = params.targets;
     how.owners = params.owners;
     how.precision = params.precision;
     how.untangling = params.untangling;
@@ -124,7 +124,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_par
     const auto measured = [&](std::span<const point> x)
     {
         return params.owners.empty() ? measure_shapes<Element>(m.cells(), x)
-                                     : measure_shapes<Element>(m.cells(), x, params.owners, params.regular);
+                                     : measure_shapes<Element>(m.cells(), x, params.owners, params.targets);
     };
     result.before = measured(start);
     auto found = deform(q, m, how);

@@ -15,7 +15,8 @@ namespace taut
 
 /// Meshes whose simplices are the corners of cells of other kinds (quads, wedges, hexahedra, ...) and overlap. Corner 0
 /// of a simplex is that of the cell, whose edges it spans; `owners` has the cell of each simplex, those of a cell one
-/// after the other. A simplex without others of its cell is that cell. Without owners all are cells.
+/// after the other. A simplex without others of its cell is that cell. Without owners all are cells. 24 further
+/// tetrahedra after the 8 at the corners of a hexahedron, and 6 after the 6 of a wedge, are those at its edges.
 ///
 /// The facets of such a mesh with cells on one side alone, as simplices with the normal of the boundary: of a quad the
 /// triangles at its four corners.
@@ -29,16 +30,20 @@ std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Elem
         std::array<idx, D> sorted, vertices;
         idx owner;
     };
-    const auto alone = [&](std::size_t c)
-    { return (c == 0 || owners[c - 1] != owners[c]) && (c + 1 == owners.size() || owners[c + 1] != owners[c]); };
     std::vector<side> sides;
-    for (std::size_t c = 0; c < m.cells().size(); ++c)
-        for (idx k = alone(c) ? 0 : 1; k < Element::corners; ++k) // what is opposite of a cell's corner lies inside
-        {
-            const auto v = side_vertices(m, static_cast<idx>(c) * Element::corners + k);
-            sides.push_back({v, v, owners[c]});
-            std::sort(sides.back().sorted.begin(), sides.back().sorted.end());
-        }
+    for (std::size_t first = 0, last = 0; first < owners.size(); first = last)
+    {
+        while (last < owners.size() && owners[last] == owners[first]) ++last;
+        const std::size_t count = last - first, corners = count == 32 ? 8 : count == 12 ? 6 : count;
+        for (std::size_t c = first; c < first + corners; ++c)
+            for (idx k = count == 1 ? 0 : 1; k < Element::corners;
+                 ++k) // what is opposite of a cell's corner lies inside
+            {
+                const auto v = side_vertices(m, static_cast<idx>(c) * Element::corners + k);
+                sides.push_back({v, v, owners[c]});
+                std::sort(sides.back().sorted.begin(), sides.back().sorted.end());
+            }
+    }
     std::vector<std::size_t> order(sides.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),

@@ -25,8 +25,8 @@ class mesh_levels
 public:
     /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level of a surface. data: of the cells of
     /// m; coarser levels have the means. kept: other vertices that are on every level, or empty. owners: of cells that
-    /// overlap (mesh/cell_corners.hpp), whose coarser levels are those of triangle_cover(). Throws mesh_error,
-    /// parameter_error.
+    /// overlap (mesh/cell_corners.hpp), whose coarser levels are those of triangle_cover(), or of the cells' boundary
+    /// in space. Throws mesh_error, parameter_error.
     explicit mesh_levels(const mesh<Element>& m, const std::vector<bool>& pinned = {},
                          const hierarchy_params& params = {}, const cell_data& data = {},
                          const std::vector<bool>& kept = {}, std::span<const idx> owners = {})
@@ -55,6 +55,13 @@ public:
                 if (whole[c]) cells.push_back(finest_.cells()[c]);
             hierarchy_ = make_hierarchy(mesh<Element>(finest_.points(), std::move(cells)), keep, params);
             hierarchy_.levels[0].cells = finest_.cells();
+        }
+        else if constexpr (Element::dimension == 3)
+        {
+            auto boundary = owners.empty() ? decltype(boundary_facets(m, owners))() : boundary_facets(m, owners);
+            for (auto& face : boundary)
+                for (idx& v : face) v = numbering_.order.vertices.old_to_new[static_cast<std::size_t>(v)];
+            hierarchy_ = make_hierarchy(finest_, keep, params, boundary);
         }
         else
             hierarchy_ = make_hierarchy(finest_, keep, params);

@@ -123,7 +123,7 @@ TEST_CASE("corner cells: tangled ones are smoothed to regular ones, and flat sid
             p += vec3(move(random), move(random), move(random));
     const mesh<tetrahedron> tangled(points, parts.simplices.cells());
     queue q;
-    const auto r = smooth(q, tangled, {.regular = parts.regular, .owners = parts.cells});
+    const auto r = smooth(q, tangled, {.targets = parts.regular, .owners = parts.cells});
     REQUIRE(r);
     CHECK(r.before.worst.mean_ratio < 0);
     CHECK(r.after.worst.mean_ratio > 0.5);
@@ -131,7 +131,7 @@ TEST_CASE("corner cells: tangled ones are smoothed to regular ones, and flat sid
     for (std::size_t v = 0; v < r.x.size(); ++v)
         for (int k = 0; k < 3; ++k)
             if (const double side = file.points[v][k]; side == 0 || side == (k == 2 ? 2 : 1)) CHECK(r.x[v][k] == side);
-    CHECK_THROWS_WITH_AS(smooth(q, tangled, {.owners = parts.cells}), doctest::Contains("regular"), parameter_error);
+    CHECK_THROWS_WITH_AS(smooth(q, tangled, {.owners = parts.cells}), doctest::Contains("targets"), parameter_error);
 }
 
 TEST_CASE("corner cells: quads among triangles of the plane are bent, on a hierarchy that covers them once")
@@ -168,7 +168,7 @@ TEST_CASE("corner cells: tangled quads are smoothed to squares; that they cannot
         if (std::min(p.x, p.y) > 0 && std::max(p.x, p.y) < 1) p += vec3(move(random), move(random), 0);
     queue q;
     const auto r =
-        smooth(q, mesh<triangle>(points, parts.simplices.cells()), {.regular = parts.regular, .owners = parts.cells});
+        smooth(q, mesh<triangle>(points, parts.simplices.cells()), {.targets = parts.regular, .owners = parts.cells});
     REQUIRE(r);
     CHECK(r.before.worst.mean_ratio < 0);
     CHECK(r.after.worst.mean_ratio > 0.4);

@@ -114,6 +114,10 @@ TEST_CASE("deform: an energy that is 0 at rest takes steps from there, in any pr
             CHECK(r.report.converged);
             CHECK(r.report.gradient < 1e-6);
             CHECK(r.report.steps < 12);
+            const auto lame = energy::neo_hookean::of_poisson(poisson); // as numbers that kernels are given
+            params.energy = energy::neo_hookean_of_parameters{};
+            params.parameters = {lame.begin(), lame.end()};
+            CHECK(deform(q, m, params).report.energy == doctest::Approx(r.report.energy).epsilon(1e-5));
         }
 }
 
@@ -246,6 +250,24 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
     CHECK(!r.report.pins_held);
     CHECK(r.report.distance > 0);
     CHECK(certify<3>(m.cells(), r.x));
+
+    // Before the first step it is the shape to begin with.
+    bool usable = false;
+    params.observer = [&](const progress& p) { return usable = p.usable, false; };
+    const auto none = deform(q, m, params);
+    CHECK(usable);
+    CHECK(none.report.outcome == outcome::stopped);
+    CHECK(none.report.steps == 0);
+    CHECK(none.report.distance > 0);
+    CHECK(none.report.energy == doctest::Approx(2));
+    CHECK(std::equal(none.x.begin(), none.x.end(), m.points().begin()));
+    params.constraints = {};
+    params.time_limit = {};
+    const auto late = deform(q, m, params);
+    CHECK(late.report.outcome == outcome::valid);
+    CHECK(late.report.stopped);
+    CHECK(late.report.pins_held);
+    CHECK(!late.report.converged);
 
     CHECK_THROWS_WITH_AS(deform(q, m, deform_params<tetrahedron>{.initial = {vec3(0)}}), doctest::Contains("initial"),
                          parameter_error);

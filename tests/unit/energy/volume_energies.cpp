@@ -32,7 +32,11 @@ TEST_CASE("neo-Hookean: nothing at rotations, and linear elasticity near them")
         double square = 0;
         for (int k = 0; k < 3; ++k) square += glm::dot(strain[k], strain[k]);
         const double trace = 1.4, linear = h * h * (mu * square + 0.5 * lambda * trace * trace);
-        CHECK(value_at(f, rotation * (mat3(1.0) + h * strain)) == doctest::Approx(linear).epsilon(1e-3));
+        const mat3 S = rotation * (mat3(1.0) + h * strain);
+        CHECK(value_at(f, S) == doctest::Approx(linear).epsilon(1e-3));
+        const auto lame = energy::neo_hookean::of_poisson(nu);
+        const element<double, 3> e{.S = S, .det = glm::determinant(S), .measure = 1.0, .parameters = lame};
+        CHECK(energy::neo_hookean_of_parameters{}(e) == f(e));
     }
 }
 

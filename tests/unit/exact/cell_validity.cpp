@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -114,6 +115,10 @@ TEST_CASE("validity of cells: the verdict is that of samples, for cells of all k
                 if (least < -1e-6) CHECK(verdict == cell_validity::invalid);
                 if (verdict == cell_validity::valid) CHECK(least > -1e-6);
                 CHECK(verdict != cell_validity::undecided);
+                const auto positive = [&](const auto& t) { return orient3d(x[t[0]], x[t[1]], x[t[2]], x[t[3]]) > 0; };
+                const auto edges = detail::edge_tetrahedra(x.size());
+                if (!detail::has_bad_corner(x) && std::all_of(edges.begin(), edges.end(), positive))
+                    CHECK(verdict == cell_validity::valid);
             }
         }
 }

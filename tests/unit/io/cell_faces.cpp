@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <taut/io/cell_faces.hpp>
@@ -63,6 +65,18 @@ TEST_CASE("cell corners: the boundary of overlapping simplices is that of the ce
     CHECK(boundary.size() == 6 + 4 * 6 + 6);
     for (const auto& facet : boundary) CHECK(std::none_of(facet.begin(), facet.end(), [&](idx v) { return v < 0; }));
     CHECK(boundary_facets(parts.simplices).size() > boundary.size()); // as if they were cells
+
+    // Tetrahedra at the edges of all cells leave the boundary as it is.
+    const auto edged = io::corner_simplices_of(mixed_file(), std::vector<idx>{0, 1, 2, 3, 4});
+    CHECK(edged.cells.size() == parts.cells.size() + 6 + 24);
+    CHECK(boundary_facets(edged.simplices, edged.cells).size() == boundary.size());
+    for (idx c = 0; c < edged.simplices.cell_count(); ++c)
+    {
+        CHECK(taut::tetrahedron::determinant(edged.simplices.rest(c)) > 0);
+        CHECK(glm::determinant(edged.regular[static_cast<std::size_t>(c)]) > 0);
+    }
+    const auto weight = [](const auto& all) { return std::accumulate(all.begin(), all.end(), 0.0); };
+    CHECK(weight(edged.weights) == doctest::Approx(weight(parts.weights)));
 }
 
 } // namespace

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include <taut/mesh/boundary.hpp>
+#include <taut/mesh/mesh.hpp>
 
 namespace taut::detail
 {
@@ -13,8 +15,9 @@ namespace taut::detail
 /// of the boundary, 2 on a crease, 3 in a corner. After the classes of Adams, "Parallel multigrid solvers for 3D
 /// unstructured finite element problems".
 ///
-/// unit: a power of two that brings lengths near 1
-inline std::vector<char> boundary_rank(const mesh<tetrahedron>& m, double unit)
+/// faces: of the boundary; unit: a power of two that brings lengths near 1
+inline std::vector<char> boundary_rank(const mesh<tetrahedron>& m, std::span<const std::array<idx, 3>> faces,
+                                       double unit)
 {
     // Of each vertex the sum of n n' / |n| over its boundary faces, n twice the area: symmetric, by (i, j), i <= j.
     struct tensor
@@ -22,7 +25,7 @@ inline std::vector<char> boundary_rank(const mesh<tetrahedron>& m, double unit)
         double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
     };
     std::vector<tensor> sums(m.points().size());
-    for (const auto& face : boundary_facets(m))
+    for (const auto& face : faces)
     {
         const auto at = [&](std::size_t k) { return unit * m.points()[static_cast<std::size_t>(face[k])]; };
         const vec3 n = glm::cross(at(1) - at(0), at(2) - at(0));

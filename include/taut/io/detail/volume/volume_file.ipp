@@ -63,6 +63,21 @@ inline std::pair<mat3, double> regular_corner(cell_kind kind, tetrahedron)
     }
 }
 
+/// Edge matrix of a tetrahedron of the corners of a wedge or hexahedron whose edges all have length 1.
+inline mat3 regular_edges(cell_kind kind, const std::array<std::size_t, 4>& corners)
+{
+    const mat3 W = regular_corner(kind, tetrahedron{}).first;
+    const std::size_t floor = kind == cell_kind::wedge ? 3 : 4; // corners
+    const auto place = [&](std::size_t corner)
+    {
+        const std::size_t k = corner % floor;
+        const vec3 here = kind == cell_kind::wedge ? vec3(k == 2, k == 1, 0) : vec3(k == 1 || k == 2, k >= 2, 0);
+        return W * (here + vec3(0, 0, corner >= floor));
+    };
+    const vec3 origin = place(corners[0]);
+    return {place(corners[1]) - origin, place(corners[2]) - origin, place(corners[3]) - origin};
+}
+
 /// How the format of a file has the corners of a cell, in words.
 inline std::string convention_of(cell_kind kind, const std::string& format)
 {
@@ -205,7 +220,7 @@ TAUT_INLINE mesh<triangle> triangles_of(const volume_file& file)
 }
 
 template <class Element>
-corner_simplices<Element> corner_simplices_of(const volume_file& file)
+corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span<const idx> edged)
 {
     if constexpr (Element::dimension == 2) detail::require_planar(file);
     std::vector<typename mesh<Element>::cell> simplices;
@@ -217,17 +232,25 @@ corner_simplices<Element> corner_simplices_of(const volume_file& file)
     for_each_cell(file, Element::dimension,
                   [&](cell_kind kind, idx number, std::span<const idx> corners)
                   {
-                      const auto [W, weight] = detail::regular_corner(kind, Element{});
+                      const auto regular_one = detail::regular_corner(kind, Element{});
                       const auto table = detail::corner_table(kind, Element{});
                       overlapping = overlapping || table.size() > 1;
-                      for (const auto& t : table)
+                      const std::size_t more = std::binary_search(edged.begin(), edged.end(), number)
+                                                   ? taut::detail::edge_tetrahedra(corners.size()).size()
+                                                   : 0;
+                      const double weight = regular_one.second * double(table.size()) / double(table.size() + more);
+                      const auto add = [&](const auto& t, const mat<Element::dimension>& edges)
                       {
                           auto& simplex = simplices.emplace_back();
                           for (std::size_t k = 0; k < t.size(); ++k) simplex[k] = corners[t[k]];
                           cells.push_back(number);
-                          regular.push_back(W);
+                          regular.push_back(edges);
                           weights.push_back(weight);
-                      }
+                      };
+                      for (const auto& t : table) add(t, regular_one.first);
+                      if constexpr (Element::dimension == 3)
+                          for (const auto& t : taut::detail::edge_tetrahedra(corners.size()).first(more))
+                              add(t, detail::regular_edges(kind, t));
                       orientation.add<Element>(kind, number, corners);
                   });
     if (simplices.empty())

@@ -292,12 +292,18 @@ protected:
             r.converged = false;
             load(scaled(last.x));
         }
-        const auto gap = held_.gap(last.x);
-        on_way_ = gap.vertex >= 0;
-        r.pins_held = !on_way_;
-        r.farthest = gap.vertex;
-        r.distance = gap.distance;
+        note_gap();
+        on_way_ = !r.pins_held;
         book(clock, &session_seconds::certificate, {.stage = "certify"});
+    }
+
+    /// How far held coordinates of the last map are from their places.
+    void note_gap()
+    {
+        const auto gap = held_.gap(last.x);
+        last.report.pins_held = gap.vertex < 0;
+        last.report.farthest = gap.vertex;
+        last.report.distance = gap.distance;
     }
 
     static bool is_converged(solve::stop s) { return s == solve::stop::gradient || s == solve::stop::decrease; }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/energy/distortion.hpp>
 #include <taut/map/detail/session/session_steps.hpp>
 #include <taut/mesh/validate.hpp>
 
@@ -46,8 +47,8 @@ public:
         : base(q, params),
           params_(validated(params)),
           start_(start_of(m, params_)),
-          rest_(in_run_lengths(m, params_.rest)),
-          ideal_((require_deformable(), ideals(rest_, params_, unit_scale(m))))
+          rest_(deformable(in_run_lengths(m, params_.rest), params_)),
+          ideal_(ideals(rest_, params_, unit_scale(m)))
     {
         require_slides();
         this->lengths_ = unit_scale(m);
@@ -82,7 +83,14 @@ private:
         last.x = start_;
         r.outcome = outcome::valid;
         r.flips = std::move(flips);
+        this->note_gap();
+        clock.has_result(true);
         if (this->proved(start_)) return;
+        if (!clock.proceed())
+        {
+            r.energy = energy_of(start_);
+            return;
+        }
         const precision how = params_.precision != precision::automatic ? params_.precision
                               : this->queue_.device().has_fp64()        ? precision::mixed
                                                                         : precision::fp32;
@@ -103,6 +111,15 @@ private:
         return true;
     }
 
+    /// Of a shape without inverted elements, by the host.
+    double energy_of(const map& x) const
+    {
+        const map run_lengths = this->scaled(x);
+        const means e = mean_over(rest_, ideal_, std::span<const vec<D>>(run_lengths),
+                                  [this](const element<double, D>& here) { return params_.energy(here); });
+        return params_.weights == energy::weighting::measure ? e.measure : e.uniform;
+    }
+
     /// Puts a map on the device, with what is held.
     void put(precision how, const map& run_lengths)
     {
@@ -121,31 +138,32 @@ private:
                         "that the mesh does not have, or that is pinned, among the slides; leave it out");
     }
 
-    /// Any number of components, holes and handles; vertices without cells stay where they are.
-    void require_deformable() const
+    /// The mesh, which may have any number of components, holes and handles; vertices without cells stay where they
+    /// are. Throws mesh_error, and parameter_error for parameters that are not of this mesh.
+    static mesh<Element> deformable(mesh<Element> m, const deform_params<Element>& params)
     {
-        params_.data.validate(rest_.cells().size());
+        params.data.validate(m.cells().size());
         for (const auto& [size, field] :
-             {std::pair{params_.targets.size(), "targets"}, {params_.owners.size(), "owners"}})
-            if (size != 0 && size != rest_.cells().size())
+             {std::pair{params.targets.size(), "targets"}, {params.owners.size(), "owners"}})
+            if (size != 0 && size != m.cells().size())
                 throw parameter_error(field,
-                                      std::to_string(size) + " for " + std::to_string(rest_.cells().size()) + " cells");
-        auto found =
-            check(rest_,
-                  {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
-        if (params_.shapes == wanted_shapes::regular) // which need no rest shape
+                                      std::to_string(size) + " for " + std::to_string(m.cells().size()) + " cells");
+        auto found = check(
+            m, {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
+        if (params.shapes == wanted_shapes::regular) // which need no rest shape
             std::erase_if(found, [](const mesh_finding& f)
                           { return f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell; });
         if constexpr (D == 3) // its hierarchy knows no facets
             std::erase_if(found, [](const mesh_finding& f) { return f.fault == mesh_fault::non_manifold_vertex; });
-        if (!params_.owners.empty()) // which share facets
+        if (!params.owners.empty()) // which share facets
             std::erase_if(found, [](const mesh_finding& f)
                           { return f.fault != mesh_fault::degenerate_cell && f.fault != mesh_fault::inverted_cell; });
-        if (!found.empty()) throw mesh_error(describe<Element>(found[0].fault, found[0].ids, params_.owners));
+        if (!found.empty()) throw mesh_error(describe<Element>(found[0].fault, found[0].ids, params.owners));
         if constexpr (D == 2)
-            for (const vec3& p : rest_.points())
+            for (const vec3& p : m.points())
                 if (p.z != 0)
                     throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
+        return m;
     }
 
     /// unit: length of the run by that of the parameters.

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "untangle_options.hpp"
+
+#include "choices.hpp"
+#include "failure.hpp"
+#include "shared_options.hpp"
+#include "volume/volume_case.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// Throws usage_error where there is an option that problems have no use for.
+void require_problem_options(const untangle_options& o)
+{
+    const auto refuse = [](const char* option, bool given)
+    {
+        if (given) throw usage_error(std::string(option) + " is of volume files; a problem says it itself");
+    };
+    refuse("--rest", !o.rest.empty());
+    refuse("--pins", !o.pins.empty());
+    refuse("--fix", !o.fixed.empty());
+    refuse("--boundary", o.boundary != untangle_boundary::automatic);
+}
+
+} // namespace
+
+void declare(CLI::App& app, untangle_options& o)
+{
+    add_path(
+        app, "PROBLEM", o.input, standard_input,
+        "Problem (rest shape, initial map, cells and fixed vertices, as text), - is standard input; or a volume, or "
+        "a mesh of the plane, with inverted elements: .mesh .msh .vtk .vtu .node .su2")
+        ->required()
+        ->type_name("FILE");
+    add_path(
+        app, "-o,--output", o.output, standard_output,
+        "What to write; of a problem the map, a vertex a line, - is standard output; of a volume the same file with "
+        "other coordinates. OUT.invalid if it is not injective")
+        ->required()
+        ->type_name("OUT");
+    app.add_option("--rest", o.rest,
+                   "The volume at rest, the same vertices and cells; without it elements are wanted to be regular")
+        ->type_name("FILE");
+    app.add_option("--pins", o.pins, "Vertices of the volume to hold: vertex,x,y,z, vertices from 0")
+        ->type_name("FILE.csv");
+    app.add_option("--fix", o.fixed, "Keep the vertices of a group where they are; more than once, if need be")
+        ->type_name("GROUP");
+    add_choice(app, "--boundary", o.boundary,
+               std::vector<choice<untangle_boundary>>{{"auto", untangle_boundary::automatic},
+                                                      {"fixed", untangle_boundary::fixed},
+                                                      {"free", untangle_boundary::free}},
+               "Whether the boundary of the volume stays where it is; auto: unless --pins or --fix hold something");
+    add_time_limit(app, o.time_limit, "Give up after S seconds");
+    add_device(app, o.device);
+    add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    add_drawing(app, o.picture, o.cut, "Draw the map before and after, with its pins");
+    add_progress(app, o.progress, o.quiet);
+    app.footer("exit codes: 0 injective map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+               "  6 not found, the best map is in OUT.invalid; 7 proved infeasible; 9 device failure; 130 interrupted, "
+               "143 terminated");
+}
+
+outputs check(const untangle_options& o)
+{
+    const bool volume = names_volume(o.input);
+    if (!volume) require_problem_options(o);
+    outputs files;
+    if (volume) require_file(o.output);
+    files.add("-o", o.output, {});
+    files.add("-o (not valid)", name_of_invalid(o.output), {});
+    files.add("--stats", o.stats, {".json"});
+    files.add("--picture", o.picture, {".png", ".svg"});
+    files.protect("the input", o.input);
+    if (!o.pins.empty()) files.protect("the file of pins", o.pins);
+    if (!o.rest.empty()) files.protect("the shape at rest", o.rest);
+    return files;
+}
+
+} // namespace taut::tools

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "outputs.hpp"
+
+namespace taut::tools
+{
+
+/// Whether the boundary of a volume file stays where it is while it is untangled.
+enum class untangle_boundary
+{
+    automatic, ///< unless something else is held
+    fixed,
+    free
+};
+
+/// What the user asked `taut untangle` for.
+struct untangle_options
+{
+    std::string input, output, stats, picture, device, progress;
+    std::string rest, pins, cut;    ///< of volume files
+    std::vector<std::string> fixed; ///< groups
+    untangle_boundary boundary = untangle_boundary::automatic;
+    double time_limit = std::numeric_limits<double>::infinity();
+    bool quiet = false;
+};
+
+/// Declares the options; they are filled when the program's arguments are parsed.
+void declare(CLI::App& app, untangle_options& options);
+
+/// Throws usage_error for options that do not fit together and for outputs that could not be written.
+outputs check(const untangle_options& options);
+
+} // namespace taut::tools

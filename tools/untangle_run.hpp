@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/io/write_files.hpp>
+#include <taut/io/write_map.hpp>
+#include <taut/io/write_volume.hpp>
+#include <taut/measure/describe_defects.hpp>
+#include <taut/untangle/proofs/infeasible.hpp>
+#include <taut/untangle/untangle.hpp>
+
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "open_queue.hpp"
+#include "outputs.hpp"
+#include "progress.hpp"
+#include "run_clock.hpp"
+#include "text_table.hpp"
+#include "untangle_picture.hpp"
+#include "untangle_report.hpp"
+#include "volume/mend_insides.hpp"
+#include "volume/volume_drawing.hpp"
+#include "volume/volume_problem.hpp"
+#include "writing.hpp"
+
+namespace taut::tools
+{
+
+/// One run of `taut untangle`, phase by phase.
+template <class Element>
+class untangle_run
+{
+public:
+    static constexpr int D = Element::dimension;
+
+    /// input: the volume file that the problem is of, if it is of one.
+    untangle_run(const untangle_options& options, run_clock clock, progress& progress, untangle_report report,
+                 const char* place_of_report, const volume_case<Element>* input)
+        : options_(options),
+          input_(input),
+          clock_(clock),
+          progress_(progress),
+          report_(std::move(report)),
+          place_of_report_(place_of_report)
+    {
+    }
+
+    exit_code operator()(untangle_problem<Element> problem)
+    {
+        problem_.emplace(std::move(problem));
+        report_.dimension = D;
+        report_.vertices = problem_->initial.size();
+        report_.pinned = problem_->held.count();
+        if (input_)
+        {
+            report_.format = input_->file().format;
+            report_.element = input_->element();
+            report_.elements = input_->cells();
+            report_.cells = count_cells(input_->file(), D);
+        }
+        else
+        {
+            report_.element = Element::name;
+            report_.elements = problem_->rest.cells().size();
+            report_.cells = count(report_.elements, Element::name, Element::names);
+        }
+        report_.before = certified(problem_->initial, report_.state_before);
+        if (!prove_infeasible()) solve();
+        write();
+        if (report_.code == exit_code::infeasible) throw infeasible_problem(report_.reason);
+        if (valid_) return report_.code;
+        const std::string why =
+            report_.reason + (report_.written.empty() ? "" : "; the best map is in " + report_.written);
+        if (interrupted()) throw interrupted_run(why);
+        throw no_valid_map(why);
+    }
+
+private:
+    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
+
+    /// Of what a reader of the file will have.
+    certificate certified(const std::vector<vec<D>>& x, volume_state& state) const
+    {
+        if (!input_) return certify<D>(problem_->rest.cells(), std::span<const vec<D>>(x));
+        state = input_->look(input_->as_written(x));
+        auto found = state.simplices;
+        found.flipped = state.inverted.size();
+        return found;
+    }
+
+    /// Proofs need no device and no time, so they come first, and all of them are told.
+    bool prove_infeasible()
+    {
+        tell("check");
+        infeasibility found;
+        report_.seconds.check = clock_.timed([&] { found = find_infeasibility(*problem_); });
+        for (const auto& warning : found.warnings) report_.notes.push_back(warning.message);
+        if (!found) return false;
+        report_.code = exit_code::infeasible;
+        report_.outcome = "infeasible";
+        report_.after = report_.before;
+        report_.ids = found.proofs.front().ids;
+        for (const auto& proof : found.proofs) report_.reason += (report_.reason.empty() ? "" : "\n  ") + proof.message;
+        return true;
+    }
+
+    void solve()
+    {
+        tell("device");
+        std::optional<queue> q;
+        report_.seconds.device = clock_.timed([&] { q = open_queue(options_.device, false); });
+        report_.device = q->device().name();
+        report_.device_label = (std::ostringstream() << q->device()).str();
+
+        untangle_params params;
+        params.observer = [this](const taut::progress& p)
+        {
+            if (p.iterate)
+                progress_.update(
+                    {.phase = "untangle", .step = p.iteration, .inverted = p.value, .seconds = clock_.now()});
+            return !interrupted();
+        };
+        // The limit is one for the whole run: what reading took is gone.
+        if (std::isfinite(options_.time_limit))
+            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+        tell("untangle");
+        keep(true); // the initial map, at least
+        untangle_result<Element> result;
+        report_.seconds.solve = clock_.timed([&] { result = untangle(*q, *problem_, params); });
+        if (input_ && result) mend(*q, result, params);
+        take(std::move(result));
+    }
+
+    /// Cells that came out negative inside are untangled once more.
+    void mend(queue& q, untangle_result<Element>& result, untangle_params params)
+    {
+        const auto again = [&](const volume_case<Element>& edged, const std::vector<vec<D>>& from)
+        {
+            if (std::isfinite(options_.time_limit))
+                params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+            auto problem = problem_of(edged, options_, report_);
+            problem.initial = from;
+            problem.held = problem_->held;
+            auto found = untangle(q, problem, params);
+            result.stages.insert(result.stages.end(), found.stages.begin(), found.stages.end());
+            return found ? std::move(found.map) : std::vector<vec<D>>();
+        };
+        auto note = mend_insides(*input_, result.map, again);
+        if (!note.empty()) report_.notes.push_back(std::move(note));
+    }
+
+    void take(untangle_result<Element> result)
+    {
+        // The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.
+        report_.after = certified(result.map, report_.state_after);
+        bool held = true;
+        for (std::size_t v = 0; v < problem_->held.size(); ++v)
+            for (int k = 0; k < D; ++k)
+                held = held && (!problem_->held.test(v, k) || result.map[v][k] == problem_->initial[v][k]);
+        const bool valid = held && report_.after;
+        report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
+        report_.code = interrupted() ? interruption() : valid ? exit_code::valid : exit_code::no_valid_map;
+        report_.reason = valid    ? ""
+                         : !held  ? "a pin has moved"
+                         : result ? "in the single precision of the file there is " +
+                                        describe_defects<Element>(report_.after, problem_->owners)
+                                  : result.reason;
+        report_.ids = std::move(result.ids);
+        report_.least_det = result.flips.min_det;
+        report_.least_relative_det = result.least_relative_det;
+        report_.stage = std::move(result.stage);
+        report_.stages = std::move(result.stages);
+        valid_ = valid;
+        map_ = std::move(result.map);
+    }
+
+    /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
+    void write()
+    {
+        tell("write");
+        const double begin = clock_.now();
+        const auto note_time = [&]
+        {
+            report_.seconds.total = clock_.now();
+            report_.seconds.write = report_.seconds.total - begin;
+        };
+        std::vector<io::file_to_write> files;
+        // A map with defects never gets the name that was asked for.
+        if (!map_.empty()) report_.written = valid_ ? options_.output : name_of_invalid(options_.output);
+        const auto points = input_ && !map_.empty() ? input_->in_file(map_) : std::vector<vec3>();
+        if (input_ && valid_)
+            files = io::volume_outputs(report_.written, input_->file(), points);
+        else if (!report_.written.empty())
+            files.push_back({report_.written, [&](io::atomic_file& file)
+                             {
+                                 if (input_)
+                                     file.write(io::with_points(input_->file(), points));
+                                 else
+                                     io::write_map<D>(file, map_);
+                             }});
+        if (drawn(options_.picture, report_.notes))
+            files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
+        if (!options_.stats.empty())
+            files.push_back({options_.stats, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+                             }});
+        if (place_of_report_ && has_reader(place_of_report_))
+            files.push_back({place_of_report_, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 progress_.finish();
+                                 file.write(text_of(report_, options_));
+                             }});
+        writing([&] { io::write_files(files); });
+        progress_.finish();
+        if (valid_) remove_invalid(options_.output);
+    }
+
+    std::string picture() const
+    {
+        const std::string name = std::filesystem::path(options_.input).filename().string();
+        if (input_) return picture_of(*input_, name);
+        if constexpr (D == 2)
+            return picture_of_problem(name);
+        else
+        {
+            const auto file = file_of(*problem_);
+            return picture_of(volume_case<Element>(file), name);
+        }
+    }
+
+    std::string picture_of(const volume_case<Element>& shown, const std::string& name) const
+    {
+        const bool by_shape = shown.file().rest.empty();
+        std::vector<drawn_state> states{state_to_draw(shown, name + ": before", problem_->initial, by_shape)};
+        if (!map_.empty()) states.push_back(state_to_draw(shown, "after: " + report_.outcome, map_, by_shape));
+        return draw_states(shown.file(), states, {options_.picture, options_.cut, by_shape});
+    }
+
+    std::string picture_of_problem(const std::string& name) const requires(D == 2)
+    {
+        std::vector<layout_input> maps{
+            {problem_->initial, {.title = name + ": before", .note = count(report_.pinned) + " vertices pinned"}}};
+        if (!map_.empty())
+            maps.push_back(
+                {map_, {.title = "after", .note = report_.outcome + (valid_ ? " by " + report_.stage : "")}});
+        else
+            maps.back().style.note += ", infeasible";
+        return draw(options_.picture, *problem_, maps);
+    }
+
+    static constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace; // file names need not be UTF-8
+
+    untangle_options options_;
+    const volume_case<Element>* input_; ///< null: there is none
+    run_clock clock_;
+    progress& progress_;
+    untangle_report report_;
+    const char* place_of_report_; ///< null: there is none
+    std::optional<untangle_problem<Element>> problem_;
+    std::vector<vec<D>> map_;
+    bool valid_ = false;
+};
+
+} // namespace taut::tools

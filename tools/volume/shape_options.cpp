@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "volume/shape_options.hpp"
+
+#include <taut/energy/algebra.hpp>
+#include <taut/energy/area.hpp>
+#include <taut/energy/isometric.hpp>
+#include <taut/energy/neo_hookean.hpp>
+#include <taut/energy/shape.hpp>
+
+#include "choices.hpp"
+#include "shared_options.hpp"
+#include "volume/volume_case.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// What both commands have. usual: the tolerance without an option
+void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
+{
+    app.add_option("MESH", o.input, "Tetrahedra, or triangles of the plane: .mesh .msh .vtk .vtu .node .su2 .prob")
+        ->required()
+        ->type_name("FILE");
+    app.add_option("-o,--output", o.output,
+                   "Mesh to write, in the format of the input: the same file with other coordinates")
+        ->required()
+        ->type_name("OUT");
+    app.add_option("--fix", o.fixed, "Keep the vertices of a group where they are; more than once, if need be")
+        ->type_name("GROUP");
+    app.add_option("--tolerance", o.tolerance, "Stop at this relative gradient, below 1; 0: never. Default: " + usual)
+        ->type_name("T")
+        ->check(number_that([](double x) { return x >= 0 && x < 1; }, "must be at least 0 and below 1"));
+    add_time_limit(app, o.time_limit, "Stop after S seconds, with the best mesh by then");
+    add_device(app, o.device);
+    add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    add_drawing(app, o.picture, o.cut, "Draw the mesh before and after");
+    add_progress(app, o.progress, o.quiet);
+    app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+               "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written; 9 device failure;\n"
+               "  130 interrupted, 143 terminated");
+}
+
+} // namespace
+
+void declare_deform(CLI::App& app, shape_options& o)
+{
+    declare_shared(app, o, "1e-6");
+    app.add_option("--pins", o.pins, "Vertices to hold or draw: vertex,x,y,z[,weight], vertices from 0")
+        ->type_name("FILE.csv");
+    app.add_option("--move", o.moves,
+                   "Move a group: GROUP=FILE.csv (vertex,x,y,z), GROUP:translate:x,y,z, GROUP:rotate:ax,ay,az,degrees "
+                   "or GROUP:scale:factor, about its middle")
+        ->type_name("MOVE");
+    app.add_option("--rest", o.rest, "The mesh at rest, if the input is not: the same vertices and cells")
+        ->type_name("FILE");
+    add_choice(app, "--energy", o.energy,
+               std::vector<choice<shape_energy>>{{"isometric", shape_energy::isometric},
+                                                 {"shape", shape_energy::shape},
+                                                 {"volume", shape_energy::volume},
+                                                 {"neo-hookean", shape_energy::neo_hookean}},
+               "What to keep: lengths, angles, volumes and lengths, or as rubber does");
+}
+
+void declare_smooth(CLI::App& app, shape_options& o)
+{
+    o.smoothing = true;
+    declare_shared(app, o, "1e-4");
+    add_choice(app, "--boundary", o.boundary,
+               std::vector<choice<smooth_boundary>>{{"sliding", smooth_boundary::sliding},
+                                                    {"fixed", smooth_boundary::fixed},
+                                                    {"free", smooth_boundary::free}},
+               "What the boundary may do");
+    app.add_option("--worst", o.worst_exponent, "Exponent of the energy: 1 the mean counts, more: the worst")
+        ->type_name("1..8")
+        ->check(CLI::Range(1, 8));
+}
+
+outputs check(const shape_options& o)
+{
+    outputs files;
+    require_file(o.output);
+    files.add("-o", o.output, {});
+    files.add("--stats", o.stats, {".json"});
+    files.add("--picture", o.picture, {".png", ".svg"});
+    files.protect("the input", o.input);
+    if (!o.pins.empty()) files.protect("the file of pins", o.pins);
+    if (!o.rest.empty()) files.protect("the shape at rest", o.rest);
+    return files;
+}
+
+any_energy energy_of(shape_energy choice)
+{
+    switch (choice)
+    {
+    case shape_energy::shape:
+        return energy::shape{};
+    case shape_energy::volume:
+        return 0.5 * energy::area{} + 0.5 * energy::isometric{};
+    case shape_energy::neo_hookean:
+        return energy::neo_hookean{};
+    case shape_energy::isometric:
+        break;
+    }
+    return energy::isometric{};
+}
+
+} // namespace taut::tools

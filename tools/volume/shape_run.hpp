@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/io/make_untangle_problem.hpp>
+#include <taut/io/pins.hpp>
+#include <taut/io/write_files.hpp>
+#include <taut/io/write_volume.hpp>
+#include <taut/map/smooth.hpp>
+#include <taut/measure/describe_defects.hpp>
+
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "open_queue.hpp"
+#include "outputs.hpp"
+#include "progress.hpp"
+#include "run_clock.hpp"
+#include "volume/deform_report.hpp"
+#include "volume/group_targets.hpp"
+#include "volume/mend_insides.hpp"
+#include "volume/volume_drawing.hpp"
+#include "writing.hpp"
+
+namespace taut::tools
+{
+
+/// One run of `taut deform` or `taut smooth`.
+template <class Element>
+class shape_run
+{
+public:
+    static constexpr int D = Element::dimension;
+    using map = std::vector<vec<D>>;
+
+    /// place_of_report: null if there is none. All else is referred to.
+    shape_run(const shape_options& options, run_clock clock, progress& progress, const char* place_of_report,
+              const volume_case<Element>& input)
+        : options_(options), clock_(clock), progress_(progress), place_of_report_(place_of_report), input_(input)
+    {
+        report_.seconds.read = clock_.now();
+        report_.format = input.file().format;
+        report_.cells = count_cells(input.file(), D);
+        report_.element = input.element();
+        report_.vertices = input.file().points.size();
+        report_.elements = input.cells();
+        report_.dimension = D;
+        report_.mixed = input.parts().overlapping;
+    }
+
+    exit_code operator()()
+    {
+        prepare();
+        tell("device");
+        std::optional<queue> q;
+        report_.seconds.device = clock_.timed([&] { q = open_queue(options_.device, false); });
+        report_.device = q->device().name();
+        tell(phase());
+        report_.before = input_.look(input_.points());
+        report_.seconds.solve = clock_.timed([&] { solve(*q); });
+        if (!valid_) refuse();
+        write();
+        return code_;
+    }
+
+private:
+    const char* phase() const { return options_.smoothing ? "smooth" : "deform"; }
+    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
+
+    void prepare()
+    {
+        group_targets targets(input_.file());
+        for (const auto& name : options_.fixed) targets.fix(name);
+        for (const auto& move : options_.moves) targets.move(move);
+        if (options_.smoothing)
+        {
+            for (const auto& [v, x] : targets.all()) fixed_.push_back(v);
+            return;
+        }
+        const auto& mesh = input_.simplices();
+        pins_ = constraints<Element>(mesh);
+        for (const auto& [v, x] : targets.all()) pins_.pin(v, vec<D>(x));
+        if (!options_.pins.empty()) add_pins(pins_, io::read_pins<D>(options_.pins, mesh.vertex_count()));
+        report_.pins = pins_.pins().size();
+        report_.springs = pins_.springs().size();
+    }
+
+    template <class Params>
+    Params limited(Params params)
+    {
+        params.observer = [this](const taut::progress& p)
+        {
+            keep(kept_ || p.usable);
+            if (p.iterate)
+                progress_.update({.phase = phase(),
+                                  .step = p.iteration,
+                                  .energy = p.value,
+                                  .gradient = p.gradient,
+                                  .seconds = clock_.now()});
+            return !interrupted();
+        };
+        if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
+        if (std::isfinite(options_.time_limit))
+            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+        return params;
+    }
+
+    /// With these simplices of the cells, from a shape; the shape that is found, empty if there is none.
+    session_result<Element> solve(queue& q, const volume_case<Element>& parts, const map& from)
+    {
+        if (options_.smoothing)
+        {
+            const mesh<Element> m(input_.in_file(from), parts.simplices().cells());
+            auto r = smooth(q, m,
+                            limited(smooth_params<Element>{.boundary = options_.boundary,
+                                                           .targets = parts.parts().regular,
+                                                           .owners = parts.owners(),
+                                                           .worst_exponent = options_.worst_exponent,
+                                                           .fixed = fixed_}));
+            return {std::move(r.x), std::move(r.report)};
+        }
+        deform_params<Element> params{
+            .energy = energy_of(options_.energy), .constraints = pins_, .owners = parts.owners(), .initial = from};
+        if (parts.parts().overlapping) params.data.weights = parts.parts().weights;
+        return deform(q, parts.simplices(), limited(std::move(params)));
+    }
+
+    void solve(queue& q)
+    {
+        auto [x, run] = solve(q, input_, input_.points());
+        report_.run = std::move(run);
+        kept_ = !x.empty();
+        keep(kept_);
+        if (report_.run.outcome == outcome::valid && !report_.run.stopped)
+        {
+            const auto again = [&](const volume_case<Element>& edged, const map& from)
+            {
+                auto [other, how] = solve(q, edged, from);
+                auto& all = report_.run;
+                all.steps += how.steps;
+                all.stages.insert(all.stages.end(), how.stages.begin(), how.stages.end());
+                if (how.outcome != outcome::valid || !how.pins_held) return map();
+                all.energy = how.energy;
+                all.gradient = how.gradient;
+                all.converged = how.converged;
+                all.stopped = how.stopped;
+                return other;
+            };
+            if (auto note = mend_insides(input_, x, again); !note.empty()) report_.run.notes.push_back(std::move(note));
+        }
+        take(std::move(x));
+    }
+
+    /// The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.
+    void take(map x)
+    {
+        session_report& run = report_.run;
+        const bool late = run.outcome == outcome::stopped || (run.outcome == outcome::valid && run.stopped);
+        code_ = interrupted()                        ? interruption()
+                : late                               ? exit_code::time_limit
+                : run.outcome == outcome::valid      ? exit_code::valid
+                : run.outcome == outcome::infeasible ? exit_code::infeasible
+                                                     : exit_code::no_valid_map;
+        if (x.empty() || code_ == exit_code::infeasible || code_ == exit_code::no_valid_map) return;
+        points_ = input_.in_file(x);
+        report_.after = input_.look(input_.as_written(x));
+        bool held = true;
+        if (run.pins_held)
+            for (const auto& [v, pin] : pins_.pins())
+                for (int k = 0; k < D; ++k)
+                    held = held && ((pin.held >> k & 1u) == 0 || x[static_cast<std::size_t>(v)][k] == pin.value[k]);
+        valid_ = held && report_.after.simplices;
+        if (valid_) return;
+        code_ = exit_code::no_valid_map;
+        run.reason = held ? "in the single precision of the file the mesh has " +
+                                describe_defects<Element>(report_.after.simplices, input_.owners())
+                          : "a pin has moved";
+    }
+
+    [[noreturn]] void refuse() const
+    {
+        const std::string& why = report_.run.reason;
+        progress_.finish();
+        if (code_ == exit_code::infeasible) throw infeasible_problem(why);
+        if (interrupted()) throw interrupted_run("there was no mesh to write yet");
+        throw no_valid_map(why.empty() ? "nothing was written" : why);
+    }
+
+    void write()
+    {
+        tell("write");
+        const auto note_time = [&] { report_.seconds.total = clock_.now(); };
+        auto files = io::volume_outputs(options_.output, input_.file(), points_);
+        drawing_options drawing{options_.picture, options_.cut, options_.smoothing};
+        if (drawn(drawing.path, report_.run.notes))
+            files.push_back({drawing.path, [&](io::atomic_file& file) { file.write(picture(drawing)); }});
+        if (!options_.stats.empty())
+            files.push_back({options_.stats, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+                                 file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
+                             }});
+        if (place_of_report_ && has_reader(place_of_report_))
+            files.push_back({place_of_report_, [&](io::atomic_file& file)
+                             {
+                                 note_time();
+                                 progress_.finish();
+                                 file.write(text_of(report_, options_));
+                             }});
+        writing([&] { io::write_files(files); });
+        progress_.finish();
+    }
+
+    std::string picture(const drawing_options& drawing) const
+    {
+        const std::string name = std::filesystem::path(options_.input).filename().string();
+        const map x(points_.begin(), points_.end());
+        return draw_states(input_.file(),
+                           {state_to_draw(input_, name + ": before", input_.points(), options_.smoothing),
+                            state_to_draw(input_, "after", x, options_.smoothing)},
+                           drawing);
+    }
+
+    const shape_options& options_;
+    run_clock clock_;
+    progress& progress_;
+    const char* place_of_report_;
+    const volume_case<Element>& input_;
+    constraints<Element> pins_;
+    std::vector<idx> fixed_;
+    std::vector<vec3> points_;
+    deform_report report_;
+    exit_code code_ = exit_code::valid;
+    bool valid_ = false, kept_ = false; ///< kept_: there is a result already
+};
+
+} // namespace taut::tools
