@@ -467,6 +467,9 @@ __kernel void dense(const int size, const int pitch, __global const int* at, __g
 /// The matrix is scaled to a unit diagonal and shifted, so that directions which it does not see get a large, finite
 /// answer. Elimination turns rows into those of L^-1 place by place: A = L d L', X = sum of (row / sqrt d)' (row / sqrt
 /// d), which is semi-definite as computed. A pivot that is not well positive takes its unknown out.
+///
+/// Where the sum of all entries between equal components is nothing but rounding, the matrix does not see a shift of
+/// them all: their means are taken out of X on both sides, as what the shift would answer there is noise.
 #if TEAM > 1
 #define SYNC barrier(CLK_GLOBAL_MEM_FENCE)
 #else
@@ -497,6 +500,23 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
         }
     }
     SYNC;
+    for (int i = item; i < size; i += TEAM)
+    {
+        root[i] = 0;
+        for (int j = i % D; j < size; j += D) root[i] += work[i * pitch + j];
+    }
+    SYNC;
+    REAL share[D]; // of the sum over a component in its mean; 0 for one that is held
+    UNROLLED (int c = 0; c < D; ++c)
+    {
+        REAL sum = 0, trace = 0;
+        for (int i = c; i < size; i += D)
+        {
+            sum += root[i];
+            trace += work[i * pitch + i];
+        }
+        share[c] = fabs(sum) <= 10 * EPSILON * trace && trace < INFINITY ? (REAL)D / size : 0;
+    }
     for (int i = item; i < size; i += TEAM) scale[i] = work[i * pitch + i] > 0 ? 1 / sqrt(work[i * pitch + i]) : 0;
     SYNC;
     for (int i = item; i < size; i += TEAM)
@@ -535,6 +555,27 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
             REALV sum = 0;
             for (int k = i; k < size; ++k) sum += work[k * pitch + i] * LOAD(work, k * pitch + j);
             STORE(sum, X, i * pitch + j);
+        }
+    SYNC;
+    for (int i = item; i < size; i += TEAM)
+        UNROLLED (int c = 0; c < D; ++c)
+        {
+            REAL sum = 0;
+            for (int j = c; j < size; j += D) sum += X[i * pitch + j];
+            work[c * pitch + i] = sum * share[c];
+        }
+    SYNC;
+    REAL mean[D * D];
+    UNROLLED (int c = 0; c < D * D; ++c)
+    {
+        mean[c] = 0;
+        for (int i = c / D; i < size; i += D) mean[c] += work[c % D * pitch + i] * share[c / D];
+    }
+    for (int i = item; i < size; i += TEAM)
+        for (int j = 0; j < size; ++j)
+        {
+            const int c = i % D, k = j % D;
+            X[i * pitch + j] += mean[c * D + k] - work[k * pitch + i] - work[c * pitch + j];
         }
 }
 

@@ -90,4 +90,23 @@ inline dense_matrix shifted_inverse(const dense_matrix& A, double shift)
     return X;
 }
 
+/// X without the mean of each of d components, on both sides; unknown i is one of component i % d.
+inline dense_matrix without_shifts(const dense_matrix& X, std::size_t d)
+{
+    const std::size_t n = X.size();
+    dense_matrix once(n), twice(n);
+    const auto center = [&](const dense_matrix& from, dense_matrix& to) // rows of `from` into columns of `to`
+    {
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            std::vector<long double> mean(d);
+            for (std::size_t j = 0; j < n; ++j) mean[j % d] += from(i, j) * static_cast<long double>(d) / n;
+            for (std::size_t j = 0; j < n; ++j) to(j, i) = from(i, j) - mean[j % d];
+        }
+    };
+    center(X, once);
+    center(once, twice);
+    return twice;
+}
+
 } // namespace taut::test

@@ -113,6 +113,71 @@ TEST_CASE_TEMPLATE("dense inverse: that of the host, in the form for CPUs and in
         }
 }
 
+TEST_CASE_TEMPLATE("dense inverse: a shift that the matrix does not see has no part in the answer", T, float, double)
+{
+    queue q;
+    const auto m = test::flat_disk(test::sized(6, 2));
+    const std::size_t n = m.points().size();
+    std::vector<taut::idx> rows(n);
+    for (std::size_t v = 0; v < n; ++v) rows[v] = static_cast<taut::idx>(v);
+    for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
+        for (const int D : {2, 3})
+        {
+            CAPTURE(D);
+            CAPTURE(form.lanes);
+            const auto d = static_cast<std::size_t>(D);
+            block_matrix A(q, scalar_type_of<T>, pattern_of_cells(m.cells(), n, form.slice), D, form);
+            const auto p = A.pattern();
+            // Springs along edges; component 0 is held by nothing, the others at vertex 7.
+            std::vector<double> values(p.columns.size() * d * d, 0.0);
+            const auto entry = [&](std::size_t r, std::size_t c, std::size_t k) -> double&
+            { return values[p.place(r, p.find(r, static_cast<taut::idx>(c))) * d * d + k * d + k]; };
+            for (std::size_t r = 0; r < n; ++r)
+                for (std::size_t j = 0; j < p.length(r); ++j)
+                    for (std::size_t k = 0; k < d; ++k)
+                    {
+                        const auto c = static_cast<std::size_t>(p.column(r, j));
+                        if (c == r) continue;
+                        const double stiffness = 1 + double((r + c + k) % 3);
+                        entry(r, c, k) = -stiffness;
+                        entry(r, r, k) += stiffness;
+                    }
+            for (std::size_t k = 1; k < d; ++k) entry(7, 7, k) += 4;
+            A.upload(values);
+            detail::dense_inverse inverse(A, rows);
+            inverse.refresh(A);
+
+            const double shift = std::is_same_v<T, double> ? 1e-8 : 1e-4;
+            const auto X = test::shifted_inverse(dense(p, d, values, rows), shift);
+            auto packed = test::random_reals(A.type(), d * n, 5);
+            std::vector<double> b(d * A.stride(), 0.0);
+            for (std::size_t r = 0; r < n; ++r)
+                for (std::size_t c = 0; c < d; ++c) b[c * A.stride() + r] = packed[r * d + c];
+            auto right = A.vector(), x = A.vector();
+            right.upload(b);
+            inverse.apply(right, x);
+
+            const auto without_mean = [&](std::vector<double> v)
+            {
+                double mean = 0;
+                for (std::size_t r = 0; r < n; ++r) mean += v[r * d] / double(n);
+                for (std::size_t r = 0; r < n; ++r) v[r * d] -= mean;
+                return v;
+            };
+            const auto expected = without_mean(X * without_mean(packed));
+            const auto got = x.download();
+            double worst = 0, size = 0;
+            for (std::size_t r = 0; r < n; ++r)
+                for (std::size_t c = 0; c < d; ++c)
+                {
+                    worst = std::max(worst, std::abs(got[c * A.stride() + r] - expected[r * d + c]));
+                    size = std::max(size, std::abs(expected[r * d + c]));
+                }
+            // What was left out is as large as 1 / shift.
+            CHECK(worst < (std::is_same_v<T, double> ? 1e-7 : 1e-2) * size);
+        }
+}
+
 TEST_CASE_TEMPLATE("dense inverse: what is not finite or not positive is taken out, and the rest is finite", T, float,
                    double)
 {
