@@ -61,7 +61,8 @@ exit_code serve(const view_options& options)
     }
     view::workbench bench(std::move(subject),
                           {.show = [&](auto state) { server->show(std::move(state)); },
-                           .tell = [&](std::string m) { server->tell(std::move(m)); }},
+                           .tell = [&](std::string m) { server->tell(std::move(m)); },
+                           .open = [&](std::string m) { server->open(std::move(m)); }},
                           std::chrono::duration<double>(options.frame / 1000));
     std::cout << server->url() << std::endl;
     keep(true); // Ctrl-C ends it as it should be ended
@@ -83,6 +84,22 @@ command add_view(CLI::App& program)
     add_format(app, options->from.format);
     add_path(app, "--pins", options->from.pins, standard_input, "First pins and springs, as for unwrap and deform")
         ->type_name("FILE.csv");
+    auto& feature = options->from.feature;
+    auto* source =
+        app.add_option("--source", feature.source, "Surface whose feature is pasted on IN, as by `taut paste`")
+            ->type_name("FILE");
+    app.add_option("--at", feature.at, "Its vertex in the middle of the feature, from 0")
+        ->type_name("V")
+        ->needs(source);
+    app.add_option("--radius", feature.radius, "How far the feature reaches along the surface, in units of the source")
+        ->type_name("R")
+        ->needs(source);
+    app.add_option("--onto", feature.onto, "The vertex of IN where it is at first, from 0")
+        ->type_name("V")
+        ->needs(source);
+    app.add_option("--scale", feature.scale, "Lengths in the result by those in the source")
+        ->type_name("S")
+        ->needs(source);
     app.add_flag("--holes", options->from.holes, "Take surfaces with holes");
     app.add_option("--port", options->port, "Port of 127.0.0.1; 0: a free one")->type_name("N")->capture_default_str();
     app.add_option("--frame", options->frame, "Milliseconds of work between two pictures")

@@ -145,6 +145,14 @@ def align(gesture, axis, vertices):
     return struct.pack("<BIBI", 5, gesture, axis, len(vertices)) + struct.pack(f"<{len(vertices)}I", *vertices)
 
 
+def pose(gesture, onto=-1, turn=0.0, scale=1.0, softness=0.0):
+    return struct.pack("<BIi3d", 10, gesture, onto, turn, scale, softness)
+
+
+def keep(gesture):
+    return struct.pack("<BI", 11, gesture)
+
+
 def undo():
     return struct.pack("<BI", 6, 0)
 
@@ -181,11 +189,12 @@ def read(b):
         return list(take(f"{n}{fmt}")) if n > 1 else [take(fmt) for _ in range(n)]
 
     if b[0] == 64:
-        return {"kind": "model", "dimension": take("B"), "map": take("B"), "name": block().decode(), "points": many("f"), "faces": many("I")}
+        return {"kind": "model", "dimension": take("B"), "shows": take("B"), "name": block().decode(), "points": many("f"), "faces": many("I"), "feature": take("I")}
     if b[0] == 65:
         flags = take("B")
         m = {"kind": "state", **{k: bool(flags >> i & 1) for i, k in enumerate(("converged", "held", "working", "can_undo", "can_redo", "writer"))}}
         m["number"], m["flipped"], m["energy"], m["distance"], m["seconds"] = take("IIddd")
+        m["pose"] = take("ddd")
         m["pins"] = {}
         for _ in range(take("I")):
             v, held, *x = take("IB3d")

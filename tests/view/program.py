@@ -7,7 +7,7 @@ import sys
 import time
 import tempfile
 
-from client import Program, align, focus, places, read, redo, relax, release, save, seen, undo
+from client import Program, align, focus, keep, places, pose, redo, relax, release, save, undo
 
 
 def dome(path, n=24):
@@ -68,7 +68,7 @@ def a_page(path, n):
     with Program(program, path) as p:
         s = p.socket()
         model = s.message("model")
-        assert (model["dimension"], model["map"], model["name"]) == (2, 1, "dome.obj")
+        assert (model["dimension"], model["shows"], model["name"]) == (2, 1, "dome.obj")
         assert len(model["points"]) == 3 * (n + 1) ** 2 and len(model["faces"]) == 6 * n * n
         first = s.message("state")
         assert first["converged"] and first["writer"] and not first["pins"] and not first["can_undo"]
@@ -226,7 +226,7 @@ def volume(path):
     with Program(program, path) as p:
         s = p.socket()
         model = s.message("model")
-        assert model["dimension"] == 3 and not model["map"]
+        assert model["dimension"] == 3 and model["shows"] == 0
         state = s.message("state")
         last = len(model["points"]) // 3 - 1
         s.send(places(1, [(0, 7, (0, 0, 0)), (last, 7, (6.5, 2.5, 2))]))
@@ -238,6 +238,61 @@ def volume(path):
         assert file["name"] == "bar.mesh" and b"\n6.5 2.5 2 0\n" in file["bytes"], file["bytes"][-400:]
 
 
+def manifold(cells):
+    """Whether no edge is run through twice in one direction, and how many have one side."""
+    edges = set()
+    for i in range(0, len(cells), 3):
+        f = cells[i:i + 3]
+        for e in ((f[0], f[1]), (f[1], f[2]), (f[2], f[0])):
+            assert e not in edges, e
+            edges.add(e)
+    return sum((b, a) not in edges for a, b in edges)
+
+
+def pasting(path, n):
+    onto = (n // 2) * (n + 1) + n // 2
+    with Program(program, path, "--source", path, "--at", str(onto), "--radius", "0.3", "--onto", str(onto), "--scale", "0.5") as p:
+        s = p.socket()
+        model = s.message("model")
+        assert model["dimension"] == 3 and model["shows"] == 2 and model["feature"] < len(model["faces"]) // 3
+        rim = manifold(model["faces"])
+        assert rim == 4 * n
+        first = s.message("state")
+        assert first["pose"] == (0, 0.5, 0) and first["positions"] == model["points"]
+
+        s.send(pose(1, turn=0.5, scale=0.5, softness=0.5))
+        turned = s.rest()
+        assert turned["pose"] == (0.5, 0.5, 0.5) and len(turned["positions"]) == len(first["positions"]) != first["positions"]
+        away = next(v for v in range(len(first["positions"]) // 3) if near(at(first, v, 3)[:2], (0.25, 0.25), 0.05))
+        s.send(pose(2, onto=away, turn=0.5, scale=0.4))
+        moved = s.message("model")
+        assert manifold(moved["faces"]) == rim
+        s.rest()
+        s.send(keep(3))
+        kept = s.message("model")
+        assert kept["faces"] == moved["faces"] and kept["feature"] == 2 ** 32 - 1
+        s.rest()
+        s.send(pose(4, turn=1.0))
+        assert "nowhere" in s.message("note")["text"]
+        far = next(v for v in range(len(kept["points"]) // 3) if near(kept["points"][3 * v:3 * v + 2], (0.7, 0.7), 0.05))
+        s.send(pose(5, onto=far, scale=0.4))
+        twice = s.message("model")
+        assert manifold(twice["faces"]) == rim and len(twice["points"]) > len(kept["points"])
+        s.rest()
+        s.send(save())
+        file = s.message("file")
+        assert file["name"] == "dome-pasted.obj" and file["bytes"].count(b"\nf ") == len(twice["faces"]) // 3
+        for _ in range(4):  # the refused wish was none
+            s.send(undo())
+        while True:
+            back = s.message("state")
+            if not back["can_undo"]:
+                break
+        assert back["positions"] == first["positions"] and back["pose"] == first["pose"]
+        s.send(places(6, [(1, 7, (0, 0, 0))]))
+        assert "no pins" in s.message("note")["text"]
+
+
 if __name__ == "__main__":
     program, folder = sys.argv[1], tempfile.mkdtemp(dir=sys.argv[2])
     n = dome(f"{folder}/dome.obj")
@@ -245,4 +300,5 @@ if __name__ == "__main__":
     a_page(f"{folder}/dome.obj", n)
     strangers(f"{folder}/dome.obj")
     volume(f"{folder}/bar.mesh")
+    pasting(f"{folder}/dome.obj", n)
     print("view: all as it should be")

@@ -101,6 +101,14 @@ public:
         send(std::make_shared<const std::string>(encode(*shown_, writes())));
     }
 
+    /// The model, and states of it from then on.
+    void open_model()
+    {
+        send(std::make_shared<const std::string>(service_.model));
+        shown_ = service_.shown; // of the one before
+        drawn_ = true;
+    }
+
     /// Also where it has been shown.
     void look_again()
     {

@@ -25,6 +25,8 @@ enum class kind : std::uint8_t
     redo,
     save,
     seen,
+    pose,
+    keep,
     // to the page
     model = 64,
     state,
@@ -131,6 +133,14 @@ wish read_wish(kind what, reader& in)
         return ask::save{};
     case kind::seen:
         return ask::seen{in.take<std::uint32_t>()};
+    case kind::pose:
+    {
+        const auto onto = in.take<std::int32_t>();
+        const double turn = in.number(), scale = in.number();
+        return ask::pose{onto, turn, scale, in.number()};
+    }
+    case kind::keep:
+        return ask::keep{};
     default:
         throw message_error("a kind of message that there is not");
     }
@@ -187,10 +197,11 @@ std::string encode(const model& m)
 {
     return writer(kind::model)
         .put(m.dimension)
-        .put(static_cast<std::uint8_t>(m.map))
+        .put(m.what)
         .text(m.name)
         .list(m.points)
         .list(m.faces)
+        .put(m.first_of_feature)
         .take();
 }
 
@@ -202,6 +213,7 @@ std::string encode(const state& s, bool may_write)
         flags = static_cast<std::uint8_t>(flags | (b ? 1 : 0) << bit++);
     writer out(kind::state);
     out.put(flags).put(s.number).put(s.flipped).put(s.energy).put(s.distance).put(s.seconds);
+    out.put(s.turn).put(s.scale).put(s.softness);
     out.put(static_cast<std::uint32_t>(s.pins.size()));
     for (const place& p : s.pins)
     {

@@ -63,6 +63,14 @@ struct redo
 struct save
 {
 };
+struct pose ///< puts the feature elsewhere
+{
+    std::int32_t onto; ///< a vertex of what is shown; -1: where it is
+    double turn, scale, softness;
+};
+struct keep ///< makes what is pasted a part of the target
+{
+};
 struct seen ///< the state of this number has been drawn: the next one may come
 {
     std::uint32_t state;
@@ -70,7 +78,7 @@ struct seen ///< the state of this number has been drawn: the next one may come
 } // namespace ask
 
 using wish = std::variant<ask::places, ask::release, ask::focus, ask::relax, ask::align, ask::undo, ask::redo,
-                          ask::save, ask::seen>;
+                          ask::save, ask::pose, ask::keep, ask::seen>;
 
 /// Wishes of one gesture, say of a drag, are undone together.
 struct message
@@ -82,14 +90,22 @@ struct message
 /// Throws message_error: a kind that there is not, too short or too long, numbers that are not finite.
 message parse(std::span<const unsigned char> bytes);
 
+enum class showing : std::uint8_t
+{
+    shape, ///< that deforms
+    map,   ///< of a surface
+    paste  ///< of a feature on a surface
+};
+
 /// What is shown. Points have three coordinates.
 struct model
 {
-    std::uint8_t dimension;           ///< of the positions in states: 2 or 3
-    bool map;                         ///< of a surface; else a shape that deforms
-    std::string name;                 ///< of the file
-    std::vector<float> points;        ///< at rest
-    std::vector<std::uint32_t> faces; ///< three corners each
+    std::uint8_t dimension; ///< of the positions in states: 2 or 3
+    showing what;
+    std::string name;                             ///< of the file
+    std::vector<float> points;                    ///< at rest
+    std::vector<std::uint32_t> faces;             ///< three corners each
+    std::uint32_t first_of_feature = 0xffffffffu; ///< the faces from there on are the feature's
 };
 
 /// How it is at one time.
@@ -102,8 +118,9 @@ struct state
     bool can_undo = false, can_redo = false;
     std::uint32_t flipped = 0;
     double energy = 0;
-    double distance = 0; ///< of the farthest vertex from its pin
-    double seconds = 0;  ///< from the wishes to this state
+    double distance = 0;                      ///< of the farthest vertex from its pin
+    double seconds = 0;                       ///< from the wishes to this state
+    double turn = 0, scale = 1, softness = 0; ///< of the feature that is pasted
     std::vector<place> pins;
     std::vector<float> positions;
 };

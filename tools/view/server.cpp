@@ -50,6 +50,16 @@ public:
                    });
     }
 
+    void open(std::string model_message)
+    {
+        asio::post(io_,
+                   [this, m = std::move(model_message)]() mutable
+                   {
+                       service_.model = std::move(m);
+                       for (connection* c : service_.pages) c->open_model();
+                   });
+    }
+
     void tell(std::string encoded)
     {
         asio::post(io_,
@@ -110,6 +120,11 @@ void server::run(std::function<bool(message)> grant, std::function<bool()> goes_
 void server::show(std::shared_ptr<const state> s)
 {
     body_->show(std::move(s));
+}
+
+void server::open(std::string model_message)
+{
+    body_->open(std::move(model_message));
 }
 
 void server::tell(std::string encoded)

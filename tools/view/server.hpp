@@ -36,6 +36,9 @@ public:
     /// From any thread: shows the state to all pages as soon as they have drawn the last one, and not those between.
     void show(std::shared_ptr<const state> s);
 
+    /// From any thread: another model, encoded, in the place of the one at hand, to all pages.
+    void open(std::string model_message);
+
     /// From any thread: a note or a file, to the page that writes.
     void tell(std::string encoded);
 

@@ -78,11 +78,17 @@ public:
         pin(pins);
     }
 
+    void pose(const ask::pose&) override { throw error(nothing_pasted); }
+    void keep() override { throw error(nothing_pasted); }
+    int revision() const override { return 0; }
+
     bool advance(std::chrono::duration<double> time) override
     {
-        // Steps that gain nothing: some more in one call can tell rounding from convergence, and untangle what is stuck.
+        // Steps that gain nothing: some more in one call can tell rounding from convergence, and untangle what is
+        // stuck.
         constexpr int patience = 5;
-        const auto r = session_->solve(idle_ < patience ? session_budget{.time = time} : session_budget{.steps = 25}).report;
+        const auto r =
+            session_->solve(idle_ < patience ? session_budget{.time = time} : session_budget{.steps = 25}).report;
         if (r.outcome != outcome::valid || !r.reason.empty()) throw error(r.reason);
         const bool gains = r.steps > 0 && (r.distance < 0.999 * distance_ || r.energy < (1 - 1e-9) * energy_);
         idle_ = gains ? 0 : idle_ + 1;
@@ -167,6 +173,8 @@ private:
         map x;
         session_report report;
     };
+
+    static constexpr const char* nothing_pasted = "there is nothing to paste; start with --source";
 
     static vec<D> point(const place& p)
     {

@@ -27,6 +27,11 @@ public:
     virtual void focus(std::span<const std::int32_t> faces) = 0;
     virtual void align(int axis, std::span<const std::int32_t> vertices) = 0;
     virtual void start_afresh() = 0;
+    virtual void pose(const ask::pose& to) = 0;
+    virtual void keep() = 0;
+
+    /// Another number where there is another model.
+    virtual int revision() const = 0;
 
     /// Goes on for some milliseconds, and at least for a step; whether there is more to gain.
     virtual bool advance(std::chrono::duration<double> time) = 0;

@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -23,7 +20,9 @@
 #include "../failure.hpp"
 #include "../seams.hpp"
 #include "../volume/volume_case.hpp"
+#include "floats.hpp"
 #include "session_subject.hpp"
+#include "written.hpp"
 
 namespace taut::view
 {
@@ -32,23 +31,6 @@ namespace
 {
 
 using corners = std::array<std::uint32_t, 3>;
-
-std::vector<float> as_floats(const std::vector<vec3>& points)
-{
-    std::vector<float> list;
-    list.reserve(3 * points.size());
-    for (const vec3& p : points)
-        for (int k = 0; k < 3; ++k) list.push_back(static_cast<float>(p[k]));
-    return list;
-}
-
-std::vector<std::uint32_t> as_list(const std::vector<corners>& faces)
-{
-    std::vector<std::uint32_t> list;
-    list.reserve(3 * faces.size());
-    for (const corners& f : faces) list.insert(list.end(), f.begin(), f.end());
-    return list;
-}
 
 std::vector<corners> as_corners(const std::vector<std::array<idx, 3>>& cells)
 {
@@ -99,25 +81,6 @@ parameterize_params params_of(const opened_surface& in)
     return p;
 }
 
-/// Of this user alone.
-struct temporary_folder
-{
-    temporary_folder()
-    {
-        std::string name = (std::filesystem::temp_directory_path() / "taut-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw error("no temporary folder can be made: set TMPDIR");
-        path = name;
-    }
-    temporary_folder(const temporary_folder&) = delete;
-    temporary_folder& operator=(const temporary_folder&) = delete;
-    ~temporary_folder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    std::filesystem::path path;
-};
-
 class map_subject final : private opened_surface, public session_subject<triangle>
 {
 public:
@@ -130,7 +93,10 @@ public:
     {
     }
 
-    view::model model() const override { return {2, true, name_, as_floats(surface().points()), as_list(faces_)}; }
+    view::model model() const override
+    {
+        return {2, showing::map, name_, as_floats(surface().points()), as_list(faces_)};
+    }
 
     void start_afresh() override
     {
@@ -143,15 +109,15 @@ public:
 
     subject::saved write() const override
     {
-        const temporary_folder folder;
-        const auto path = folder.path / "map.obj";
-        if (cut)
-            io::write_obj(path, file, *cut, x());
-        else
-            io::write_obj(path, file, x());
-        std::ifstream in(path, std::ios::binary);
-        std::string bytes{std::istreambuf_iterator<char>(in), {}};
-        return {std::filesystem::path(name_).stem().string() + "-flat.obj", std::move(bytes)};
+        return {std::filesystem::path(name_).stem().string() + "-flat.obj", written(
+                                                                                [&](const std::filesystem::path& path)
+                                                                                {
+                                                                                    if (cut)
+                                                                                        io::write_obj(path, file, *cut,
+                                                                                                      x());
+                                                                                    else
+                                                                                        io::write_obj(path, file, x());
+                                                                                })};
     }
 
 private:
@@ -228,7 +194,7 @@ public:
 
     view::model model() const override
     {
-        return {static_cast<std::uint8_t>(Element::dimension), false, name_, as_floats(opened::file.points),
+        return {static_cast<std::uint8_t>(Element::dimension), showing::shape, name_, as_floats(opened::file.points),
                 as_list(faces_)};
     }
 
@@ -255,6 +221,7 @@ private:
 
 std::unique_ptr<subject> make_subject(queue& q, const source& from)
 {
+    if (!from.feature.source.empty()) return make_paste_subject(q, from);
     if (!tools::names_volume(from.path)) return std::make_unique<map_subject>(q, from);
     auto file = io::read_volume_file(from.path);
     if (file.dimension == 2) return std::make_unique<shape_subject<triangle>>(q, std::move(file), from);

@@ -12,6 +12,15 @@
 namespace taut::view
 {
 
+/// The part of another surface that is pasted.
+struct pasted
+{
+    std::string source; ///< its file; empty: none
+    idx at = 0, onto = 0;
+    double radius = 0;
+    double scale = 1;
+};
+
 /// What is to be seen.
 struct source
 {
@@ -19,10 +28,14 @@ struct source
     io::surface_format format = io::surface_format::automatic;
     std::string pins; ///< a file, or empty
     bool holes = false;
+    pasted feature;
 };
 
 /// A map of the surface of a file, or the shape of a volume file or planar mesh, with its first map or shape. Throws as
 /// readers do; unsuitable_input, error where there is no valid first one.
 std::unique_ptr<subject> make_subject(queue& q, const source& from);
+
+/// A feature on the surface of a file. Throws as readers do; region_error, paste_error.
+std::unique_ptr<subject> make_paste_subject(queue& q, const source& from);
 
 } // namespace taut::view

@@ -9,8 +9,24 @@
 namespace taut::view
 {
 
+namespace
+{
+
+/// A pose that the next message changes again.
+bool is_overtaken(const std::deque<message>& all, std::size_t k)
+{
+    return k + 1 < all.size() && std::holds_alternative<ask::pose>(all[k].what) &&
+           std::holds_alternative<ask::pose>(all[k + 1].what) && all[k].gesture == all[k + 1].gesture;
+}
+
+} // namespace
+
 workbench::workbench(std::unique_ptr<subject> what, listener who, std::chrono::duration<double> frame)
-    : subject_(std::move(what)), listener_(std::move(who)), frame_(frame), thread_([this] { work(); })
+    : subject_(std::move(what)),
+      listener_(std::move(who)),
+      frame_(frame),
+      revision_(subject_->revision()),
+      thread_([this] { work(); })
 {
 }
 
@@ -52,7 +68,8 @@ void workbench::work()
         const auto begin = clock::now();
         try
         {
-            for (const message& m : wishes) grant(m);
+            for (std::size_t k = 0; k < wishes.size(); ++k)
+                if (!is_overtaken(wishes, k)) grant(wishes[k]);
             if (working_) working_ = subject_->advance(frame_);
         }
         catch (const std::exception& e)
@@ -69,9 +86,12 @@ void workbench::grant(const message& m)
 {
     const auto change = [&](bool works, const auto& f)
     {
-        remember(m.gesture);
+        const bool begins = gesture_ != m.gesture;
+        moment before = begins ? subject_->remember() : nullptr;
         f();
         working_ = works || working_;
+        if (begins) keep(std::move(before));
+        gesture_ = m.gesture;
     };
     try
     {
@@ -93,6 +113,10 @@ void workbench::grant(const message& m)
                            {
                                if (w.afresh) subject_->start_afresh();
                            });
+                else if constexpr (std::is_same_v<kind, ask::pose>)
+                    change(false, [&] { subject_->pose(w); });
+                else if constexpr (std::is_same_v<kind, ask::keep>)
+                    change(false, [&] { subject_->keep(); });
                 else if constexpr (std::is_same_v<kind, ask::undo>)
                     go(before_, after_);
                 else if constexpr (std::is_same_v<kind, ask::redo>)
@@ -111,12 +135,11 @@ void workbench::grant(const message& m)
     }
 }
 
-/// Before the first wish of a gesture.
-void workbench::remember(std::uint32_t gesture)
+/// What was before a gesture.
+void workbench::keep(moment before)
 {
     constexpr std::size_t most = 100;
-    if (std::exchange(gesture_, gesture) == gesture) return;
-    before_.push_back(subject_->remember());
+    before_.push_back(std::move(before));
     if (before_.size() > most) before_.pop_front();
     after_.clear();
 }
@@ -133,6 +156,8 @@ void workbench::go(std::deque<moment>& from, std::deque<moment>& to)
 
 void workbench::show(double seconds)
 {
+    if (const int now = subject_->revision(); std::exchange(revision_, now) != now)
+        listener_.open(encode(subject_->model()));
     auto s = std::make_shared<state>();
     subject_->describe(*s);
     s->number = ++number_;

@@ -22,11 +22,12 @@ namespace taut::view
 class workbench
 {
 public:
-    /// Both are called from its thread.
+    /// All are called from its thread.
     struct listener
     {
         std::function<void(std::shared_ptr<const state>)> show; ///< each state, the first one included
         std::function<void(std::string)> tell;                  ///< notes and files, encoded
+        std::function<void(std::string)> open;                  ///< another model, encoded, before its first state
     };
 
     /// frame: how long the subject goes on before a state is shown.
@@ -45,7 +46,7 @@ private:
 
     void work();
     void grant(const message& m);
-    void remember(std::uint32_t gesture);
+    void keep(moment before);
     void go(std::deque<moment>& from, std::deque<moment>& to);
     void show(double seconds);
 
@@ -57,6 +58,7 @@ private:
     std::optional<std::uint32_t> gesture_;
     std::uint32_t number_ = 0;
     bool working_ = false;
+    int revision_ = 0; ///< of the model that has been shown
 
     std::mutex mutex_;
     std::condition_variable changed_;

@@ -54,8 +54,14 @@ TEST_CASE("messages of a page: what is said is understood, and nothing else")
     CHECK_THROWS_WITH_AS(parse(pin.list), "the message is too long", message_error);
 
     CHECK(std::get<ask::align>(
-              parse(begin(5).put(std::uint8_t{1}).put(std::uint32_t{2}).put(std::int32_t{8}).put(std::int32_t{9}).list).what)
+              parse(begin(5).put(std::uint8_t{1}).put(std::uint32_t{2}).put(std::int32_t{8}).put(std::int32_t{9}).list)
+                  .what)
               .vertices == std::vector<std::int32_t>{8, 9});
+    const auto pose = std::get<ask::pose>(parse(begin(10).put(std::int32_t{-1}).put(0.5).put(2.0).put(0.25).list).what);
+    CHECK(pose.onto == -1);
+    CHECK(pose.turn == 0.5);
+    CHECK(pose.scale == 2);
+    CHECK(pose.softness == 0.25);
     CHECK(std::get<ask::relax>(parse(begin(4).put(std::uint8_t{1}).list).what).afresh);
     CHECK(std::get<ask::seen>(parse(begin(9).put(std::uint32_t{3}).list).what).state == 3);
 
@@ -63,7 +69,8 @@ TEST_CASE("messages of a page: what is said is understood, and nothing else")
     CHECK_THROWS_AS(
         parse(begin(1).put(std::uint32_t{1}).put(std::int32_t{5}).put(std::uint8_t{3}).put(nan).put(0.0).put(0.0).list),
         message_error);
-    CHECK_THROWS_AS(parse(begin(2).put(std::uint32_t{0xffffffffu}).list), message_error); // before anything is allocated
+    CHECK_THROWS_AS(parse(begin(2).put(std::uint32_t{0xffffffffu}).list),
+                    message_error); // before anything is allocated
     CHECK_THROWS_AS(parse(begin(2).put(std::uint32_t{1}).put(std::int32_t{-1}).list), message_error);
     CHECK_THROWS_AS(parse(begin(5).put(std::uint8_t{3}).put(std::uint32_t{0}).list), message_error);
     CHECK_THROWS_AS(parse(begin(64).list), message_error); // what only the program says
@@ -89,8 +96,9 @@ TEST_CASE("the gate of a page: this machine by its own names, its own pages, and
 
     CHECK(g.has_token("taut, token." + g.token()));
     CHECK(g.has_token("token." + g.token() + ",taut"));
-    for (const std::string& offer : std::vector<std::string>{"", "taut", "token.", g.token(), "token." + g.token() + "0", ",,",
-                                     "token." + g.token().substr(1), "taut, token." + std::string(64, '0')})
+    for (const std::string& offer :
+         std::vector<std::string>{"", "taut", "token.", g.token(), "token." + g.token() + "0", ",,",
+                                  "token." + g.token().substr(1), "taut, token." + std::string(64, '0')})
         CHECK_FALSE(g.has_token(offer));
 }
 

@@ -14,6 +14,7 @@ class Page {
   line = []; // vertices
   current = -1; // the pin that keys move
   focused = false;
+  pose = { turn: 0, scale: 1, softness: 0 };
   frames = []; // times of the last pictures
   #drag = null;
   #sending = false;
@@ -60,9 +61,17 @@ class Page {
     document.title = `${model.name} - taut`;
     this.mesh = new Mesh(model.points, model.faces);
     this.values = new Float32Array(this.mesh.faceCount);
-    if (model.map) {
-      this.left ??= new Pane(element('model'), { flat: false });
-      this.#listenToPointer(this.left);
+    this.region.clear();
+    this.line = [];
+    const pasting = model.shows === 'paste';
+    element('feature').hidden = !pasting;
+    for (const id of ['tools', 'mapping', 'save-pins']) element(id).hidden = pasting;
+    if (pasting) this.tool = 'place';
+    if (model.shows === 'map') {
+      if (!this.left) {
+        this.left = new Pane(element('model'), { flat: false });
+        this.#listenToPointer(this.left);
+      }
       this.left.setMesh(this.mesh);
       this.left.setPositions(model.points, 3);
       this.left.fit();
@@ -76,6 +85,8 @@ class Page {
       }
     }
     this.right.setMesh(this.mesh);
+    for (let f = model.feature; f < this.mesh.faceCount; ++f) this.region.add(f);
+    this.seenBefore = this.seenBefore === model.name ? this.seenBefore : '';
     this.state = null;
   }
 
@@ -83,21 +94,38 @@ class Page {
     const first = !this.state;
     this.state = state;
     this.right.setPositions(state.positions, this.model.dimension);
-    if (first) {
+    if (first && this.seenBefore !== this.model.name) {
+      this.seenBefore = this.model.name;
       this.right.fit();
       this.checks = 24 / this.right.extent;
     }
-    distortion(this.mesh, state.positions, this.model.dimension, this.values);
+    if (this.model.shows === 'paste') this.values.fill(4);
+    else distortion(this.mesh, state.positions, this.model.dimension, this.values);
     for (const p of this.panes()) p.setFaces('value', this.values);
     this.left?.setUv(state.positions, this.checks);
     if (state.writer && this.#drag?.vertex >= 0) this.#sendDrag();
     this.#mark();
+    if (this.model.shows === 'paste') return this.#showPaste(state);
     element('energy').textContent = `energy ${state.energy.toPrecision(8)}`;
     element('flips').textContent = `${state.flipped} flipped`;
     element('flips').className = state.flipped > 0 ? 'bad' : '';
     const ahead = state.held ? '' : `, farthest ${state.distance.toPrecision(3)} ahead`;
     element('pins').textContent = `${state.pins.size} pinned${ahead}`;
     element('time').textContent = state.working ? `${(1000 * state.seconds).toFixed(0)} ms a frame` : state.converged ? 'converged' : 'at rest';
+    this.#showHistory(state);
+  }
+
+  #showPaste(state) {
+    this.pose = { ...state.pose };
+    element('softness').value = state.pose.softness;
+    element('energy').textContent = `${this.mesh.faceCount} triangles`;
+    const { turn, scale, softness } = this.pose;
+    element('flips').textContent = `turned ${((180 * turn) / Math.PI).toFixed(0)}°, size ${scale.toPrecision(3)}, softness ${softness}`;
+    element('time').textContent = `${(1000 * state.seconds).toFixed(0)} ms`;
+    this.#showHistory(state);
+  }
+
+  #showHistory(state) {
     element('undo').disabled = !state.writer || !state.canUndo;
     element('redo').disabled = !state.writer || !state.canRedo;
     if (!state.writer) this.note('another page is open and writes; this one looks on');
@@ -175,6 +203,13 @@ class Page {
     if (list.length > 0) this.send(messages.release(++this.gesture, list));
   }
 
+  /** Turns, scales or softens the feature, or puts it on a vertex. */
+  place({ onto = -1, ...change }) {
+    Object.assign(this.pose, change);
+    this.send(messages.pose(this.gesture, { onto, ...this.pose }));
+    this.note('');
+  }
+
   savePins() {
     const axes = this.model.dimension === 3 ? ['x', 'y', 'z'] : ['u', 'v'];
     const rows = [...this.state.pins].map(([v, p]) => [v, ...axes.map((_, k) => ((p.held >> k) & 1 ? p.x[k] : ''))].join(','));
@@ -187,17 +222,33 @@ class Page {
       relax: () => this.relax(), afresh: () => this.relax(true), focus: () => this.toggleFocus(),
       'straight-u': () => this.straighten(0), 'straight-v': () => this.straighten(1), release: () => this.unpin(),
       undo: () => this.send(messages.undo()), redo: () => this.send(messages.redo()),
+      'turn-left': () => this.#change({ turn: this.pose.turn + Math.PI / 36 }), 'turn-right': () => this.#change({ turn: this.pose.turn - Math.PI / 36 }),
+      smaller: () => this.#change({ scale: this.pose.scale / 1.05 }), larger: () => this.#change({ scale: this.pose.scale * 1.05 }),
+      keep: () => this.send(messages.keep(++this.gesture)),
       save: () => this.send(messages.save()), 'save-pins': () => this.savePins(),
     };
+    element('softness').onpointerdown = () => ++this.gesture;
+    element('softness').oninput = () => { if (this.state) this.place({ softness: Number(element('softness').value) }); };
     for (const [id, f] of Object.entries(actions)) element(id).onclick = () => { if (this.state) f(); };
   }
 
+  /** As a gesture of its own. */
+  #change(pose) {
+    ++this.gesture;
+    this.place(pose);
+  }
+
   #listenToKeys() {
+    const click = (id) => () => element(id).click();
+    const pasting = {
+      q: click('turn-left'), e: click('turn-right'), '-': click('smaller'), '+': click('larger'), '=': click('larger'), Enter: click('keep'),
+      w: () => this.#toggleWires(),
+    };
     const keys = {
       d: () => this.choose('drag'), s: () => this.choose('region'), l: () => this.choose('path'), n: () => this.relax(true),
       f: () => this.toggleFocus(), u: () => this.straighten(0), v: () => this.straighten(1), ' ': () => this.relax(),
       Delete: () => this.unpin(), Backspace: () => this.unpin(), Escape: () => { this.region.clear(); this.line = []; this.#mark(); },
-      w: () => { for (const p of this.panes()) { p.wires.visible = !p.wires.visible; p.draw(); } },
+      w: () => this.#toggleWires(),
       '[': () => this.#nextPin(-1), ']': () => this.#nextPin(1),
       ArrowLeft: (e) => this.#nudge(0, -1, e), ArrowRight: (e) => this.#nudge(0, 1, e),
       ArrowUp: (e) => this.#nudge(1, 1, e), ArrowDown: (e) => this.#nudge(1, -1, e),
@@ -212,13 +263,21 @@ class Page {
         else return;
         return e.preventDefault();
       }
-      if (e.key === ' ' && e.target instanceof HTMLButtonElement) return; // presses it
-      const f = keys[e.key];
+      if ((e.key === ' ' || e.key === 'Enter') && e.target instanceof HTMLButtonElement) return; // presses it
+      if (e.target instanceof HTMLInputElement && e.key.startsWith('Arrow')) return; // moves it
+      const f = (this.tool === 'place' ? pasting : keys)[e.key];
       if (!f) return;
       e.preventDefault();
       f(e);
     });
     addEventListener('keyup', (e) => { if (e.key.startsWith('Arrow')) ++this.gesture; });
+  }
+
+  #toggleWires() {
+    for (const p of this.panes()) {
+      p.wires.visible = !p.wires.visible;
+      p.draw();
+    }
   }
 
   #nextPin(step) {
@@ -249,6 +308,16 @@ class Page {
       let v = movable() ? pane.vertexAt(at, reach, this.state.pins.keys()) : -1;
       if (v < 0) v = pane.vertexAt(at, reach);
       if (v < 0 || (this.tool === 'drag' && !movable())) return; // the view moves
+      if (this.tool === 'place') {
+        const face = pane.faceAt(at);
+        if (e.shiftKey || face >= this.model.feature) { // what is grabbed is the feature
+          pane.controls.enabled = false;
+          canvas.setPointerCapture(e.pointerId);
+          ++this.gesture;
+          this.#drag = { pane, placing: true };
+        }
+        return;
+      }
       pane.controls.enabled = false;
       canvas.setPointerCapture(e.pointerId);
       if (this.tool === 'path') {
@@ -266,6 +335,7 @@ class Page {
     canvas.addEventListener('pointermove', (e) => {
       if (this.#drag?.pane !== pane) return;
       if (this.tool === 'region') return this.#grow(pixel(e));
+      if (this.tool === 'place') return;
       this.#drag.x = pane.toModel(pixel(e), this.#drag.vertex);
       this.#drag.fresh = true;
       this.#schedule();
@@ -273,7 +343,10 @@ class Page {
     const end = (e) => {
       pane.controls.enabled = true;
       if (this.#drag?.pane !== pane) return;
-      if (this.tool === 'drag') { // a click pins the vertex where it is
+      if (this.#drag.placing) {
+        const v = pane.vertexAt(pixel(e), reach);
+        if (v >= 0) this.place({ onto: v });
+      } else if (this.tool === 'drag') { // a click pins the vertex where it is
         this.#drag.x = this.#drag.x ? pane.toModel(pixel(e), this.#drag.vertex) : this.position(this.#drag.vertex);
         this.#drag.fresh = true;
         this.#sendDrag();
@@ -283,6 +356,10 @@ class Page {
     };
     canvas.addEventListener('pointerup', end);
     canvas.addEventListener('pointercancel', end);
+    canvas.addEventListener('dblclick', (e) => { // nowhere yet, or far away
+      const v = this.tool === 'place' ? pane.vertexAt(pixel(e), reach) : -1;
+      if (v >= 0) this.#change({ onto: v });
+    });
     canvas.addEventListener('contextmenu', (e) => {
       e.preventDefault();
       const v = movable() ? pane.vertexAt(pixel(e), reach, this.state.pins.keys()) : -1;

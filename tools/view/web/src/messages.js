@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The language of page and program: binary messages, little-endian; docs/view.md has the table.
 
-const kinds = { places: 1, release: 2, focus: 3, relax: 4, align: 5, undo: 6, redo: 7, save: 8, seen: 9 };
+const kinds = { places: 1, release: 2, focus: 3, relax: 4, align: 5, undo: 6, redo: 7, save: 8, seen: 9, pose: 10, keep: 11 };
 
 class Writer {
   constructor(kind, gesture, size) {
@@ -30,6 +30,10 @@ export const focus = (gesture, faces) => new Writer('focus', gesture, 4 + 4 * fa
 export const relax = (gesture, afresh) => new Writer('relax', gesture, 1).u8(afresh ? 1 : 0).take();
 export const align = (gesture, axis, vertices) =>
   new Writer('align', gesture, 5 + 4 * vertices.length).u8(axis).ids(vertices).take();
+/** onto: a vertex of what is shown, or -1. */
+export const pose = (gesture, p) =>
+  new Writer('pose', gesture, 28).u32(p.onto >>> 0).f64(p.turn).f64(p.scale).f64(p.softness).take();
+export const keep = (gesture) => new Writer('keep', gesture, 0).take();
 export const undo = () => new Writer('undo', 0, 0).take();
 export const redo = () => new Writer('redo', 0, 0).take();
 export const save = () => new Writer('save', 0, 0).take();
@@ -51,12 +55,13 @@ class Reader {
 }
 
 const readers = {
-  64: (in_) => ({ kind: 'model', dimension: in_.u8(), map: in_.u8() === 1, name: in_.text(), points: in_.floats(), faces: in_.numbers() }),
+  64: (in_) => ({ kind: 'model', dimension: in_.u8(), shows: ['shape', 'map', 'paste'][in_.u8()], name: in_.text(), points: in_.floats(), faces: in_.numbers(), feature: in_.u32() }),
   65: (in_) => {
     const flags = in_.u8();
     const s = { kind: 'state' };
     ['converged', 'held', 'working', 'canUndo', 'canRedo', 'writer'].forEach((name, k) => { s[name] = ((flags >> k) & 1) === 1; });
     Object.assign(s, { number: in_.u32(), flipped: in_.u32(), energy: in_.f64(), distance: in_.f64(), seconds: in_.f64() });
+    s.pose = { turn: in_.f64(), scale: in_.f64(), softness: in_.f64() };
     s.pins = new Map();
     for (let n = in_.u32(); n > 0; --n) s.pins.set(in_.u32(), { held: in_.u8(), x: [in_.f64(), in_.f64(), in_.f64()] });
     s.positions = in_.floats();

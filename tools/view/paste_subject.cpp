@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/edit/paste.hpp>
+#include <taut/io/detail/obj_output.hpp>
+#include <taut/io/read_surface.hpp>
+
+#include "floats.hpp"
+#include "subjects.hpp"
+
+namespace taut::view
+{
+
+namespace
+{
+
+/// The text of a surface alone.
+std::string obj_of(const std::vector<vec3>& points, const std::vector<mesh<triangle>::cell>& cells)
+{
+    std::string text;
+    for (const vec3& p : points) io::detail::append_line(text, "v", {p.x, p.y, p.z});
+    for (const auto& c : cells)
+    {
+        text += 'f';
+        for (const idx v : c)
+        {
+            text += ' ';
+            io::detail::append_number(text, v + 1);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+/// A feature that is moved over a surface. What has been kept is the next target.
+class paste_subject final : public subject
+{
+public:
+    paste_subject(queue& q, const source& from)
+        : queue_(q),
+          name_(std::filesystem::path(from.path).filename().string()),
+          feature_(
+              make_feature(geodesic_disk(io::read_surface(from.feature.source), from.feature.at, from.feature.radius))),
+          target_(std::make_shared<const mesh<triangle>>(io::read_surface(from.path, from.format))),
+          pose_{.scale = from.feature.scale}
+    {
+        put(target_, from.feature.onto, pose_);
+    }
+
+    view::model model() const override
+    {
+        return {3,
+                showing::paste,
+                name_,
+                as_floats(points()),
+                as_list(cells()),
+                paste_ ? static_cast<std::uint32_t>(paste_->first_feature()) : 0xffffffffu};
+    }
+
+    void pose(const ask::pose& to) override
+    {
+        const paste_pose pose{.turn = to.turn, .scale = to.scale, .softness = to.softness};
+        pose.validate();
+        if (to.onto < 0)
+        {
+            if (!paste_) throw error("the feature is nowhere: click where it is to be");
+            paste_->pose(pose);
+            pose_ = pose;
+            return;
+        }
+        if (static_cast<std::size_t>(to.onto) >= points().size())
+            throw error("vertex " + std::to_string(to.onto) + " is not there");
+        const idx onto = paste_ ? paste_->origins()[static_cast<std::size_t>(to.onto)] : to.onto;
+        if (onto >= 0 && onto != onto_) put(target_, onto, pose); // else under the feature itself
+    }
+
+    void keep() override
+    {
+        if (!paste_) throw error("the feature is nowhere: click where it is to be");
+        auto kept = std::make_shared<const mesh<triangle>>(paste_->surface());
+        paste_.reset();
+        target_ = std::move(kept);
+        onto_ = -1;
+        ++revision_;
+    }
+
+    int revision() const override { return revision_; }
+
+    bool advance(std::chrono::duration<double>) override { return false; }
+
+    void describe(state& s) const override
+    {
+        s.converged = true;
+        s.turn = pose_.turn;
+        s.scale = pose_.scale;
+        s.softness = pose_.softness;
+        s.positions = as_floats(points());
+    }
+
+    std::shared_ptr<const memory> remember() const override
+    {
+        return std::make_shared<moment>(target_, paste_ ? onto_ : -1, pose_);
+    }
+
+    void go_back(const memory& before) override
+    {
+        const auto& m = static_cast<const moment&>(before);
+        if (m.target == target_ && paste_ && m.onto == onto_)
+        {
+            paste_->pose(m.pose);
+            pose_ = m.pose;
+        }
+        else
+            put(m.target, m.onto, m.pose);
+    }
+
+    saved write() const override
+    {
+        return {std::filesystem::path(name_).stem().string() + "-pasted.obj", obj_of(points(), cells())};
+    }
+
+    void pin(std::span<const place>) override { throw error(no_pins); }
+    void release(std::span<const std::int32_t>) override { throw error(no_pins); }
+    void focus(std::span<const std::int32_t>) override { throw error(no_pins); }
+    void align(int, std::span<const std::int32_t>) override { throw error(no_pins); }
+    void start_afresh() override {}
+
+private:
+    struct moment : memory
+    {
+        moment(std::shared_ptr<const mesh<triangle>> t, idx o, const paste_pose& p)
+            : target(std::move(t)), onto(o), pose(p)
+        {
+        }
+        std::shared_ptr<const mesh<triangle>> target;
+        idx onto; ///< -1: the feature is nowhere
+        paste_pose pose;
+    };
+
+    static constexpr const char* no_pins = "a feature is being pasted; there are no pins";
+
+    const std::vector<mesh<triangle>::cell>& cells() const { return paste_ ? paste_->cells() : target_->cells(); }
+    const std::vector<vec3>& points() const { return paste_ ? paste_->points() : target_->points(); }
+
+    /// onto: a vertex of the target, or -1.
+    void put(std::shared_ptr<const mesh<triangle>> target, idx onto, const paste_pose& pose)
+    {
+        std::optional<paste> there;
+        if (onto >= 0) there.emplace(queue_, *target, feature_, onto, paste_params{.pose = pose});
+        paste_ = std::move(there);
+        target_ = std::move(target);
+        onto_ = onto;
+        pose_ = pose;
+        ++revision_;
+    }
+
+    queue& queue_;
+    std::string name_;
+    feature feature_;
+    std::shared_ptr<const mesh<triangle>> target_;
+    std::optional<paste> paste_;
+    idx onto_ = -1;
+    paste_pose pose_;
+    int revision_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<subject> make_paste_subject(queue& q, const source& from)
+{
+    return std::make_unique<paste_subject>(q, from);
+}
+
+} // namespace taut::view
