@@ -21,6 +21,7 @@
 #include "choices.hpp"
 #include "commands.hpp"
 #include "outputs.hpp"
+#include "report_files.hpp"
 #include "seams.hpp"
 #include "shared_options.hpp"
 #include "text_table.hpp"
@@ -220,10 +221,7 @@ exit_code run(const check_options& options)
 {
     require_one_standard_input(options.input, options.pins);
     const auto report = examine(options);
-    write_standard_output(
-        options.json
-            ? json_of(report, options).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n'
-            : lines_of(report, options));
+    write_standard_output(options.json ? text_of(json_of(report, options)) : lines_of(report, options));
     return report.code;
 }
 

@@ -29,9 +29,11 @@ command add_devices(CLI::App& program);
 /// All of them, in the order in which the help lists them.
 inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_clock::time_point launch)
 {
-    return {add_unwrap(program, launch), add_untangle(program, launch), add_deform(program, launch),
-            add_smooth(program, launch), add_paste(program, launch),    add_check(program),
-            add_eval(program),           add_view(program),             add_devices(program)};
+    return {add_unwrap(program, launch), add_untangle(program, launch),
+            add_deform(program, launch), add_smooth(program, launch),
+            add_paste(program, launch),  add_check(program),
+            add_eval(program),           add_view(program),
+            add_devices(program)};
 }
 
 } // namespace taut::tools

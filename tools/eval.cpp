@@ -10,6 +10,7 @@
 #include "assessment.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
+#include "report_files.hpp"
 #include "shared_options.hpp"
 #include "text_table.hpp"
 #include "volume/eval_volume.hpp"
@@ -69,7 +70,7 @@ exit_code evaluate(const eval_options& options)
         json["max_det"] = finite(flips.max_det);
         json["quality"] = to_json(a);
         json["notes"] = a.notes;
-        write_standard_output(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+        write_standard_output(text_of(json));
         return exit_code::valid;
     }
     for (const auto& note : a.notes) std::cerr << "taut: note: " << note << '\n';

@@ -31,6 +31,7 @@
 #include "interrupt.hpp"
 #include "open_queue.hpp"
 #include "outputs.hpp"
+#include "report_files.hpp"
 #include "run_clock.hpp"
 #include "shared_options.hpp"
 #include "text_table.hpp"
@@ -179,7 +180,7 @@ private:
         if (!options_.picture.empty())
             files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
         if (!options_.stats.empty())
-            files.push_back({options_.stats, [&](io::atomic_file& file) { file.write(json().dump(2) + '\n'); }});
+            files.push_back({options_.stats, [&](io::atomic_file& file) { file.write(text_of(json())); }});
         if (place_of_report_ && has_reader(place_of_report_))
             files.push_back({place_of_report_, [&](io::atomic_file& file) { file.write(text()); }});
         writing([&] { io::write_files(files); });

@@ -24,6 +24,7 @@
 #include "open_queue.hpp"
 #include "outputs.hpp"
 #include "progress.hpp"
+#include "report_files.hpp"
 #include "run_clock.hpp"
 #include "text_table.hpp"
 #include "untangle_picture.hpp"
@@ -184,7 +185,6 @@ private:
         map_ = std::move(result.map);
     }
 
-    /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
     void write()
     {
         tell("write");
@@ -210,21 +210,7 @@ private:
                              }});
         if (drawn(options_.picture, report_.notes))
             files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
-        if (!options_.stats.empty())
-            files.push_back({options_.stats, [&](io::atomic_file& file)
-                             {
-                                 note_time();
-                                 file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
-                             }});
-        if (place_of_report_ && has_reader(place_of_report_))
-            files.push_back({place_of_report_, [&](io::atomic_file& file)
-                             {
-                                 note_time();
-                                 progress_.finish();
-                                 file.write(text_of(report_, options_));
-                             }});
-        writing([&] { io::write_files(files); });
-        progress_.finish();
+        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
         if (valid_) remove_invalid(options_.output);
     }
 
@@ -260,8 +246,6 @@ private:
             maps.back().style.note += ", infeasible";
         return draw(options_.picture, *problem_, maps);
     }
-
-    static constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace; // file names need not be UTF-8
 
     untangle_options options_;
     const volume_case<Element>* input_; ///< null: there is none

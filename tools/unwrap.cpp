@@ -25,6 +25,7 @@
 #include "outputs.hpp"
 #include "png.hpp"
 #include "progress.hpp"
+#include "report_files.hpp"
 #include "run_clock.hpp"
 #include "seams.hpp"
 #include "shared_options.hpp"
@@ -180,7 +181,6 @@ private:
         return cut_ ? cut_->uv : file_->vertex_texcoords();
     }
 
-    /// All files appear together, so the report comes before them: where it cannot be printed, nothing has changed.
     void write()
     {
         tell("write");
@@ -197,21 +197,7 @@ private:
         if (drawn(options_.render, report_.notes))
             files.push_back(
                 {options_.render, [&](io::atomic_file& file) { file.write(timed([&] { return render(); })); }});
-        if (!options_.stats.empty())
-            files.push_back({options_.stats, [&](io::atomic_file& file)
-                             {
-                                 note_time();
-                                 file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
-                             }});
-        if (place_of_report_ && has_reader(place_of_report_))
-            files.push_back({place_of_report_, [&](io::atomic_file& file)
-                             {
-                                 note_time();
-                                 progress_.finish();
-                                 file.write(text_of(report_, options_));
-                             }});
-        writing([&] { io::write_files(files); });
-        progress_.finish();
+        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
         remove_invalid(options_.output);
     }
 
@@ -253,8 +239,6 @@ private:
             overlay.pins.push_back({uv_[static_cast<std::size_t>(s.vertex)], s.target, false});
         return overlay;
     }
-
-    static constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace; // file names need not be UTF-8
 
     unwrap_options options_;
     run_clock clock_;

@@ -14,6 +14,7 @@
 
 #include "assessment.hpp"
 #include "outputs.hpp"
+#include "report_files.hpp"
 #include "text_table.hpp"
 #include "volume/shape_report.hpp"
 #include "volume/volume_case.hpp"
@@ -142,7 +143,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
         if (input.parts().overlapping && D == 3) json["insides"] = insides_json(state);
         json["shapes"] = shapes_json(state.shapes);
         json["notes"] = notes;
-        write_standard_output(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+        write_standard_output(text_of(json));
         return;
     }
     for (const auto& note : notes) std::cerr << "taut: note: " << note << '\n';

@@ -23,6 +23,7 @@
 #include "open_queue.hpp"
 #include "outputs.hpp"
 #include "progress.hpp"
+#include "report_files.hpp"
 #include "run_clock.hpp"
 #include "volume/deform_report.hpp"
 #include "volume/group_targets.hpp"
@@ -202,22 +203,7 @@ private:
         drawing_options drawing{options_.picture, options_.cut, options_.smoothing};
         if (drawn(drawing.path, report_.run.notes))
             files.push_back({drawing.path, [&](io::atomic_file& file) { file.write(picture(drawing)); }});
-        if (!options_.stats.empty())
-            files.push_back({options_.stats, [&](io::atomic_file& file)
-                             {
-                                 note_time();
-                                 constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
-                                 file.write(to_json(report_, options_).dump(2, ' ', false, replace) + '\n');
-                             }});
-        if (place_of_report_ && has_reader(place_of_report_))
-            files.push_back({place_of_report_, [&](io::atomic_file& file)
-                             {
-                                 note_time();
-                                 progress_.finish();
-                                 file.write(text_of(report_, options_));
-                             }});
-        writing([&] { io::write_files(files); });
-        progress_.finish();
+        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
     }
 
     std::string picture(const drawing_options& drawing) const
