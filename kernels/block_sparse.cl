@@ -468,8 +468,8 @@ __kernel void dense(const int size, const int pitch, __global const int* at, __g
 /// answer. Elimination turns rows into those of L^-1 place by place: A = L d L', X = sum of (row / sqrt d)' (row / sqrt
 /// d), which is semi-definite as computed. A pivot that is not well positive takes its unknown out.
 ///
-/// Where the sum of all entries between equal components is nothing but rounding, the matrix does not see a shift of
-/// them all: their means are taken out of X on both sides, as what the shift would answer there is noise.
+/// Where the sum of all entries between equal components is nothing but rounding, the matrix does not see a translation.
+/// It is made stiff against that, as what the shift would answer there is noise, and large.
 #if TEAM > 1
 #define SYNC barrier(CLK_GLOBAL_MEM_FENCE)
 #else
@@ -506,7 +506,7 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
         for (int j = i % D; j < size; j += D) root[i] += work[i * pitch + j];
     }
     SYNC;
-    REAL share[D]; // of the sum over a component in its mean; 0 for one that is held
+    REAL stiff[D]; // 1 / trace of a component that nothing holds; 0 for others
     UNROLLED (int c = 0; c < D; ++c)
     {
         REAL sum = 0, trace = 0;
@@ -515,14 +515,18 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
             sum += root[i];
             trace += work[i * pitch + i];
         }
-        share[c] = fabs(sum) <= 10 * EPSILON * trace && trace < INFINITY ? (REAL)D / size : 0;
+        stiff[c] = fabs(sum) <= 10 * EPSILON * trace && trace > 0 && trace < INFINITY ? 1 / trace : 0;
     }
     for (int i = item; i < size; i += TEAM) scale[i] = work[i * pitch + i] > 0 ? 1 / sqrt(work[i * pitch + i]) : 0;
     SYNC;
     for (int i = item; i < size; i += TEAM)
     {
         for (int j = 0; j < size; ++j)
-            work[i * pitch + j] = scale[i] * scale[j] > 0 ? work[i * pitch + j] * (scale[i] * scale[j]) : 0;
+        {
+            REAL a = scale[i] * scale[j] > 0 ? work[i * pitch + j] * (scale[i] * scale[j]) : 0;
+            if (scale[i] * scale[j] > 0 && i % D == j % D) a += stiff[i % D] / (scale[i] * scale[j]);
+            work[i * pitch + j] = a;
+        }
         work[i * pitch + i] += shift;
     }
     for (int k = 0; k < size; ++k)
@@ -555,27 +559,6 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
             REALV sum = 0;
             for (int k = i; k < size; ++k) sum += work[k * pitch + i] * LOAD(work, k * pitch + j);
             STORE(sum, X, i * pitch + j);
-        }
-    SYNC;
-    for (int i = item; i < size; i += TEAM)
-        UNROLLED (int c = 0; c < D; ++c)
-        {
-            REAL sum = 0;
-            for (int j = c; j < size; j += D) sum += X[i * pitch + j];
-            work[c * pitch + i] = sum * share[c];
-        }
-    SYNC;
-    REAL mean[D * D];
-    UNROLLED (int c = 0; c < D * D; ++c)
-    {
-        mean[c] = 0;
-        for (int i = c / D; i < size; i += D) mean[c] += work[c % D * pitch + i] * share[c / D];
-    }
-    for (int i = item; i < size; i += TEAM)
-        for (int j = 0; j < size; ++j)
-        {
-            const int c = i % D, k = j % D;
-            X[i * pitch + j] += mean[c * D + k] - work[k * pitch + i] - work[c * pitch + j];
         }
 }
 

@@ -72,8 +72,9 @@ private:
 };
 
 /// What detail::dense_inverse computes: the inverse of the matrix, scaled to a unit diagonal and shifted. Unknowns
-/// without a positive diagonal get 0.
-inline dense_matrix shifted_inverse(const dense_matrix& A, double shift)
+/// without a positive diagonal get 0. d: unknown i is one of component i % d, and is stiff against translations of
+/// those components that nothing in the matrix holds; 0: there are none.
+inline dense_matrix shifted_inverse(const dense_matrix& A, double shift, std::size_t d = 0)
 {
     const std::size_t n = A.size();
     std::vector<long double> scale(n);
@@ -84,29 +85,22 @@ inline dense_matrix shifted_inverse(const dense_matrix& A, double shift)
         for (std::size_t j = 0; j < n; ++j) scaled(i, j) = scale[i] * A(i, j) * scale[j];
         scaled(i, i) += shift;
     }
+    for (std::size_t c = 0; c < d; ++c)
+    {
+        long double sum = 0, trace = 0;
+        for (std::size_t i = c; i < n; i += d)
+        {
+            trace += A(i, i);
+            for (std::size_t j = c; j < n; j += d) sum += A(i, j);
+        }
+        if (std::abs(sum) > 1e-5L * trace) continue;
+        for (std::size_t i = c; i < n; i += d)
+            for (std::size_t j = c; j < n; j += d) scaled(i, j) += 1 / (scale[i] * scale[j] * trace);
+    }
     dense_matrix X = scaled.inverse();
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) X(i, j) *= scale[i] * scale[j];
     return X;
-}
-
-/// X without the mean of each of d components, on both sides; unknown i is one of component i % d.
-inline dense_matrix without_shifts(const dense_matrix& X, std::size_t d)
-{
-    const std::size_t n = X.size();
-    dense_matrix once(n), twice(n);
-    const auto center = [&](const dense_matrix& from, dense_matrix& to) // rows of `from` into columns of `to`
-    {
-        for (std::size_t i = 0; i < n; ++i)
-        {
-            std::vector<long double> mean(d);
-            for (std::size_t j = 0; j < n; ++j) mean[j % d] += from(i, j) * static_cast<long double>(d) / n;
-            for (std::size_t j = 0; j < n; ++j) to(j, i) = from(i, j) - mean[j % d];
-        }
-    };
-    center(X, once);
-    center(once, twice);
-    return twice;
 }
 
 } // namespace taut::test

@@ -260,10 +260,13 @@ def pasting(path, n):
         first = s.message("state")
         assert first["pose"] == (0, 0.5, 0) and first["positions"] == model["points"]
 
-        s.send(pose(1, turn=0.5, scale=0.5, softness=0.5))
+        s.send(pose(1, turn=0.2, scale=0.5, softness=0.5))
         turned = s.rest()
-        assert turned["pose"] == (0.5, 0.5, 0.5) and len(turned["positions"]) == len(first["positions"]) != first["positions"]
-        away = next(v for v in range(len(first["positions"]) // 3) if near(at(first, v, 3)[:2], (0.25, 0.25), 0.05))
+        assert turned["pose"] == (0.2, 0.5, 0.5) and len(turned["positions"]) == len(first["positions"]) != first["positions"]
+        s.send(pose(1, turn=2.0, scale=0.5))  # attached anew
+        assert manifold(s.message("model")["faces"]) == rim
+        turned = s.message("state")
+        away = next(v for v in range(len(turned["positions"]) // 3) if near(at(turned, v, 3)[:2], (0.25, 0.25), 0.05))
         s.send(pose(2, onto=away, turn=0.5, scale=0.4))
         moved = s.message("model")
         assert manifold(moved["faces"]) == rim

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -69,8 +70,13 @@ public:
         if (to.onto < 0)
         {
             if (!paste_) throw error("the feature is nowhere: click where it is to be");
-            paste_->pose(pose);
-            pose_ = pose;
+            if (is_near(pose))
+            {
+                paste_->pose(pose);
+                pose_ = pose;
+            }
+            else
+                put(target_, onto_, pose);
             return;
         }
         if (static_cast<std::size_t>(to.onto) >= points().size())
@@ -110,7 +116,7 @@ public:
     void go_back(const memory& before) override
     {
         const auto& m = static_cast<const moment&>(before);
-        if (m.target == target_ && paste_ && m.onto == onto_)
+        if (m.target == target_ && paste_ && m.onto == onto_ && is_near(m.pose))
         {
             paste_->pose(m.pose);
             pose_ = m.pose;
@@ -147,6 +153,13 @@ private:
     const std::vector<mesh<triangle>::cell>& cells() const { return paste_ ? paste_->cells() : target_->cells(); }
     const std::vector<vec3>& points() const { return paste_ ? paste_->points() : target_->points(); }
 
+    /// Whether the rim may stay attached to what it is attached to.
+    bool is_near(const paste_pose& pose) const
+    {
+        constexpr double turn = 0.25, scale = 0.2;
+        return std::abs(pose.turn - attached_.turn) < turn && std::abs(std::log(pose.scale / attached_.scale)) < scale;
+    }
+
     /// onto: a vertex of the target, or -1.
     void put(std::shared_ptr<const mesh<triangle>> target, idx onto, const paste_pose& pose)
     {
@@ -155,7 +168,7 @@ private:
         paste_ = std::move(there);
         target_ = std::move(target);
         onto_ = onto;
-        pose_ = pose;
+        pose_ = attached_ = pose;
         ++revision_;
     }
 
@@ -165,7 +178,7 @@ private:
     std::shared_ptr<const mesh<triangle>> target_;
     std::optional<paste> paste_;
     idx onto_ = -1;
-    paste_pose pose_;
+    paste_pose pose_, attached_; ///< now, and when the rim was attached
     int revision_ = 0;
 };
 

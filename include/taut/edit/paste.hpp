@@ -53,7 +53,7 @@ public:
     }
 
     /// Puts the feature elsewhere. What it is attached to stays: for a way across the surface that is longer than some
-    /// edges, paste anew.
+    /// edges, and for a turn of more than some twenty degrees, paste anew.
     paste& pose(const paste_pose& to)
     {
         to.validate();

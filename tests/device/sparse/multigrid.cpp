@@ -283,13 +283,9 @@ void check_cycle(const leveled_mesh<Element>& all, int D, lane_form form)
     test::dense_matrix diagonal(A.size());
     for (std::size_t i = 0; i < A.size(); ++i)
         for (std::size_t j = i / d * d; j < i / d * d + d; ++j) diagonal(i, j) = A(i, j);
-    const auto coarse = test::shifted_inverse(dense(mg.matrix(1)), std::is_same_v<T, double> ? 1e-8 : 1e-4);
-    const host_cycle<Element> cycle{A,
-                                    diagonal.inverse(),
-                                    test::without_shifts(coarse, d),
-                                    all.steps[0],
-                                    d,
-                                    {.lambda_max = double(Element::corners)}};
+    const auto coarse = test::shifted_inverse(dense(mg.matrix(1)), std::is_same_v<T, double> ? 1e-8 : 1e-4, d);
+    const host_cycle<Element> cycle{
+        A, diagonal.inverse(), coarse, all.steps[0], d, {.lambda_max = double(Element::corners)}};
 
     auto x = mg.matrix().vector();
     const auto b = image(mg, 1);
