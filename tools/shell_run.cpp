@@ -21,6 +21,7 @@
 #include <taut/io/write_files.hpp>
 #include <taut/io/write_obj.hpp>
 #include <taut/map/deform.hpp>
+#include <taut/measure/describe_defects.hpp>
 
 #include "assessment.hpp"
 #include "failure.hpp"
