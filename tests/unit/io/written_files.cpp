@@ -323,9 +323,9 @@ TEST_CASE("write_moved: of OBJ all but coordinates stays, and what they were joi
         return folder.read(folder / "out.obj");
     };
     CHECK(moved("a.obj", "# v 1 1 1\r\nv 0 0 0 1 0.5 0\r\n\tv\t1 0 \\\n 0 # one\nvn 0 0 1\nv 1 1 0\nv 0 1 0\n"
-                         "f 1//1 2//1 3//1 4//1\nv") ==
+                         "f 1//1 2//1 3//1 4//1\n# end") ==
           "# v 1 1 1\r\nv 0.1 2 3 1 0.5 0\r\n\tv 4 5 6 # one\nvn 0 0 1\nv 7 8 9e+30\nv -1 0 0\n"
-          "f 1//1 2//1 3//1 4//1\nv");
+          "f 1//1 2//1 3//1 4//1\n# end");
     CHECK(moved("a.off", "OFF 4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n") ==
           "v 0.1 2 3\nv 4 5 6\nv 7 8 9e+30\nv -1 0 0\nf 1 2 3 4\n");
     const auto file = io::read_surface_file(folder / "a.off");
