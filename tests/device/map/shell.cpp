@@ -92,6 +92,12 @@ TEST_CASE("shell: without pins the shape at rest is returned, and one that was m
     check_shell(m, {}, still);
     CHECK(edge_change(m, still.x) < 1e-6);
 
+    // One vertex alone takes all along, however far.
+    const auto one = taut::constraints(shell.hinges()).pin(3, {5, 0, 2});
+    const auto carried = deform(q, shell, {.constraints = one});
+    check_shell(m, one, carried);
+    CHECK(edge_change(m, carried.x) < 1e-3);
+
     // Three vertices, rigidly.
     const auto away = turn_about({0.5, 0.2, 0}, glm::normalize(vec3(1, 1, 2)), 1.2);
     auto pins = taut::constraints(shell.hinges());
