@@ -8,6 +8,7 @@
 #include "progress.hpp"
 #include "run_clock.hpp"
 #include "shared_options.hpp"
+#include "shell_run.hpp"
 #include "volume/shape_options.hpp"
 #include "volume/shape_run.hpp"
 
@@ -24,6 +25,9 @@ exit_code run(const shape_options& options, std::chrono::steady_clock::time_poin
     const run_clock clock(launch);
     limit_time(options.time_limit - clock.now());
     progress progress(progress_of(options.progress, options.quiet), std::cerr);
+    if (!options.smoothing && names_surface(options.input))
+        return shell_run(options, clock, progress, place_of_report)();
+    if (options.thickness) throw usage_error("--thickness is of surfaces in space (.obj, .off, .ply); leave it out");
     progress.update({.phase = "read", .seconds = clock.now()});
     auto file = read_volume_at_rest(options.input, options.rest);
     if (options.smoothing) file.rest.clear();
@@ -38,7 +42,8 @@ command add_deform(CLI::App& program, std::chrono::steady_clock::time_point laun
 {
     const auto options = std::make_shared<shape_options>();
     declare_deform(
-        *program.add_subcommand("deform", "Deform a volume, or a mesh of the plane, by what is held and moved"),
+        *program.add_subcommand(
+            "deform", "Deform a volume, a mesh of the plane, or a surface in space by what is held and moved"),
         *options);
     return [options, launch] { return run(*options, launch); };
 }

@@ -1154,6 +1154,43 @@ test_pins()
     expect 3 unwrap in.obj -o no.obj --pins missing.csv
 }
 
+test_shells()
+{
+    grid 10 >sheet.obj
+    head -c -1 sheet.obj | sed '1i# kept\nvn 0 0 1' >in.obj
+    printf '0,0,0,0.5\n10,1,0,0.25\n110,0,1,0\n120,1,1,0.5\n60,,,0.125\n' >pins.csv
+    expect 0 deform in.obj -o out.obj --pins pins.csv --stats stats.json
+    says out '121 vertices, 200 triangles, 5 vertices held' 'converged' 'thickness' 'wrote *out.obj, stats.json'
+    keys stats.json schema element outcome converged pins_held collapsed thickness edge_change.rms area_ratio.min seconds.total stages.0.stage
+    says values '^schema=taut.deform/1' '^element=shell' '^outcome=valid' '^collapsed=0'
+    # All but coordinates is as it was, and pins are where they were put.
+    grep -v '^v ' in.obj >before
+    grep -v '^v ' out.obj >after
+    cmp before after || fail "more than coordinates has changed"
+    grep '^v ' out.obj | sed -n 11p | grep -qx 'v 1 0 0.25' || fail "a pin has moved"
+    expect 0 check out.obj
+
+    grid 10 off >sheet.off
+    printf '0,0,0,0.5\n' >pins.csv
+    expect 0 deform sheet.off -o moved.obj --pins pins.csv --thickness 0.5 --quiet
+    silent out
+    [ "$(grep -c '^f' moved.obj)" = 200 ] || fail "triangles are missing"
+
+    # Wrong use.
+    expect 2 deform in.obj -o late.obj --thickness 0
+    expect 2 deform in.obj -o late.off --pins pins.csv
+    error_says '.obj'
+    expect 2 deform in.obj -o late.obj --fix 1
+    error_says '--fix'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+    expect 4 deform one.obj -o late.obj
+    error_says 'without a neighbour'
+    volume 3 >bar.mesh
+    expect 2 deform bar.mesh -o late.mesh --thickness 1
+    error_says '--thickness'
+    absent late.obj
+}
+
 test_deform()
 {
     volume 3 >bar.mesh

@@ -20,7 +20,9 @@ namespace
 /// What both commands have. usual: the tolerance without an option
 void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
 {
-    app.add_option("MESH", o.input, "Tetrahedra, or triangles of the plane: .mesh .msh .vtk .vtu .node .su2 .prob")
+    app.add_option("MESH", o.input,
+                   std::string("Tetrahedra, or triangles of the plane: .mesh .msh .vtk .vtu .node .su2 .prob") +
+                       (o.smoothing ? "" : "; or a surface in space: .obj .off .ply"))
         ->required()
         ->type_name("FILE");
     app.add_option("-o,--output", o.output,
@@ -61,6 +63,12 @@ void declare_deform(CLI::App& app, shape_options& o)
                                                  {"volume", shape_energy::volume},
                                                  {"neo-hookean", shape_energy::neo_hookean}},
                "What to keep: lengths, angles, volumes and lengths, or as rubber does");
+    app.add_option(
+           "--thickness", o.thickness,
+           "Of a surface in space (.obj .off .ply), in its lengths: thick ones arch, thin ones crease. Default: "
+           "its mean edge")
+        ->type_name("H")
+        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
 }
 
 void declare_smooth(CLI::App& app, shape_options& o)

@@ -36,6 +36,7 @@ struct shape_options
     std::string pins, rest;
     std::vector<std::string> moves, fixed; ///< of groups; smooth has fixed ones, too
     shape_energy energy = shape_energy::isometric;
+    std::optional<double> thickness; ///< of a surface, in its lengths
 
     // smooth
     smooth_boundary boundary = smooth_boundary::sliding;

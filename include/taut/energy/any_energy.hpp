@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <taut/config.hpp>
 #include <taut/energy/eigenvalue_filter.hpp>
 #include <taut/energy/element.hpp>
+#include <taut/energy/symmetric_matrix.hpp>
 #include <taut/symbolic/glm.hpp>
 
 namespace taut
@@ -79,7 +81,24 @@ public:
         return model_->at(full);
     }
 
+    /// Second derivatives by the entries of S, by columns, filtered, of an energy that says them itself, as
+    ///
+    ///     template <class T>
+    ///     symmetric_matrix<T, D * D> hessian(const element<T, D>&, const eigenvalue_filter<T>&, scalar_type) const;
+    ///
+    /// does, traced; nothing of others. Filtered they are to be positive semi-definite, and else what they are.
+    template <int D>
+    std::optional<symmetric_matrix<sym<double>, D * D>>
+    hessian(const element<sym<double>, D>& e, const eigenvalue_filter<sym<double>>& filter, scalar_type type) const
+    {
+        return model_->hessian_at(e, filter, type);
+    }
+
 private:
+    using traced_filter = eigenvalue_filter<sym<double>>;
+    template <int D>
+    using traced_hessian = std::optional<symmetric_matrix<sym<double>, D * D>>;
+
     struct interface
     {
         virtual ~interface() = default;
@@ -88,6 +107,10 @@ private:
         virtual double at(const element<double, 3>&) const = 0;
         virtual sym<double> at(const element<sym<double>, 2>&) const = 0;
         virtual sym<double> at(const element<sym<double>, 3>&) const = 0;
+        virtual traced_hessian<2> hessian_at(const element<sym<double>, 2>&, const traced_filter&,
+                                             scalar_type) const = 0;
+        virtual traced_hessian<3> hessian_at(const element<sym<double>, 3>&, const traced_filter&,
+                                             scalar_type) const = 0;
     };
 
     template <class E>
@@ -108,11 +131,30 @@ private:
                 throw parameter_error("energy", "is not defined in dimension " + std::to_string(D));
         }
 
+        template <int D>
+        traced_hessian<D> own_hessian(const element<sym<double>, D>& x, const traced_filter& f, scalar_type type) const
+        {
+            if constexpr (requires { e.hessian(x, f, type); })
+                return e.hessian(x, f, type);
+            else
+                return std::nullopt;
+        }
+
         bool barrier() const override { return E::barrier; }
         double at(const element<double, 2>& x) const override { return call(x); }
         double at(const element<double, 3>& x) const override { return call(x); }
         sym<double> at(const element<sym<double>, 2>& x) const override { return call(x); }
         sym<double> at(const element<sym<double>, 3>& x) const override { return call(x); }
+        traced_hessian<2> hessian_at(const element<sym<double>, 2>& x, const traced_filter& f,
+                                     scalar_type type) const override
+        {
+            return own_hessian(x, f, type);
+        }
+        traced_hessian<3> hessian_at(const element<sym<double>, 3>& x, const traced_filter& f,
+                                     scalar_type type) const override
+        {
+            return own_hessian(x, f, type);
+        }
 
         E e;
     };

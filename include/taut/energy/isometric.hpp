@@ -25,11 +25,12 @@ struct isometric
             return shape{}(e)*area{}(e);
     }
 
-    /// In the plane, by the invariants I = |S|^2 and d = det S: for loops of the host, where nothing is traced.
-    static invariant_derivatives<double> derivatives(double I, double d)
+    /// In the plane, by the invariants I = |S|^2 and d = det S: where the energy itself is not traced.
+    template <class T>
+    static invariant_derivatives<T> derivatives(const T& I, const T& d)
     {
-        const double r = 1 / d, r2 = r * r;
-        return {I, d, 1 + r2, -2 * I * r2 * r, 0, -2 * r2 * r, 6 * I * r2 * r2};
+        const T r = T(1) / d, r2 = r * r;
+        return {I, d, T(1) + r2, T(-2) * I * r2 * r, T(0), T(-2) * r2 * r, T(6) * I * r2 * r2};
     }
 };
 

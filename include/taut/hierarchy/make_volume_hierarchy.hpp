@@ -13,11 +13,53 @@
 #include <taut/hierarchy/detail/point_thinning.hpp>
 #include <taut/hierarchy/hierarchy.hpp>
 #include <taut/mesh/boundary.hpp>
+#include <taut/mesh/hinge.hpp>
 #include <taut/mesh/ideal.hpp>
 #include <taut/mesh/incidence.hpp>
 
 namespace taut
 {
+
+namespace detail
+{
+
+/// The levels of a cloud of the points of a mesh.
+template <class Element>
+hierarchy<Element> thinned_levels(const mesh<Element>& m, point_cloud cloud, const hierarchy_params& params)
+{
+    hierarchy<Element> h;
+    h.levels.push_back({std::vector<idx>(cloud.points.size()), m.cells()});
+    std::iota(h.levels[0].vertices.begin(), h.levels[0].vertices.end(), 0);
+    while (static_cast<double>(cloud.points.size()) > 1.5 * params.min_vertices &&
+           (!params.proceed || params.proceed()))
+    {
+        const auto chosen = maximal_independent_set(cloud);
+        if (chosen.empty() || static_cast<double>(chosen.size()) > 0.8 * static_cast<double>(cloud.points.size()))
+            break;
+        auto P = interpolate(cloud, chosen, params.threads);
+        cloud = thinned(cloud, chosen, P, params.threads);
+        std::vector<idx> vertices;
+        for (const idx v : chosen) vertices.push_back(h.levels.back().vertices[static_cast<std::size_t>(v)]);
+        h.levels.push_back({std::move(vertices), {}});
+        h.steps.push_back({std::move(P), {}});
+    }
+    return h;
+}
+
+/// The points of a mesh, near 1, in a cloud where none stands out.
+template <class Element>
+point_cloud cloud_of(const mesh<Element>& m, std::span<const char> held)
+{
+    const std::size_t n = m.points().size();
+    if (!held.empty() && held.size() != n) throw parameter_error("held", "must have one flag a vertex, or none");
+    const double unit = unit_scale(m); // so that no product leaves the range of numbers; a power of two
+    point_cloud cloud{m.points(), vertex_neighbours(m), std::vector<char>(n, 0), std::vector<char>(n, 0)};
+    for (vec3& p : cloud.points) p *= unit;
+    std::copy(held.begin(), held.end(), cloud.held.begin());
+    return cloud;
+}
+
+} // namespace detail
 
 /// Builds the hierarchy of a volume: each level is a maximal independent set of the vertices of the next finer one,
 /// some 5 to 7 times fewer, whatever params.factor is, and interpolates from up to four of them, with weights that can
@@ -34,33 +76,19 @@ inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::sp
                                              std::span<const std::array<idx, 3>> boundary = {})
 {
     params.validate();
-    const std::size_t n = m.points().size();
-    if (!held.empty() && held.size() != n) throw parameter_error("held", "must have one flag a vertex, or none");
+    auto cloud = detail::cloud_of(m, held);
+    const double unit = unit_scale(m);
+    cloud.rank = boundary.empty() ? detail::boundary_rank(m, boundary_facets(m), unit)
+                                  : detail::boundary_rank(m, boundary, unit);
+    return detail::thinned_levels(m, std::move(cloud), params);
+}
 
-    hierarchy<tetrahedron> h;
-    h.levels.push_back({std::vector<idx>(n), m.cells()});
-    std::iota(h.levels[0].vertices.begin(), h.levels[0].vertices.end(), 0);
-    const double unit = unit_scale(m); // so that no product leaves the range of numbers; a power of two
-    detail::point_cloud cloud{m.points(), vertex_neighbours(m),
-                              boundary.empty() ? detail::boundary_rank(m, boundary_facets(m), unit)
-                                               : detail::boundary_rank(m, boundary, unit),
-                              std::vector<char>(n, 0)};
-    for (vec3& p : cloud.points) p *= unit;
-    std::copy(held.begin(), held.end(), cloud.held.begin());
-    while (static_cast<double>(cloud.points.size()) > 1.5 * params.min_vertices &&
-           (!params.proceed || params.proceed()))
-    {
-        const auto chosen = detail::maximal_independent_set(cloud);
-        if (chosen.empty() || static_cast<double>(chosen.size()) > 0.8 * static_cast<double>(cloud.points.size()))
-            break;
-        auto P = detail::interpolate(cloud, chosen, params.threads);
-        cloud = detail::thinned(cloud, chosen, P, params.threads);
-        std::vector<idx> vertices;
-        for (const idx v : chosen) vertices.push_back(h.levels.back().vertices[static_cast<std::size_t>(v)]);
-        h.levels.push_back({std::move(vertices), {}});
-        h.steps.push_back({std::move(P), {}});
-    }
-    return h;
+/// The same of the hinges of a surface: none of its vertices stands out.
+inline hierarchy<hinge> make_hierarchy(const mesh<hinge>& m, std::span<const char> held = {},
+                                       const hierarchy_params& params = {})
+{
+    params.validate();
+    return detail::thinned_levels(m, detail::cloud_of(m, held), params);
 }
 
 } // namespace taut

@@ -5,15 +5,17 @@
 #include <vector>
 
 #include <taut/mesh/incidence.hpp>
-#include <taut/mesh/tetrahedron.hpp>
 #include <taut/mesh/triangle.hpp>
 
 namespace taut
 {
 
-/// How a level was thinned to the next coarser one; what it takes to undo that is each element's own.
+/// How a level was thinned to the next coarser one; what it takes to undo that is each element's own. Of volumes and
+/// hinges nothing: their coarser levels have no cells that vertices could go back into.
 template <class Element>
-struct removals;
+struct removals
+{
+};
 
 /// Of surfaces: vertices pulled into a neighbour each, in rounds. In a round no two
 /// removed vertices are neighbours, so all of it can be done, and undone, at once. Numbers are those of the finer
@@ -28,12 +30,6 @@ struct removals<triangle>
     std::vector<idx> rounds; ///< round r: removals rounds[r] .. rounds[r + 1] - 1
 
     std::size_t round_count() const { return rounds.size() - 1; }
-};
-
-/// Of volumes: nothing. Their coarser levels have no cells that vertices could go back into.
-template <>
-struct removals<tetrahedron>
-{
 };
 
 } // namespace taut

@@ -12,6 +12,7 @@
 #include <taut/map/detail/session/session_body.hpp>
 #include <taut/map/parameterize_params.hpp>
 #include <taut/map/session_result.hpp>
+#include <taut/map/shell_params.hpp>
 
 namespace taut
 {
@@ -46,11 +47,15 @@ public:
     /// A volume that deforms; the first shape is that of the mesh, or of params.initial, untangled if it has inverted
     /// elements. Throws as above.
     session(queue& q, const mesh<Element>& m,
-            const deform_params<Element>& params = {}) requires(!std::same_as<Element, triangle>);
+            const deform_params<Element>& params = {}) requires std::same_as<Element, tetrahedron>;
 
     /// The same of a mesh of the plane (z = 0).
     template <std::same_as<deform_params<Element>> Params>
     session(queue& q, const mesh<Element>& m, const Params& params) requires std::same_as<Element, triangle>;
+
+    /// A surface in space that deforms as a thin shell, taut::session<hinge>: maps are its shapes, of which it is
+    /// certified that no triangle has collapsed to a line or a point; it may pass through itself.
+    session(queue& q, const thin_shell& shell, const shell_params& params = {}) requires std::same_as<Element, hinge>;
 
     /// Pins vertex v to x, in the lengths of the map, or moves its pin there. Throws constraint_error, as
     /// constraints::pin does, and all of the session is as before.
@@ -134,4 +139,5 @@ private:
 #ifndef TAUT_COMPILED
 #include <taut/map/detail/session/map_session.hpp>
 #include <taut/map/detail/session/shape_session.hpp>
+#include <taut/map/detail/session/shell_session.hpp>
 #endif

@@ -10,13 +10,20 @@
 namespace taut
 {
 
-/// What keeps a map from being locally injective, with the first ids; "no defect" if nothing does. owners: where the
+/// What keeps a map from being locally injective, with the first ids; "no defect" if nothing does. Of what has no
+/// orientation, as hinges, it is the triangles that have collapsed. owners: where the
 /// elements are the corners of cells, the cell of each.
 template <class Element>
 std::string describe_defects(const certificate& c, std::span<const idx> owners = {})
 {
     std::string text;
-    if (c.flipped > 0) text = detail::list_first_elements<Element>(c.flipped, c.ids, owners) + " flipped";
+    if (!Element::oriented)
+    {
+        if (c.flipped > 0)
+            text = detail::list_first_ids(Element::facet_name, Element::facet_names, c.flipped, c.ids) + " collapsed";
+    }
+    else if (c.flipped > 0)
+        text = detail::list_first_elements<Element>(c.flipped, c.ids, owners) + " flipped";
     if (c.branched > 0)
     {
         text += text.empty() ? "" : ", and ";

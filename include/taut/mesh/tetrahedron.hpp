@@ -23,6 +23,7 @@ struct tetrahedron
 {
     static constexpr int dimension = 3;
     static constexpr int corners = 4;
+    static constexpr bool oriented = true; ///< det S has a sign, which no map may change
     static constexpr std::array<std::array<int, 3>, 4> facets = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
     static constexpr double measure_factor = 1.0 / 6.0; ///< volume = measure_factor * determinant of three edges
     static constexpr const char *name = "tetrahedron", *names = "tetrahedra";

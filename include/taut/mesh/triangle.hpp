@@ -22,6 +22,7 @@ struct triangle
 {
     static constexpr int dimension = 2;
     static constexpr int corners = 3;
+    static constexpr bool oriented = true; ///< det S has a sign, which no map may change
     static constexpr std::array<std::array<int, 2>, 3> facets = {{{1, 2}, {2, 0}, {0, 1}}};
     static constexpr double measure_factor = 0.5; ///< area = measure_factor * determinant of two edges
     static constexpr const char *name = "triangle", *names = "triangles";

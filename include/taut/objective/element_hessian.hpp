@@ -53,8 +53,9 @@ struct hessian_slots
 /// The second derivatives of weight * energy by the corners of each element, one work-item an element; arrays and
 /// ranges as in element_kernels. Nothing is tested against the domain: outside of a barrier's the result means nothing.
 ///
-/// An energy of |S|^2 and det S takes the closed forms of modes.hpp. Any other is differentiated twice on the tape and
-/// filtered by Jacobi rotations; in space its diagonal is shifted instead, whatever the filter.
+/// An energy that says its Hessian itself (any_energy::hessian) is asked for it; one of |S|^2 and det S takes the
+/// closed forms of modes.hpp. Any other is differentiated twice on the tape and filtered by Jacobi rotations; in space
+/// its diagonal is shifted instead, whatever the filter.
 template <class Element>
 struct element_hessian_kernel
 {
@@ -108,7 +109,14 @@ private:
                                                      const eigenvalue_filter<real>& filter, scalar_type type)
     {
         const matrix S = e.shape_matrix();
-        const real weight = e.weight(), value = e.density(energy, S);
+        const real weight = e.weight();
+        if (auto own = e.own_hessian(energy, S, filter))
+        {
+            for (int j = 0; j < N; ++j)
+                for (int i = 0; i <= j; ++i) (*own)(i, j) = weight * (*own)(i, j);
+            return *own;
+        }
+        const real value = e.density(energy, S);
         const auto psi = derivatives_by_invariants<D>(value, S);
         if constexpr (D == 2)
         {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct element_kernels
     /// segment of cell_stride each
     recorded_kernel along;
 
-    /// "d" -> "first": the least a > 0 at which det(x + a d) of each element vanishes
+    /// "d" -> "first": the least a > 0 at which det(x + a d) of each element vanishes; never of what has no orientation
     recorded_kernel first_flips;
 
     element_kernels(const queue& q, const any_energy& energy, const real_types& types)
@@ -118,7 +119,10 @@ struct element_kernels
         auto first = r.out<double>("first", types.vector);
         const auto cell = r.global_id();
         const traced e(in, cell, types.position, types.position);
-        first[cell] = first_flip(e.edges(in.x), e.edges(d));
+        if constexpr (Element::oriented)
+            first[cell] = first_flip(e.edges(in.x), e.edges(d));
+        else
+            first[cell] = real(std::numeric_limits<double>::infinity());
         return r.finish("element_first_flip", form);
     }
 

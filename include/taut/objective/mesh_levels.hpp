@@ -56,7 +56,7 @@ public:
             hierarchy_ = make_hierarchy(mesh<Element>(finest_.points(), std::move(cells)), keep, params);
             hierarchy_.levels[0].cells = finest_.cells();
         }
-        else if constexpr (Element::dimension == 3)
+        else if constexpr (Element::dimension == 3 && Element::oriented)
         {
             auto boundary = owners.empty() ? decltype(boundary_facets(m, owners))() : boundary_facets(m, owners);
             for (auto& face : boundary)

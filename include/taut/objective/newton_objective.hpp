@@ -47,15 +47,17 @@ private:
     newton_kernels(const traced_program& p, const any_energy& energy, const real_types& of, capping_elements capping)
         : first(p), second(p), types(of)
     {
-        if (capping == capping_elements::relaxed) relaxation.emplace(p, energy);
+        if (relaxes(capping)) relaxation.emplace(p, energy);
     }
+
+    static bool relaxes(capping_elements capping) { return Element::oriented && capping == capping_elements::relaxed; }
 
     static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form,
                                            capping_elements capping)
     {
         auto all = decltype(first)::record(energy, types, form);
         all.push_back(decltype(second)::record(energy, types, form));
-        if (capping == capping_elements::relaxed)
+        if (relaxes(capping))
             for (auto& text : relaxation_kernels<Element>::record(energy, types, form)) all.push_back(std::move(text));
         return all;
     }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <taut/energy/any_energy.hpp>
@@ -119,6 +120,15 @@ public:
             seen = S * axes;
         }
         return energy(element<real, D>{seen, glm::determinant(S), measure(), attributes_, parameters_});
+    }
+
+    /// The second derivatives of the density by the entries of S that an energy says itself (any_energy::hessian).
+    auto own_hessian(const any_energy& energy, const matrix& S, const eigenvalue_filter<real>& filter) const
+    {
+        using found = decltype(energy.hessian(std::declval<element<real, D>>(), filter, formula_));
+        if (in_.frames) return found();
+        return energy.hessian(element<real, D>{S, glm::determinant(S), measure(), attributes_, parameters_}, filter,
+                              formula_);
     }
 
     /// weight * density; +infinity where a barrier energy is outside its domain.

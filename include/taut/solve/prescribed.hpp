@@ -117,8 +117,9 @@ public:
     }
 
 private:
-    static constexpr int patience = 8;       // steps
-    static constexpr double centring = 1e-2; // part of f that a step must gain for another one
+    static constexpr int patience = 8;         // steps
+    static constexpr double centring = 1e-2;   // part of f that a step must gain for another one
+    static constexpr double least_cost = 1e-3; // part of f that is always worth a step
 
     struct progress
     {
@@ -136,7 +137,10 @@ private:
         f_.space().axpby(1, follow_, 1, d_);
         ++r.iterations;
         r.products += model.steps;
-        const auto [taken, value] = longest(x, here.value, std::max(0.0, here.change - model.decrease), share, r.left);
+        // A motion that costs nothing in the model, as a turn, costs a little in a straight line.
+        const double least_rise = centring_ ? 0 : least_cost * f_.size(here.value);
+        const auto [taken, value] =
+            longest(x, here.value, std::max(least_rise, here.change - model.decrease), share, r.left);
         r.value = value;
         if (!centring_) radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
         const double fallen = here.value - value;

@@ -14,7 +14,9 @@
 #include <support/temporary_folder.hpp>
 #include <taut/io/detail/plain_file.hpp>
 #include <taut/io/read_file.hpp>
+#include <taut/io/read_surface.hpp>
 #include <taut/io/write_files.hpp>
+#include <taut/io/write_obj.hpp>
 
 using namespace taut;
 using test::temporary_folder;
@@ -304,6 +306,31 @@ TEST_CASE("write_files: a file that cannot get its name is named, with those tha
     const auto already = "/b: cannot write: Is a directory; already replaced: " + (folder / "a").string();
     CHECK_THROWS_WITH_AS(io::write_files(files), doctest::Contains(already.c_str()), io::io_error);
     CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("write_moved: of OBJ all but coordinates stays, and what they were joined from; others become OBJ")
+{
+    const temporary_folder folder;
+    const std::vector<vec3> points{{0.1, 2, 3}, {4, 5, 6}, {7, 8, 9e30}, {-1, 0, 0}};
+    const auto moved = [&](const char* name, const std::string& text)
+    {
+        folder.write(folder / name, text);
+        const auto file = io::read_surface_file(folder / name);
+        io::atomic_file out(folder / "out.obj");
+        io::write_moved(out, file, points);
+        out.commit();
+        CHECK(io::read_surface(folder / "out.obj").points() == points);
+        return folder.read(folder / "out.obj");
+    };
+    CHECK(moved("a.obj", "# v 1 1 1\r\nv 0 0 0 1 0.5 0\r\n\tv\t1 0 \\\n 0 # one\nvn 0 0 1\nv 1 1 0\nv 0 1 0\n"
+                         "f 1//1 2//1 3//1 4//1\n# end") ==
+          "# v 1 1 1\r\nv 0.1 2 3 1 0.5 0\r\n\tv 4 5 6 # one\nvn 0 0 1\nv 7 8 9e+30\nv -1 0 0\n"
+          "f 1//1 2//1 3//1 4//1\n# end");
+    CHECK(moved("a.off", "OFF 4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n") ==
+          "v 0.1 2 3\nv 4 5 6\nv 7 8 9e+30\nv -1 0 0\nf 1 2 3 4\n");
+    const auto file = io::read_surface_file(folder / "a.off");
+    io::atomic_file out(folder / "out.obj");
+    CHECK_THROWS_AS(io::write_moved(out, file, std::vector<vec3>(3)), parameter_error);
 }
 
 TEST_CASE("read_file: what has no end is an error")

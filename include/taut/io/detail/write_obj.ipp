@@ -5,12 +5,15 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <taut/io/atomic_file.hpp>
 #include <taut/io/cut_seams.hpp>
 #include <taut/io/detail/obj_output.hpp>
+#include <taut/io/detail/obj_statements.hpp>
 #include <taut/io/surface_file.hpp>
 #include <taut/io/write_obj.hpp>
 #include <taut/mesh/mesh.hpp>
+#include <vector>
 
 namespace taut::io
 {
@@ -23,6 +26,28 @@ inline void require_texcoords(std::span<const vec2> uv, const mesh<triangle>& su
     if (uv.size() != surface.points().size())
         throw parameter_error("uv", std::to_string(uv.size()) + " texture coordinates for " +
                                         std::to_string(surface.points().size()) + " vertices; give one a vertex");
+}
+
+/// The text of an OBJ file with other coordinates in its v statements; what follows them there stays.
+template <class Out>
+void write_with_points(Out& out, std::string_view bytes, std::span<const vec3> points)
+{
+    scanner in(bytes, {});
+    std::string text;
+    const char* copied = bytes.data();
+    std::size_t v = 0;
+    for_each_statement(in,
+                       [&](std::string_view key, const char*)
+                       {
+                           if (key != "v" || v >= points.size()) return;
+                           text.append(copied, in.position());
+                           const vec3& p = points[v++];
+                           append_line(text, "", {p.x, p.y, p.z}, "");
+                           for (int k = 0; k < 3; ++k) in.word();
+                           copied = in.position();
+                       });
+    text.append(copied, bytes.data() + bytes.size());
+    out.write(text);
 }
 
 } // namespace detail
@@ -52,6 +77,36 @@ TAUT_INLINE void write_obj(atomic_file& out, const surface_file& file, const cut
 {
     detail::require_texcoords(uv, cut.surface);
     detail::write_with_texcoords(out, file, cut.corners, uv);
+}
+
+TAUT_INLINE void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points)
+{
+    if (points.size() != file.surface.points().size())
+        throw parameter_error("points", std::to_string(points.size()) + " positions for " +
+                                            std::to_string(file.surface.points().size()) +
+                                            " vertices; give one a vertex");
+    if (!file.obj.bytes.empty()) return detail::write_with_points(out, file.obj.bytes, points);
+    detail::write_items(out, points.size(),
+                        [&](std::string& text, std::size_t v)
+                        {
+                            const vec3& p = points[v];
+                            if (file.vertices.colours.empty()) return detail::append_line(text, "v", {p.x, p.y, p.z});
+                            const vec3& c = file.vertices.colours[v];
+                            detail::append_line(text, "v", {p.x, p.y, p.z, c.x, c.y, c.z});
+                        });
+    std::vector<std::size_t> first{0};
+    for (const idx size : file.faces.sizes) first.push_back(first.back() + static_cast<std::size_t>(size));
+    detail::write_items(out, file.faces.sizes.size(),
+                        [&](std::string& text, std::size_t f)
+                        {
+                            text += 'f';
+                            for (std::size_t k = first[f]; k < first[f + 1]; ++k)
+                            {
+                                text += ' ';
+                                detail::append_number(text, file.faces.corners[k] + 1);
+                            }
+                            text += '\n';
+                        });
 }
 
 } // namespace taut::io

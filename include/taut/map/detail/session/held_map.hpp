@@ -74,7 +74,7 @@ protected:
     }
 
     /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.
-    certificate certified(const map& x) const
+    virtual certificate certified(const map& x) const
     {
         auto flips = certify<D>(rest().cells(), std::span<const vec<D>>(x), rest_measure());
         for (double* det : {&flips.min_det, &flips.max_det}) *det *= std::pow(lengths_, D);

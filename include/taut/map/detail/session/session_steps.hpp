@@ -131,11 +131,16 @@ protected:
         on_way_ = !arrived;
         followed_.stop = arrived ? "" : stuck_ ? "stuck" : clock.refused() ? "user" : "limit";
         book(clock, &session_seconds::follow, std::exchange(followed_, {}));
-        if (arrived || !stuck_ || !may_step(clock)) return;
-        const int before = last.report.steps;
-        const bool repaired = repair(clock);
-        book(clock, &session_seconds::repair,
-             {.stage = "repair", .iterations = last.report.steps - before, .stop = repaired ? "injective" : "stuck"});
+        if constexpr (Element::oriented)
+        {
+            if (arrived || !stuck_ || !may_step(clock)) return;
+            const int before = last.report.steps;
+            const bool repaired = repair(clock);
+            book(clock, &session_seconds::repair,
+                 {.stage = "repair",
+                  .iterations = last.report.steps - before,
+                  .stop = repaired ? "injective" : "stuck"});
+        }
     }
 
     /// From a map, in parts where bodies of held vertices turn; whether they have arrived.
@@ -187,12 +192,17 @@ protected:
     /// Whether it is proved that no map has the held coordinates at their places; x: any map.
     bool proved(const map& x)
     {
-        if (!marks().any()) return false;
-        const auto proof = find_infeasibility(problem(x, false));
-        if (!proof) return false;
-        last.report.reason = proof.reason();
-        last.report.ids = proof.proofs.front().ids;
-        return true;
+        if constexpr (Element::oriented)
+        {
+            if (!marks().any()) return false;
+            const auto proof = find_infeasibility(problem(x, false));
+            if (!proof) return false;
+            last.report.reason = proof.reason();
+            last.report.ids = proof.proofs.front().ids;
+            return true;
+        }
+        else
+            return false;
     }
 
     /// A map with held coordinates at their places and no defect, if untangling finds one.

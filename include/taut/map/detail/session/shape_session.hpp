@@ -34,7 +34,7 @@ deform_params<Element> validated(deform_params<Element> p)
 ///
 /// A session of a shape: it begins with the shape that is given, untangled if need be.
 template <class Element>
-class shape_session final : public session_steps<Element>
+class shape_session : public session_steps<Element>
 {
     using base = session_steps<Element>;
     using base::last, base::wanted;
@@ -63,22 +63,10 @@ private:
         this->held_.take(wanted);
         auto flips = this->certified(start_);
         last.x = start_;
-        if (!flips)
+        if (!flips && !mended(clock, flips))
         {
-            auto found = this->untangled(clock, start_);
-            r.outcome = found.outcome == untangle_outcome::infeasible ? outcome::infeasible : outcome::gave_up;
-            r.reason = std::move(found.reason);
-            r.ids = std::move(found.ids);
-            if (!found)
-            {
-                last.x.clear();
-                return;
-            }
-            r.reason.clear();
-            r.notes.push_back("the shape had " + describe_defects<Element>(flips, params_.owners) +
-                              "; it was untangled");
-            start_ = this->unscaled(std::move(found.map));
-            flips = std::move(found.flips);
+            last.x.clear();
+            return;
         }
         last.x = start_;
         r.outcome = outcome::valid;
@@ -100,6 +88,33 @@ private:
         const auto notes = std::exchange(r.notes, {});
         this->advance(clock);
         r.notes.insert(r.notes.begin(), notes.begin(), notes.end());
+    }
+
+    /// Untangles the shape to begin with, of which `flips` says what is wrong; what has no orientation is not.
+    bool mended(run_clock& clock, certificate& flips)
+    {
+        session_report& r = last.report;
+        if constexpr (Element::oriented)
+        {
+            auto found = this->untangled(clock, start_);
+            r.outcome = found.outcome == untangle_outcome::infeasible ? outcome::infeasible : outcome::gave_up;
+            r.reason = std::move(found.reason);
+            r.ids = std::move(found.ids);
+            if (!found) return false;
+            r.reason.clear();
+            r.notes.push_back("the shape had " + describe_defects<Element>(flips, params_.owners) +
+                              "; it was untangled");
+            start_ = this->unscaled(std::move(found.map));
+            flips = std::move(found.flips);
+            return true;
+        }
+        else
+        {
+            r.outcome = outcome::gave_up;
+            r.reason = "the shape to begin with has " + describe_defects<Element>(flips);
+            r.ids = flips.ids;
+            return false;
+        }
     }
 
     bool in_double() override
@@ -143,6 +158,12 @@ private:
     static mesh<Element> deformable(mesh<Element> m, const deform_params<Element>& params)
     {
         params.data.validate(m.cells().size());
+        if constexpr (Element::oriented) require_deformable(m, params); // a thin_shell is so
+        return m;
+    }
+
+    static void require_deformable(const mesh<Element>& m, const deform_params<Element>& params)
+    {
         for (const auto& [size, field] :
              {std::pair{params.targets.size(), "targets"}, {params.owners.size(), "owners"}})
             if (size != 0 && size != m.cells().size())
@@ -163,11 +184,19 @@ private:
             for (const vec3& p : m.points())
                 if (p.z != 0)
                     throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
-        return m;
     }
 
     /// unit: length of the run by that of the parameters.
     static ideal_elements<Element> ideals(const mesh<Element>& m, const deform_params<Element>& params, double unit)
+    {
+        if constexpr (!Element::oriented)
+            return ideal_elements<Element>(m);
+        else
+            return wanted_ideals(m, params, unit);
+    }
+
+    static ideal_elements<Element> wanted_ideals(const mesh<Element>& m, const deform_params<Element>& params,
+                                                 double unit)
     {
         const bool regular = params.shapes == wanted_shapes::regular;
         if (params.targets.empty())
@@ -237,7 +266,7 @@ private:
 
 template <class Element>
 session<Element>::session(queue& q, const mesh<Element>& m,
-                          const deform_params<Element>& params) requires(!std::same_as<Element, triangle>)
+                          const deform_params<Element>& params) requires std::same_as<Element, tetrahedron>
     : body_(std::make_unique<detail::shape_session<Element>>(q, m, params))
 {
 }
