@@ -153,6 +153,24 @@ def a_page(path, n):
         other.close()
 
 
+def shell(path, n):
+    with Program(program, path, "--shell") as p:
+        s = p.socket()
+        model = s.message("model")
+        assert model["dimension"] == 3 and model["shows"] == 0
+        first = s.message("state")
+        corners = [0, n, n * (n + 1), (n + 1) ** 2 - 1]
+        s.send(places(1, [(v, 7, at(first, v, 3)) for v in corners[:3]]))
+        x, y, z = at(first, corners[3], 3)
+        s.send(places(2, [(corners[3], 7, (x, y, z + 0.3))]))
+        while not (len((state := s.rest())["pins"]) == 4 and state["held"]):
+            pass
+        assert near(at(state, corners[3], 3), (x, y, z + 0.3)) and state["flipped"] == 0
+        s.send(save())
+        file = s.message("file")
+        assert file["name"] == "dome-moved.obj" and file["bytes"].count(b"v ") == (n + 1) ** 2
+
+
 def strangers(path):
     with Program(program, path) as p:
         here = f"http://127.0.0.1:{p.port}"
@@ -304,4 +322,5 @@ if __name__ == "__main__":
     strangers(f"{folder}/dome.obj")
     volume(f"{folder}/bar.mesh")
     pasting(f"{folder}/dome.obj", n)
+    shell(f"{folder}/dome.obj", n)
     print("view: all as it should be")

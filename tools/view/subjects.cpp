@@ -16,6 +16,7 @@
 #include <taut/io/write_obj.hpp>
 #include <taut/map/deform.hpp>
 #include <taut/map/parameterize.hpp>
+#include <taut/mesh/thin_shell.hpp>
 
 #include "../failure.hpp"
 #include "../seams.hpp"
@@ -217,11 +218,70 @@ private:
     std::vector<corners> faces_;
 };
 
+/// What a surface file has as a shell, at one place.
+struct opened_shell
+{
+    explicit opened_shell(const source& from) : file(io::read_surface_file(from.path, from.format)), shell(file.surface)
+    {
+        if (!from.pins.empty())
+            constraints = pinned(shell.hinges(), io::read_pins<3>(from.pins, file.surface.vertex_count()));
+    }
+
+    io::surface_file file;
+    thin_shell shell;
+    taut::constraints<hinge> constraints;
+};
+
+class shell_subject final : private opened_shell, public session_subject<hinge>
+{
+public:
+    shell_subject(queue& q, const source& from)
+        : opened_shell(from),
+          session_subject<hinge>(shell.hinges(), std::make_unique<session<hinge>>(
+                                                     q, shell, shell_params{.constraints = opened_shell::constraints})),
+          queue_(q),
+          name_(base_name(from.path)),
+          faces_(as_corners(shell.surface().cells()))
+    {
+    }
+
+    view::model model() const override
+    {
+        return {3, showing::shape, name_, as_floats(shell.surface().points()), as_list(faces_)};
+    }
+
+    void start_afresh() override
+    {
+        auto result = deform(queue_, shell, shell_params{.constraints = all_held()});
+        if (!result) throw error(result.report.reason);
+        go_to(result.x);
+    }
+
+    subject::saved write() const override
+    {
+        return {std::filesystem::path(name_).stem().string() + "-moved.obj", written(
+                                                                                 [&](const std::filesystem::path& path)
+                                                                                 {
+                                                                                     io::atomic_file out(path);
+                                                                                     io::write_moved(out, file, x());
+                                                                                     out.commit();
+                                                                                 })};
+    }
+
+private:
+    const std::vector<corners>& shown() const override { return faces_; }
+
+    queue& queue_;
+    std::string name_;
+    std::vector<corners> faces_;
+};
+
 } // namespace
 
 std::unique_ptr<subject> make_subject(queue& q, const source& from)
 {
     if (!from.feature.source.empty()) return make_paste_subject(q, from);
+    if (from.shell) return std::make_unique<shell_subject>(q, from);
     if (!tools::names_volume(from.path)) return std::make_unique<map_subject>(q, from);
     auto file = io::read_volume_file(from.path);
     if (file.dimension == 2) return std::make_unique<shape_subject<triangle>>(q, std::move(file), from);

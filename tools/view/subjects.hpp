@@ -28,11 +28,12 @@ struct source
     io::surface_format format = io::surface_format::automatic;
     std::string pins; ///< a file, or empty
     bool holes = false;
+    bool shell = false; ///< a surface deforms in space, and is not mapped
     pasted feature;
 };
 
-/// A map of the surface of a file, or the shape of a volume file or planar mesh, with its first map or shape. Throws as
-/// readers do; unsuitable_input, error where there is no valid first one.
+/// A map of the surface of a file, that surface as a shell, or the shape of a volume file or planar mesh, with its
+/// first map or shape. Throws as readers do; unsuitable_input, error where there is no valid first one.
 std::unique_ptr<subject> make_subject(queue& q, const source& from);
 
 /// A feature on the surface of a file. Throws as readers do; region_error, paste_error.
