@@ -28,6 +28,7 @@
 #include "interrupt.hpp"
 #include "open_queue.hpp"
 #include "outputs.hpp"
+#include "report_files.hpp"
 #include "stages.hpp"
 #include "text_table.hpp"
 #include "writing.hpp"
@@ -202,7 +203,7 @@ std::string shell_run::json() const
     json["stages"] = to_json_array(run_.stages);
     json["peak_memory_bytes"] = peak_memory();
     json["notes"] = run_.notes;
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+    return text_of(json);
 }
 
 std::string shell_run::text() const
