@@ -158,7 +158,7 @@ protected:
     {
         session_->restore(asked_, x);
         if (!outside_.empty()) session_->restore(all_held(), x);
-        idle_ = 0;
+        changed();
     }
 
 private:
@@ -196,6 +196,13 @@ private:
             if ((asked_.held(v) >> k & 1u) == 0) c.repin(v, k, at(v)[k]);
     }
 
+    /// There may be something to gain again.
+    void changed()
+    {
+        idle_ = 0;
+        report_.converged = false;
+    }
+
     /// The session what is asked of a vertex now.
     void tell(idx v)
     {
@@ -206,7 +213,7 @@ private:
                 session_->pin(v, k, p->second.value[k]);
             else if (!outside_.empty() && outside_[static_cast<std::size_t>(v)] != 0)
                 session_->pin(v, k, at(v)[k]);
-        idle_ = 0;
+        changed();
     }
 
     const mesh<Element>& mesh_;
