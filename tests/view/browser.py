@@ -95,16 +95,16 @@ class Browser:
                 raise RuntimeError(f"still not so after {seconds} s: {expression}")
             time.sleep(0.02)
 
-    def mouse(self, kind, x, y, modifiers=0, button="left"):
-        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, buttons=0 if kind == "mouseReleased" else 1,
-                  clickCount=1, modifiers=modifiers)
+    def pointer(self, kind, x, y, modifiers=0, pen=False):
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=0 if kind == "mouseReleased" else 1,
+                  clickCount=1, modifiers=modifiers, pointerType="pen" if pen else "mouse")
 
-    def drag(self, start, end, steps=10, pause=0.016, modifiers=0):
-        self.mouse("mousePressed", *start, modifiers)
+    def drag(self, start, end, steps=10, pause=0.016, modifiers=0, pen=False):
+        self.pointer("mousePressed", *start, modifiers, pen)
         for k in range(1, steps + 1):
-            self.mouse("mouseMoved", start[0] + (end[0] - start[0]) * k / steps, start[1] + (end[1] - start[1]) * k / steps, modifiers)
+            self.pointer("mouseMoved", start[0] + (end[0] - start[0]) * k / steps, start[1] + (end[1] - start[1]) * k / steps, modifiers, pen)
             time.sleep(pause)
-        self.mouse("mouseReleased", *end, modifiers)
+        self.pointer("mouseReleased", *end, modifiers, pen)
 
     def key(self, key, modifiers=0):
         code = {"z": 90, " ": 32}.get(key, 0)

@@ -60,7 +60,7 @@ def visit(dark):
         b.wait("taut.state.pins.size === 1")
         v, at = pick(b, 0.6, 0.5)
         goal = (at[0] + 60, at[1] + 50)
-        b.drag(at, goal, steps=20)
+        b.drag(at, goal, steps=20, pen=dark)
         there = f"""(() => {{
           const r = taut.right.canvas.getBoundingClientRect(), p = taut.right.toScreen({v});
           return Math.hypot(p[0] + r.left - {goal[0]}, p[1] + r.top - {goal[1]});

@@ -105,7 +105,7 @@ public:
     void open_model()
     {
         send(std::make_shared<const std::string>(service_.model));
-        shown_ = service_.shown; // of the one before
+        shown_.reset();
         drawn_ = true;
     }
 

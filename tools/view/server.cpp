@@ -56,6 +56,7 @@ public:
                    [this, m = std::move(model_message)]() mutable
                    {
                        service_.model = std::move(m);
+                       service_.shown.reset(); // of the model before: a page that comes now must not get it
                        for (connection* c : service_.pages) c->open_model();
                    });
     }
