@@ -6,18 +6,9 @@
 #include <taut/config.hpp>
 #include <taut/io/atomic_file.hpp>
 #include <taut/io/cut_seams.hpp>
-#include <vector>
 
 namespace taut::io
 {
-
-/// Texture coordinates of the corners of a file's faces, as an atlas has them.
-struct corner_texcoords
-{
-    std::vector<vec2> uv;
-    std::vector<idx> corners; ///< into uv, one a corner of file_faces; -1: that corner has none
-};
-
 /// Writes a surface and a map of it to the plane as OBJ: the vertices in their order with values that read back bit
 /// for bit, one vt a vertex, faces v/vt.
 /// uv: one a vertex. Throws io_error; parameter_error if uv has another size.
@@ -32,10 +23,6 @@ void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2>
 /// The same for a map of the surface cut open, which `cut` was made from `file` by cut_seams().
 /// uv: one a vertex of cut.surface.
 void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut, std::span<const vec2> uv);
-
-/// The same with texture coordinates by corner. A corner without one is written as v or v//vn.
-/// Throws parameter_error if there is not one number a corner, or one is out of range.
-void write_obj(atomic_file& out, const surface_file& file, const corner_texcoords& texcoords);
 
 /// Writes the file that a surface was read from with its vertices at other places, which read back bit for bit. Of OBJ
 /// every byte stays but the coordinates of v lines, also the normals, which are those at rest; OFF and PLY become OBJ

@@ -69,25 +69,6 @@ TEST_CASE("write_obj: every way to write corners and lines")
     CHECK(rewritten("a.obj", joined + "f 1 2 3\n") == joined + vt + "f 1/1 2/2 3/3\n");
 }
 
-TEST_CASE("write_obj: texture coordinates by corner, and corners without one")
-{
-    const auto rewritten = [](const std::string& bytes, const char* name, std::vector<idx> corners)
-    {
-        const temporary_folder folder;
-        folder.write(folder / name, bytes);
-        const auto file = io::read_surface_file(folder / name);
-        io::write_obj(folder / "out.obj", file, io::corner_texcoords{{{0.5, 0.25}, {1, 2}}, std::move(corners)});
-        return folder.read(folder / "out.obj");
-    };
-    const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    CHECK(rewritten(points + "vt 3 3\nf 1 2 3\nf 3/1 2/1/1 1//1 # end", "a.obj", {1, 0, 0, -1, -1, -1}) ==
-          points + "vt 0.5 0.25\nvt 1 2\nf 1/2 2/1 3/1\nf 3 2//1 1//1 # end");
-    CHECK(rewritten("OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off", {-1, -1, -1}) ==
-          points + "vt 0.5 0.25\nvt 1 2\nf 1 2 3\n");
-    CHECK_THROWS_AS(rewritten(points + "f 1 2 3\n", "a.obj", {0, 1}), parameter_error);
-    CHECK_THROWS_AS(rewritten(points + "f 1 2 3\n", "a.obj", {0, 1, 2}), parameter_error);
-}
-
 TEST_CASE("write_obj: a large OBJ, which is written in pieces, keeps its lines")
 {
     const auto m = test::grid(70, 70);

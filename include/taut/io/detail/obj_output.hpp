@@ -41,14 +41,6 @@ inline void append_line(std::string& text, std::string_view key, std::initialize
     text.append(line, at).append(end);
 }
 
-/// "/7" behind the vertex of a corner, or what tells that it has no texture coordinate, which -1 stands for: a slash if
-/// a normal follows.
-inline void append_texcoord(std::string& text, idx texcoord, bool normal)
-{
-    if (texcoord >= 0 || normal) text += '/';
-    if (texcoord >= 0) append_number(text, texcoord + 1);
-}
-
 /// f v/vt ... or f v/vt/vn ..., counted from 1; the normal of a corner has the number of its vertex.
 inline void append_face(std::string& text, std::span<const idx> vertices, std::span<const idx> texcoords, bool normals)
 {
@@ -57,7 +49,8 @@ inline void append_face(std::string& text, std::span<const idx> vertices, std::s
     {
         text += ' ';
         append_number(text, vertices[k] + 1);
-        append_texcoord(text, texcoords[k], normals);
+        text += '/';
+        append_number(text, texcoords[k] + 1);
         if (!normals) continue;
         text += '/';
         append_number(text, vertices[k] + 1);
@@ -135,7 +128,8 @@ inline void append_rewritten(std::string& out, std::string_view statements, cons
                                {
                                    const obj_corner corner = read_obj_corner(in);
                                    copy(corner.vertex_end);
-                                   append_texcoord(out, *texcoord++, *corner.texcoord_end == '/');
+                                   out += '/';
+                                   append_number(out, *texcoord++ + 1);
                                    copied = corner.texcoord_end;
                                }
                        });
@@ -143,7 +137,7 @@ inline void append_rewritten(std::string& out, std::string_view statements, cons
 }
 
 /// An OBJ file byte by byte, but for the vt lines, which stand where the first vt or f stood, and what faces say of
-/// them. texcoords: one a corner, -1: none.
+/// them. texcoords: one a corner.
 template <class Out>
 void write_rewritten(Out& out, const obj_text& obj, std::span<const idx> texcoords, std::span<const vec2> uv)
 {
@@ -207,7 +201,7 @@ void write_converted(Out& out, const surface_file& file, std::span<const idx> te
                 });
 }
 
-/// A file of a surface with other texture coordinates. texcoords: one a corner, into uv; -1: it has none.
+/// A file of a surface with other texture coordinates. texcoords: one a corner, into uv.
 template <class Out>
 void write_with_texcoords(Out& out, const surface_file& file, std::span<const idx> texcoords, std::span<const vec2> uv)
 {

@@ -79,19 +79,6 @@ TAUT_INLINE void write_obj(atomic_file& out, const surface_file& file, const cut
     detail::write_with_texcoords(out, file, cut.corners, uv);
 }
 
-TAUT_INLINE void write_obj(atomic_file& out, const surface_file& file, const corner_texcoords& texcoords)
-{
-    if (texcoords.corners.size() != file.faces.corners.size())
-        throw parameter_error("texcoords", std::to_string(texcoords.corners.size()) + " numbers for " +
-                                               std::to_string(file.faces.corners.size()) +
-                                               " corners of faces; give one a corner");
-    for (const idx t : texcoords.corners)
-        if (t < -1 || t >= static_cast<idx>(texcoords.uv.size()))
-            throw parameter_error("texcoords", "texture coordinate " + std::to_string(t) + " of " +
-                                                   std::to_string(texcoords.uv.size()) + "; -1 stands for none");
-    detail::write_with_texcoords(out, file, texcoords.corners, texcoords.uv);
-}
-
 TAUT_INLINE void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points)
 {
     if (points.size() != file.surface.points().size())
