@@ -20,11 +20,13 @@ struct repair_params
     /// a length that triangles have flattens these.
     double weld_tolerance = 0;
 
-    /// Normals of the file, one a vertex, or none. They are compared with the triangles, nothing else.
+    /// Normals of the file, or none. They are compared with the triangles, nothing else.
     std::span<const vec3> normals = {};
+    /// The normals of the corners of each triangle, -1: none; empty: there is one normal a vertex.
+    std::span<const std::array<idx, 3>> normal_cells = {};
 
-    /// Throws parameter_error. points: how many the input has.
-    void validate(std::size_t points) const;
+    /// Throws parameter_error. points, triangles: how many the input has
+    void validate(std::size_t points, std::size_t triangles) const;
 };
 
 /// A surface made of raw triangles.

@@ -435,6 +435,15 @@ TEST_CASE("repair: normals that all oppose a triangle are named, and change noth
     const auto r = repair(raw(m), {.normals = normals});
     CHECK(only(r, repair_kind::contradicting_normal) == ids{5});
     CHECK(r.surface.cells() == m.cells());
+    // By corners: all of one triangle, and two of another, which also has one without.
+    test::triangles corners(m.cells().size(), {0, 0, 0});
+    std::vector<vec3> two{vec3(0), -m.points()[std::size_t(m.cells()[7][0])]};
+    corners[7] = {1, 1, 1};
+    CHECK(only(repair(raw(m), {.normals = two, .normal_cells = corners}), repair_kind::contradicting_normal) == ids{7});
+    corners[7] = {1, -1, 1};
+    CHECK(repair(raw(m), {.normals = two, .normal_cells = corners}).findings.empty());
+    corners[7] = {1, 2, 1};
+    CHECK_THROWS_AS(repair_surface(m.points(), m.cells(), {.normals = two, .normal_cells = corners}), parameter_error);
     normals.assign(normals.size(), vec3(undefined));
     CHECK(repair(raw(m), {.normals = normals}).findings.empty());
     normals.pop_back();

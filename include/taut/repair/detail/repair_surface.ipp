@@ -23,13 +23,21 @@
 namespace taut
 {
 
-TAUT_INLINE void repair_params::validate(std::size_t points) const
+TAUT_INLINE void repair_params::validate(std::size_t points, std::size_t triangles) const
 {
     if (!(weld_tolerance >= 0) || !std::isfinite(weld_tolerance))
         throw parameter_error("weld_tolerance", "must be a length, 0 or more");
-    if (!normals.empty() && normals.size() != points)
+    if (!normal_cells.empty() && normal_cells.size() != triangles)
+        throw parameter_error("normal_cells", std::to_string(normal_cells.size()) + " for " +
+                                                  std::to_string(triangles) + " triangles; give one a triangle");
+    if (normal_cells.empty() && !normals.empty() && normals.size() != points)
         throw parameter_error("normals", std::to_string(normals.size()) + " for " + std::to_string(points) +
-                                             " vertices; give one a vertex, or none");
+                                             " vertices; give one a vertex, or say which corners have which");
+    for (const auto& t : normal_cells)
+        for (const idx n : t)
+            if (n < -1 || n >= static_cast<idx>(normals.size()))
+                throw parameter_error("normal_cells", std::to_string(n) + " of " + std::to_string(normals.size()) +
+                                                          " normals; numbers start at 0, -1 is none");
 }
 
 namespace detail
@@ -317,8 +325,9 @@ private:
         {
             const auto x = placed_->rest(static_cast<idx>(c));
             const vec3 normal = glm::cross(x[1] - x[0], x[2] - x[0]) * (way_.turned[c] != 0 ? -1.0 : 1.0);
-            const auto& t = input(cells_[c]);
-            if (std::all_of(t.begin(), t.end(), [&](idx v) { return glm::dot(params_.normals[u(v)], normal) < 0; }))
+            const auto& t = params_.normal_cells.empty() ? input(cells_[c]) : params_.normal_cells[u(cells_[c])];
+            if (std::all_of(t.begin(), t.end(),
+                            [&](idx n) { return n >= 0 && glm::dot(params_.normals[u(n)], normal) < 0; }))
                 ids.push_back(cells_[c]);
         }
         note(repair_kind::contradicting_normal, std::move(ids));
@@ -345,7 +354,7 @@ private:
 TAUT_INLINE repaired_surface repair_surface(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
                                             const repair_params& params)
 {
-    params.validate(points.size());
+    params.validate(points.size(), triangles.size());
     return detail::surface_repair(points, triangles, params)();
 }
 
