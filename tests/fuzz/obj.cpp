@@ -122,5 +122,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     catch (const error&)
     {
     }
+    try
+    {
+        fuzz::require_repairable(io::parse_obj_soup(bytes));
+    }
+    catch (const error&)
+    {
+    }
     return 0;
 }

@@ -56,5 +56,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     catch (const error&)
     {
     }
+    try
+    {
+        fuzz::require_repairable(io::parse_off_soup(std::string_view(reinterpret_cast<const char*>(data), size)));
+    }
+    catch (const error&)
+    {
+    }
     return 0;
 }

@@ -176,5 +176,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     catch (const error&)
     {
     }
+    try
+    {
+        fuzz::require_repairable(io::parse_ply_soup(std::string_view(reinterpret_cast<const char*>(data), size)));
+    }
+    catch (const error&)
+    {
+    }
     return 0;
 }

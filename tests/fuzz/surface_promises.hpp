@@ -12,6 +12,7 @@
 #include <taut/mesh/boundary.hpp>
 #include <taut/mesh/order.hpp>
 #include <taut/mesh/validate.hpp>
+#include <taut/repair/repair_surface.hpp>
 
 #include "require.hpp"
 
@@ -78,6 +79,36 @@ inline std::string require_round_trip(const io::surface_file& file, const std::v
         require(false, "what is written can be read");
     }
     return out.text;
+}
+
+/// All that holds for a file that was read as it is: what is left of it after repair is an oriented manifold.
+inline void require_repairable(const io::surface_soup& soup)
+{
+    std::size_t corners = 0;
+    for (const idx size : soup.faces.sizes) corners += static_cast<std::size_t>(size);
+    require(corners == soup.faces.corners.size(), "faces have all corners");
+    for (const auto& cell : soup.texcoord_cells)
+        for (const idx t : cell)
+            require(t >= -1 && t < static_cast<idx>(soup.texcoords.size()), "texture coordinates in range");
+    for (const auto& cell : soup.normal_cells)
+        for (const idx n : cell) require(n >= -1 && n < static_cast<idx>(soup.normals.size()), "normals in range");
+    for (std::size_t c = 0; c < soup.triangles.size(); ++c)
+        for (std::size_t k = 0; k < 3; ++k)
+            require(soup.faces.corners[soup.faces.corner(c, k)] == soup.triangles[c][k],
+                    "corners of triangles are corners of faces");
+    const mesh_requirements any{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
+    const auto repaired =
+        repair_surface(soup.points, soup.triangles, {.normals = soup.normals, .normal_cells = soup.normal_cells});
+    require(check(repaired.surface, any).empty(), "what is repaired is an oriented manifold");
+    for (std::size_t c = 0; c < repaired.cell_origins.size(); ++c)
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const auto v = static_cast<std::size_t>(repaired.surface.cells()[c][k]);
+            const auto& t = soup.triangles[static_cast<std::size_t>(repaired.cell_origins[c])];
+            require(repaired.surface.points()[v] ==
+                        soup.points[static_cast<std::size_t>(t[repaired.corner_origin(c, k)])],
+                    "corners of repaired triangles are corners of the file");
+        }
 }
 
 /// All that holds for a file that was read. What is written for it.

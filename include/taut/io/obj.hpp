@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,7 +24,7 @@ namespace detail
 class obj_reader
 {
 public:
-    obj_reader(std::string_view text, const std::string& path) : in_(text, path) {}
+    obj_reader(std::string_view text, const std::string& path, bool strict) : in_(text, path) { soup_.strict = strict; }
 
     void require_text() const { in_.require_text(); }
 
@@ -40,12 +41,15 @@ public:
                                    read_face(begin);
                                else if (key == "vt")
                                    read_texcoord(begin);
+                               else if (key == "vn" && !soup_.strict)
+                                   read_normal();
                            });
     }
 
     /// The first byte of the first vt or f statement; null if there is none.
     const char* body() const { return body_; }
     std::size_t corner_count() const { return soup_.corners.size(); }
+    bool faulty() const { return soup_.fault.has_value(); }
 
     /// False if some statement counts back from its place, which a piece does not know.
     bool absolute() const { return absolute_; }
@@ -76,11 +80,14 @@ public:
         return within(vertices_, soup_.points.size()) && within(coords_, soup_.texcoords.size());
     }
 
-    surface_file finish()
+    surface_soup finish()
     {
         require_range(vertices_, soup_.points.size(), "vertex");
         require_range(coords_, soup_.texcoords.size(), "texture coordinate");
-        return std::move(soup_).finish(in_.path());
+        // What is not there is none; where readers are strict, that has been thrown, and there are no normals.
+        if (soup_.fault) drop_beyond(soup_.corner_coords, soup_.texcoords.size());
+        drop_beyond(soup_.corner_normals, soup_.normals.size());
+        return std::move(soup_).finish();
     }
 
 private:
@@ -100,6 +107,19 @@ private:
         soup_.add_texcoord({u, in_.content_ends() ? 0.0 : in_.number()}, in_.path(), in_.here());
     }
 
+    /// One that is none is no reason to refuse a file whose normals nobody may need.
+    void read_normal()
+    {
+        soup_.normals.emplace_back(std::numeric_limits<double>::quiet_NaN());
+        try
+        {
+            soup_.normals.back() = in_.numbers<3>();
+        }
+        catch (const io_error&)
+        {
+        }
+    }
+
     void read_face(const char* begin)
     {
         if (body_ == nullptr) body_ = begin;
@@ -111,8 +131,19 @@ private:
             soup_.corners.push_back(resolve(c.vertex, soup_.points.size(), vertices_, position));
             soup_.corner_coords.push_back(
                 c.has_texcoord ? resolve(c.texcoord, soup_.texcoords.size(), coords_, position) : -1);
+            if (c.has_normal && !soup_.strict) add_corner_normal(c.normal);
         }
         soup_.end_polygon(first, in_.path(), in_.here());
+    }
+
+    /// Of the last corner; that of one which cannot be is none.
+    void add_corner_normal(long long i)
+    {
+        absolute_ = absolute_ && i > 0;
+        const long long n = i > 0 ? i - 1 : static_cast<long long>(soup_.normals.size()) + i;
+        soup_.corner_normals.resize(soup_.corners.size() - 1, -1);
+        soup_.corner_normals.push_back(
+            i == 0 || n < 0 || n > static_cast<long long>(polygon_soup::limit) ? -1 : static_cast<idx>(n));
     }
 
     /// A number counted from 1, or back from -1, the last of `count`. The result is counted from 0.
@@ -121,19 +152,31 @@ private:
         absolute_ = absolute_ && i > 0;
         const long long zero_based = i > 0 ? i - 1 : static_cast<long long>(count) + i;
         if (i == 0 || zero_based < 0 || zero_based > static_cast<long long>(polygon_soup::limit))
-            in_.fail("a face names number " + std::to_string(i) + " of " + std::to_string(count) +
-                     "; numbers start at 1, or at -1 from the end");
+        {
+            const std::string what = "a face names number " + std::to_string(i) + " of " + std::to_string(count) +
+                                     "; numbers start at 1, or at -1 from the end";
+            if (soup_.strict) in_.fail(what);
+            soup_.note({mesh_fault::index_out_of_range,
+                        {static_cast<idx>(soup_.sizes.size()), -1},
+                        place_prefix(in_.path(), in_.line_of(position)) + what});
+            return -1;
+        }
         if (zero_based >= most.number) most = {zero_based + 1, position, soup_.sizes.size()};
         return static_cast<idx>(zero_based);
     }
 
-    void require_range(const largest& most, std::size_t count, const std::string& what) const
+    void require_range(const largest& most, std::size_t count, const std::string& what)
     {
         if (most.number > static_cast<long long>(count))
-            throw mesh_error(mesh_fault::index_out_of_range,
-                             {static_cast<idx>(most.face), static_cast<idx>(most.number - 1)},
-                             place_prefix(in_.path(), in_.line_of(most.position)) + "a face names " + what + ' ' +
-                                 std::to_string(most.number) + ", but there are " + std::to_string(count));
+            soup_.note({mesh_fault::index_out_of_range,
+                        {static_cast<idx>(most.face), static_cast<idx>(most.number - 1)},
+                        place_prefix(in_.path(), in_.line_of(most.position)) + "a face names " + what + ' ' +
+                            std::to_string(most.number) + ", but there are " + std::to_string(count)});
+    }
+
+    static void drop_beyond(std::vector<idx>& names, std::size_t count)
+    {
+        for (idx& i : names) i = i < static_cast<idx>(count) ? i : -1;
     }
 
     scanner in_;
@@ -145,7 +188,7 @@ private:
 
 /// Reads the pieces of a large file at the same time. Nothing where that is not possible, or the file is faulty: the
 /// place of a fault is known to who reads from the start.
-inline std::optional<surface_file> read_pieces(std::string_view text, const std::string& path)
+inline std::optional<surface_soup> read_pieces(std::string_view text, const std::string& path, bool strict)
 {
     const auto pieces = cut_statements(text, std::max<std::size_t>(text.size() / 32, 1 << 16));
     if (pieces.size() == 1) return std::nullopt;
@@ -154,7 +197,7 @@ inline std::optional<surface_file> read_pieces(std::string_view text, const std:
     {
         // Where a line starts with a byte order mark, it is none.
         if (piece.starts_with('\xef') && piece.data() != text.data()) return std::nullopt;
-        readers.emplace_back(piece, path);
+        readers.emplace_back(piece, path, strict);
     }
     try
     {
@@ -171,8 +214,8 @@ inline std::optional<surface_file> read_pieces(std::string_view text, const std:
         return std::nullopt;
     }
     for (const auto& reader : readers)
-        if (!reader.absolute()) return std::nullopt;
-    obj_reader whole({}, path);
+        if (!reader.absolute() || reader.faulty()) return std::nullopt;
+    obj_reader whole({}, path, strict);
     whole.reserve(readers);
     obj_text found;
     const char* body = nullptr;
@@ -184,9 +227,26 @@ inline std::optional<surface_file> read_pieces(std::string_view text, const std:
     }
     if (body == nullptr || !whole.in_range()) return std::nullopt;
     found.body = static_cast<std::size_t>(body - text.data());
-    surface_file file = whole.finish();
+    surface_soup file = whole.finish();
     file.obj = std::move(found);
     return file;
+}
+
+inline surface_soup read_obj(std::string text, const std::string& path, bool strict)
+{
+    obj_reader reader(text, path, strict);
+    reader.require_text();
+    auto file = read_pieces(text, path, strict);
+    if (!file)
+    {
+        reader.read();
+        file = reader.finish();
+        const char* const body = reader.body();
+        file->obj.body = body == nullptr ? text.size() : static_cast<std::size_t>(body - text.data());
+        file->obj.pieces = {{0, 0}};
+    }
+    file->obj.bytes = std::move(text);
+    return std::move(*file);
 }
 
 } // namespace detail
@@ -196,18 +256,13 @@ inline std::optional<surface_file> read_pieces(std::string_view text, const std:
 /// `path` is named in errors. Throws io_error, mesh_error.
 inline surface_file parse_obj(std::string text, const std::string& path = "OBJ text")
 {
-    detail::obj_reader reader(text, path);
-    reader.require_text();
-    auto file = detail::read_pieces(text, path);
-    if (!file)
-    {
-        reader.read();
-        file = reader.finish();
-        file->obj.body = static_cast<std::size_t>(reader.body() - text.data()); // a surface has a face
-        file->obj.pieces = {{0, 0}};
-    }
-    file->obj.bytes = std::move(text);
-    return std::move(*file);
+    return to_surface_file(detail::read_obj(std::move(text), path, true), path);
+}
+
+/// The same as it is, with the normals that faces name. Throws io_error.
+inline surface_soup parse_obj_soup(std::string text, const std::string& path = "OBJ text")
+{
+    return detail::read_obj(std::move(text), path, false);
 }
 
 } // namespace taut::io

@@ -20,9 +20,13 @@ namespace detail
 class off_reader
 {
 public:
-    off_reader(std::string_view text, const std::string& path) : in_(text, path) { in_.require_text(); }
+    off_reader(std::string_view text, const std::string& path, bool strict) : in_(text, path)
+    {
+        in_.require_text();
+        soup_.strict = strict;
+    }
 
-    surface_file read()
+    polygon_soup read()
     {
         read_header();
         const std::size_t vertices = read_count("the number of vertices"), faces = read_count("the number of faces");
@@ -37,7 +41,7 @@ public:
         for (std::size_t f = 0; f < faces; ++f) read_face();
         if (has_texcoords_) soup_.corner_coords = soup_.corners;
         scale_colours();
-        return std::move(soup_).finish(in_.path());
+        return std::move(soup_);
     }
 
 private:
@@ -152,7 +156,13 @@ private:
 /// which the notes say. `path` is named in errors. Throws io_error, mesh_error.
 inline surface_file parse_off(std::string_view text, const std::string& path = "OFF text")
 {
-    return detail::off_reader(text, path).read();
+    return detail::off_reader(text, path, true).read().finish(path);
+}
+
+/// The same as it is. Throws io_error.
+inline surface_soup parse_off_soup(std::string_view text, const std::string& path = "OFF text")
+{
+    return detail::off_reader(text, path, false).read().finish();
 }
 
 } // namespace taut::io

@@ -24,9 +24,12 @@ template <class Source>
 class ply_reader
 {
 public:
-    ply_reader(Source source, const std::string& path) : in_(source), path_(path) {}
+    ply_reader(Source source, const std::string& path, bool strict) : in_(source), path_(path)
+    {
+        soup_.strict = strict;
+    }
 
-    surface_file read(ply_header& header)
+    polygon_soup read(ply_header& header)
     {
         soup_.carried.comments = std::move(header.comments);
         for (const ply_element& e : header.elements)
@@ -42,7 +45,7 @@ public:
                     for (const ply_property& p : e.properties) read_property(p, [](double) {});
         }
         if (soup_.corner_coords.empty() && !soup_.texcoords.empty()) soup_.corner_coords = soup_.corners;
-        return std::move(soup_).finish(path_);
+        return std::move(soup_);
     }
 
 private:
@@ -205,6 +208,22 @@ private:
     std::vector<double> coords_;
 };
 
+inline polygon_soup read_ply(std::string_view bytes, const std::string& path, bool strict)
+{
+    scanner in(bytes, path);
+    auto header = read_ply_header(in);
+    const auto read = [&](auto source) { return ply_reader(source, path, strict).read(header); };
+    switch (header.format)
+    {
+    case ply_header::little:
+        return read(ply_binary<std::endian::little>(in));
+    case ply_header::big:
+        return read(ply_binary<std::endian::big>(in));
+    default:
+        return read(ply_ascii(in));
+    }
+}
+
 } // namespace detail
 
 /// Reads a PLY file: ASCII or binary of either byte order; vertices with x, y, z and perhaps s, t (or u, v), faces as
@@ -213,18 +232,13 @@ private:
 /// in errors. Throws io_error, mesh_error.
 inline surface_file parse_ply(std::string_view bytes, const std::string& path = "PLY data")
 {
-    detail::scanner in(bytes, path);
-    auto header = detail::read_ply_header(in);
-    const auto read = [&](auto source) { return detail::ply_reader(source, path).read(header); };
-    switch (header.format)
-    {
-    case detail::ply_header::little:
-        return read(detail::ply_binary<std::endian::little>(in));
-    case detail::ply_header::big:
-        return read(detail::ply_binary<std::endian::big>(in));
-    default:
-        return read(detail::ply_ascii(in));
-    }
+    return detail::read_ply(bytes, path, true).finish(path);
+}
+
+/// The same as it is. Throws io_error.
+inline surface_soup parse_ply_soup(std::string_view bytes, const std::string& path = "PLY data")
+{
+    return detail::read_ply(bytes, path, false).finish();
 }
 
 } // namespace taut::io

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 #include <taut/config.hpp>
-#include <taut/io/surface_file.hpp>
+#include <taut/io/surface_soup.hpp>
 
 namespace taut::io
 {
@@ -21,6 +21,9 @@ enum class surface_format
 /// Reads a surface with its texture coordinates and notes.
 /// Throws io_error (unreadable, unknown or malformed, with line or byte), mesh_error (empty, NaN, ...).
 surface_file read_surface_file(const std::filesystem::path& path, surface_format format = surface_format::automatic);
+
+/// Reads a file as it is, for repair_surface(). Throws io_error.
+surface_soup read_surface_soup(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
 /// The surface alone.
 mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format = surface_format::automatic);

@@ -6,6 +6,7 @@
 #include <taut/config.hpp>
 #include <taut/io/atomic_file.hpp>
 #include <taut/io/cut_seams.hpp>
+#include <taut/io/surface_soup.hpp>
 
 namespace taut::io
 {
@@ -23,6 +24,11 @@ void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2>
 /// The same for a map of the surface cut open, which `cut` was made from `file` by cut_seams().
 /// uv: one a vertex of cut.surface.
 void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut, std::span<const vec2> uv);
+
+/// The same for a file as it is, whose corners have texture coordinates of their own, or none.
+/// texcoords: one a corner of file.faces, into uv; -1: none. Throws io_error; parameter_error if there are more or
+/// fewer, or one names what is not there.
+void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords, std::span<const vec2> uv);
 
 /// Writes the file that a surface was read from with its vertices at other places, which read back bit for bit. Of OBJ
 /// every byte stays but the coordinates of v lines, also the normals, which are those at rest; OFF and PLY become OBJ

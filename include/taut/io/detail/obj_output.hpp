@@ -15,7 +15,7 @@
 
 #include <taut/core/parallel.hpp>
 #include <taut/io/detail/obj_statements.hpp>
-#include <taut/io/surface_file.hpp>
+#include <taut/io/surface_soup.hpp>
 
 /// OBJ text, handed to an Out that has write(std::string_view), such as atomic_file. uv: texture coordinates.
 namespace taut::io::detail
@@ -41,7 +41,8 @@ inline void append_line(std::string& text, std::string_view key, std::initialize
     text.append(line, at).append(end);
 }
 
-/// f v/vt ... or f v/vt/vn ..., counted from 1; the normal of a corner has the number of its vertex.
+/// f v/vt ... or f v/vt/vn ..., counted from 1; the normal of a corner has the number of its vertex. A corner whose
+/// texture coordinate is -1 has none.
 inline void append_face(std::string& text, std::span<const idx> vertices, std::span<const idx> texcoords, bool normals)
 {
     text += 'f';
@@ -49,8 +50,8 @@ inline void append_face(std::string& text, std::span<const idx> vertices, std::s
     {
         text += ' ';
         append_number(text, vertices[k] + 1);
-        text += '/';
-        append_number(text, texcoords[k] + 1);
+        if (texcoords[k] >= 0 || normals) text += '/';
+        if (texcoords[k] >= 0) append_number(text, texcoords[k] + 1);
         if (!normals) continue;
         text += '/';
         append_number(text, vertices[k] + 1);
@@ -101,17 +102,18 @@ inline std::string_view line_end_of(std::string_view text)
 }
 
 /// Appends statements without those that say vt; corners of faces get the texture coordinates that `texcoord` points
-/// at, in their order.
+/// at, in their order; -1: none.
 inline void append_rewritten(std::string& out, std::string_view statements, const idx* texcoord)
 {
     out.reserve(out.size() + statements.size() + statements.size() / 2);
     scanner in(statements, {});
     const char* copied = statements.data(); // up to here
+    const char* const end = copied + statements.size();
     bool dropping = false;
-    const auto copy = [&](const char* end)
+    const auto copy = [&](const char* to)
     {
-        if (!dropping) out.append(copied, end);
-        copied = end;
+        if (!dropping) out.append(copied, to);
+        copied = to;
         dropping = false;
     };
     for_each_statement(in,
@@ -128,12 +130,13 @@ inline void append_rewritten(std::string& out, std::string_view statements, cons
                                {
                                    const obj_corner corner = read_obj_corner(in);
                                    copy(corner.vertex_end);
-                                   out += '/';
-                                   append_number(out, *texcoord++ + 1);
+                                   const idx t = *texcoord++;
                                    copied = corner.texcoord_end;
+                                   if (t >= 0 || (copied != end && *copied == '/')) out += '/';
+                                   if (t >= 0) append_number(out, t + 1);
                                }
                        });
-    copy(statements.data() + statements.size());
+    copy(end);
 }
 
 /// An OBJ file byte by byte, but for the vt lines, which stand where the first vt or f stood, and what faces say of
@@ -156,10 +159,19 @@ void write_rewritten(Out& out, const obj_text& obj, std::span<const idx> texcoor
         1);
 }
 
+inline std::span<const vec3> points_of(const surface_file& file)
+{
+    return file.surface.points();
+}
+inline std::span<const vec3> points_of(const surface_soup& file)
+{
+    return file.points;
+}
+
 /// What an OFF or PLY file has, as OBJ: comments, vertices with their colours, normals, and the faces as they are.
-/// texcoords: one a corner.
-template <class Out>
-void write_converted(Out& out, const surface_file& file, std::span<const idx> texcoords, std::span<const vec2> uv)
+/// texcoords: one a corner, or -1.
+template <class Out, class File>
+void write_converted(Out& out, const File& file, std::span<const idx> texcoords, std::span<const vec2> uv)
 {
     const text_list &positions = file.vertices.positions, &comments = file.vertices.comments;
     const std::vector<vec3>&colours = file.vertices.colours, &normals = file.vertices.normals;
@@ -171,10 +183,11 @@ void write_converted(Out& out, const surface_file& file, std::span<const idx> te
                     std::replace_copy(comments[i].begin(), comments[i].end(), std::back_inserter(text), '\0', ' ');
                     text += '\n';
                 });
-    write_items(out, file.surface.points().size(),
+    const std::span<const vec3> points = points_of(file);
+    write_items(out, points.size(),
                 [&](std::string& text, std::size_t v)
                 {
-                    const vec3& p = file.surface.points()[v];
+                    const vec3& p = points[v];
                     if (positions.size() == 0)
                         append_line(text, "v", {p.x, p.y, p.z}, "");
                     else
@@ -201,9 +214,9 @@ void write_converted(Out& out, const surface_file& file, std::span<const idx> te
                 });
 }
 
-/// A file of a surface with other texture coordinates. texcoords: one a corner, into uv.
-template <class Out>
-void write_with_texcoords(Out& out, const surface_file& file, std::span<const idx> texcoords, std::span<const vec2> uv)
+/// A file of a surface with other texture coordinates. texcoords: one a corner, into uv, or -1.
+template <class Out, class File>
+void write_with_texcoords(Out& out, const File& file, std::span<const idx> texcoords, std::span<const vec2> uv)
 {
     if (file.obj.bytes.empty())
         write_converted(out, file, texcoords, uv);

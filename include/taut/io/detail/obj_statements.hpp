@@ -32,10 +32,11 @@ struct obj_corner
     long long vertex = 0, texcoord = 0; ///< as written: from 1, or back from -1; texcoord 0: none
     const char* vertex_end = nullptr;   ///< what stands between these is "", "/" or "/vt"
     const char* texcoord_end = nullptr;
-    bool has_texcoord = false;
+    long long normal = 0;
+    bool has_texcoord = false, has_normal = false;
 };
 
-/// Reads a corner. The normal is not looked at. Throws io_error.
+/// Reads a corner. Throws io_error.
 inline obj_corner read_obj_corner(scanner& in)
 {
     constexpr const char* number = "a corner such as 7, 7/7 or 7//7";
@@ -46,7 +47,8 @@ inline obj_corner read_obj_corner(scanner& in)
     c.has_texcoord = more && !in.at('/') && !in.word_ends();
     if (c.has_texcoord) c.texcoord = in.leading_integer(number);
     c.texcoord_end = in.position();
-    if (more && in.take('/') && !in.word_ends()) in.leading_integer("a normal");
+    c.has_normal = more && in.take('/') && !in.word_ends();
+    if (c.has_normal) c.normal = in.leading_integer("a normal");
     if (!in.word_ends()) in.fail_at_word("a blank after the corner of a face");
     return c;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,7 +14,7 @@
 
 #include <taut/io/detail/polygons.hpp>
 #include <taut/io/io_error.hpp>
-#include <taut/io/surface_file.hpp>
+#include <taut/io/surface_soup.hpp>
 
 namespace taut::io::detail
 {
@@ -26,7 +27,11 @@ struct polygon_soup
     file_vertices carried;          // what else the vertices have
     std::vector<idx> corners;       // vertices of all polygons, one after the other
     std::vector<idx> corner_coords; // texcoords of the corners, -1 or missing at the end: none
-    std::vector<idx> sizes;         // corners of each polygon
+    std::vector<vec3> normals;      // those that corners name
+    std::vector<idx> corner_normals;
+    std::vector<idx> sizes;          // corners of each polygon
+    bool strict = true;              // faults are thrown; else the first is kept, and what it is in stays
+    std::optional<mesh_error> fault; // of indices and coordinates
 
     static constexpr std::size_t limit = std::numeric_limits<idx>::max();
 
@@ -39,15 +44,22 @@ struct polygon_soup
         sizes.reserve(corner_count / 3);
     }
 
+    void note(mesh_error e)
+    {
+        if (strict) throw e;
+        if (!fault) fault = std::move(e);
+    }
+
     /// where() is the place in the file, asked for errors only. Throws mesh_error (non_finite), io_error.
     template <class Where>
     void add_point(const vec3& p, const std::string& path, Where where)
     {
         if (points.size() >= limit) throw io_error(path, "more vertices than 32-bit numbers can name", where());
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            throw mesh_error(mesh_fault::non_finite, {static_cast<idx>(points.size())},
-                             place_prefix(path, where()) + "vertex " + std::to_string(points.size()) +
-                                 " has a coordinate that is not a finite number");
+            note({mesh_fault::non_finite,
+                  {static_cast<idx>(points.size())},
+                  place_prefix(path, where()) + "vertex " + std::to_string(points.size()) +
+                      " has a coordinate that is not a finite number"});
         points.push_back(p);
     }
 
@@ -75,9 +87,13 @@ struct polygon_soup
     void add_corner(long long v, const std::string& path, Where where)
     {
         if (v < 0 || v >= static_cast<long long>(points.size()))
-            throw mesh_error(mesh_fault::index_out_of_range, {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
-                             place_prefix(path, where()) + "a face names vertex " + std::to_string(v) +
-                                 ", but there are " + std::to_string(points.size()) + ", counted from 0");
+        {
+            note({mesh_fault::index_out_of_range,
+                  {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
+                  place_prefix(path, where()) + "a face names vertex " + std::to_string(v) + ", but there are " +
+                      std::to_string(points.size()) + ", counted from 0"});
+            v = -1;
+        }
         corners.push_back(static_cast<idx>(v));
     }
 
@@ -86,29 +102,36 @@ struct polygon_soup
     bool append(polygon_soup&& next)
     {
         if (points.size() + next.points.size() > limit || texcoords.size() + next.texcoords.size() > limit ||
-            corners.size() + next.corners.size() > limit)
+            corners.size() + next.corners.size() > limit || normals.size() + next.normals.size() > limit)
             return false;
         const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+        if (!next.corner_normals.empty()) corner_normals.resize(corners.size(), -1);
         add(points, next.points);
         add(texcoords, next.texcoords);
         add(corners, next.corners);
         add(corner_coords, next.corner_coords);
+        add(normals, next.normals);
+        add(corner_normals, next.corner_normals);
         add(sizes, next.sizes);
         next = {};
         return true;
     }
 
-    /// Triangles stay as they are; larger polygons are split. `path` is named in errors.
-    /// Throws mesh_error as the constructor of mesh does.
-    surface_file finish(const std::string& path) &&
+    /// Throws mesh_error as the constructor of mesh does. `path` is named in errors.
+    surface_file finish(const std::string& path) && { return to_surface_file(std::move(*this).finish(), path); }
+
+    /// Triangles stay as they are; larger polygons are split.
+    surface_soup finish() &&
     {
-        std::vector<std::array<idx, 3>> cells, coord_cells, triangles;
-        cells.reserve(corners.size() > 2 * sizes.size() ? corners.size() - 2 * sizes.size() : 0);
-        const bool coords = !texcoords.empty() && !corner_coords.empty();
+        surface_soup result;
+        const std::size_t expected = corners.size() > 2 * sizes.size() ? corners.size() - 2 * sizes.size() : 0;
+        const bool coords = !texcoords.empty() && !corner_coords.empty(), named_normals = !corner_normals.empty();
         corner_coords.resize(corners.size(), -1); // the last faces may have had none
-        if (coords) coord_cells.reserve(cells.capacity());
+        if (named_normals) corner_normals.resize(corners.size(), -1);
         const bool polygons = std::any_of(sizes.begin(), sizes.end(), [](idx n) { return n != 3; });
-        if (polygons) triangles.reserve(cells.capacity());
+        result.triangles.reserve(expected);
+        if (coords) result.texcoord_cells.reserve(expected);
+        if (polygons) result.faces.triangles.reserve(expected);
 
         std::size_t split = 0, fans = 0, first = 0;
         ear_clipper clipper;
@@ -117,17 +140,21 @@ struct polygon_soup
         {
             const auto add = [&](std::size_t a, std::size_t b, std::size_t c)
             {
-                cells.push_back({corners[first + a], corners[first + b], corners[first + c]});
-                if (coords)
-                    coord_cells.push_back(
-                        {corner_coords[first + a], corner_coords[first + b], corner_coords[first + c]});
+                const auto of = [&](const std::vector<idx>& items) -> std::array<idx, 3> {
+                    return {items[first + a], items[first + b], items[first + c]};
+                };
+                result.triangles.push_back(of(corners));
+                if (coords) result.texcoord_cells.push_back(of(corner_coords));
+                if (named_normals) result.normal_cells.push_back(of(corner_normals));
                 if (polygons)
-                    triangles.push_back(
+                    result.faces.triangles.push_back(
                         {static_cast<idx>(first + a), static_cast<idx>(first + b), static_cast<idx>(first + c)});
             };
             const auto n = static_cast<std::size_t>(size);
             if (n == 3)
                 add(0, 1, 2);
+            else if (const std::size_t bad = fault ? unusable_corner(first, n) : n; bad < n)
+                for (std::size_t i = 1; i + 1 < n; ++i) add(bad, (bad + i) % n, (bad + i + 1) % n);
             else
             {
                 polygon.clear();
@@ -139,27 +166,35 @@ struct polygon_soup
             }
             first += n;
         }
-        std::vector<std::string> notes;
         if (split > 0)
-            notes.push_back(std::to_string(split) + (split == 1 ? " polygon was" : " polygons were") +
-                            " split into triangles" +
-                            (fans > 0 ? " (" + std::to_string(fans) + " with more than " +
-                                            std::to_string(ear_clipper::most_corners) + " corners as fans)"
-                                      : ""));
-        if (!coords) texcoords.clear();
-        try
+            result.notes.push_back(std::to_string(split) + (split == 1 ? " polygon was" : " polygons were") +
+                                   " split into triangles" +
+                                   (fans > 0 ? " (" + std::to_string(fans) + " with more than " +
+                                                   std::to_string(ear_clipper::most_corners) + " corners as fans)"
+                                             : ""));
+        if (coords) result.texcoords = std::move(texcoords);
+        result.points = std::move(points);
+        result.normals = named_normals ? std::move(normals) : carried.normals;
+        result.faces.sizes = std::move(sizes);
+        result.faces.corners = std::move(corners);
+        result.vertices = std::move(carried);
+        result.fault = std::move(fault);
+        return result;
+    }
+
+private:
+    /// The first corner of a polygon whose vertex is not there or has no place; n if there is none.
+    std::size_t unusable_corner(std::size_t first, std::size_t n) const
+    {
+        std::size_t k = 0;
+        for (; k < n; ++k)
         {
-            return {mesh<triangle>(std::move(points), std::move(cells)),
-                    std::move(texcoords),
-                    std::move(coord_cells),
-                    std::move(notes),
-                    file_faces{std::move(sizes), std::move(corners), std::move(triangles)},
-                    std::move(carried)};
+            const idx v = corners[first + k];
+            if (v < 0 || static_cast<std::size_t>(v) >= points.size()) break;
+            const vec3& p = points[static_cast<std::size_t>(v)];
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) break;
         }
-        catch (const mesh_error& e)
-        {
-            throw mesh_error(e.fault(), e.ids(), path + ": " + e.what());
-        }
+        return k;
     }
 };
 

@@ -56,20 +56,36 @@ inline bool is_stream_to_read(const std::filesystem::path& path)
             !std::filesystem::is_directory(path, unknown));
 }
 
+/// All bytes of a file, and the format made known.
+inline std::string read_surface_bytes(const std::filesystem::path& path, surface_format& format)
+{
+    if (format == surface_format::automatic) format = format_of_name(path);
+    if (format == surface_format::automatic && !is_stream_to_read(path))
+        throw io_error(path.string(), "unknown kind of file; surfaces are read from .obj, .off and .ply, from other "
+                                      "names if the format is given");
+    std::string text = read_file(path);
+    if (format == surface_format::automatic) format = format_of_text(text);
+    return text;
+}
+
 } // namespace detail
 
 TAUT_INLINE surface_file read_surface_file(const std::filesystem::path& path, surface_format format)
 {
     const std::string name = path.string();
-    if (format == surface_format::automatic) format = detail::format_of_name(path);
-    if (format == surface_format::automatic && !detail::is_stream_to_read(path))
-        throw io_error(name, "unknown kind of file; surfaces are read from .obj, .off and .ply, from other names if "
-                             "the format is given");
-    std::string text = read_file(path);
-    if (format == surface_format::automatic) format = detail::format_of_text(text);
+    std::string text = detail::read_surface_bytes(path, format);
     return format == surface_format::off   ? parse_off(text, name)
            : format == surface_format::ply ? parse_ply(text, name)
                                            : parse_obj(std::move(text), name);
+}
+
+TAUT_INLINE surface_soup read_surface_soup(const std::filesystem::path& path, surface_format format)
+{
+    const std::string name = path.string();
+    std::string text = detail::read_surface_bytes(path, format);
+    return format == surface_format::off   ? parse_off_soup(text, name)
+           : format == surface_format::ply ? parse_ply_soup(text, name)
+                                           : parse_obj_soup(std::move(text), name);
 }
 
 TAUT_INLINE mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format)

@@ -79,6 +79,20 @@ TAUT_INLINE void write_obj(atomic_file& out, const surface_file& file, const cut
     detail::write_with_texcoords(out, file, cut.corners, uv);
 }
 
+TAUT_INLINE void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords,
+                           std::span<const vec2> uv)
+{
+    if (texcoords.size() != file.faces.corners.size())
+        throw parameter_error("texcoords", std::to_string(texcoords.size()) + " for " +
+                                               std::to_string(file.faces.corners.size()) +
+                                               " corners of faces; give one a corner");
+    for (const idx t : texcoords)
+        if (t < -1 || t >= static_cast<idx>(uv.size()))
+            throw parameter_error("texcoords", std::to_string(t) + " of " + std::to_string(uv.size()) +
+                                                   "; numbers start at 0, -1 is none");
+    detail::write_with_texcoords(out, file, texcoords, uv);
+}
+
 TAUT_INLINE void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points)
 {
     if (points.size() != file.surface.points().size())

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include <taut/core/counting_sort.hpp>
+
+/// Which points are at one place.
+namespace taut::detail
+{
+
+inline std::uint64_t hash_place(const vec3& p)
+{
+    std::uint64_t h = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+        h ^= std::bit_cast<std::uint64_t>(p[k] + 0.0); // -0 is 0
+        h *= 0x9e3779b97f4a7c15U;
+        h ^= h >> 32U;
+    }
+    return h;
+}
+
+/// The smallest of the points `some` with the same coordinates, one a point; the point itself for the others.
+/// some: points with finite coordinates, increasing
+inline std::vector<idx> equal_places(std::span<const vec3> points, std::span<const idx> some)
+{
+    const std::size_t n = some.size();
+    const auto point = [&](idx i) { return points[static_cast<std::size_t>(i)]; };
+    std::vector<idx> order(n), place(points.size());
+    std::iota(place.begin(), place.end(), idx(0));
+    const auto start = counting_sort(
+        n, std::max<std::size_t>(n, 1), [&](std::size_t i) { return hash_place(point(some[i])) % n; },
+        [&](std::size_t i, std::size_t at) { order[at] = some[i]; });
+    for (std::size_t b = 0; b + 1 < start.size(); ++b)
+    {
+        const auto first = order.begin() + start[b], last = order.begin() + start[b + 1];
+        std::sort(first, last,
+                  [&](idx i, idx j)
+                  {
+                      const vec3 p = point(i), q = point(j);
+                      for (int k = 0; k < 3; ++k)
+                          if (p[k] != q[k]) return p[k] < q[k];
+                      return i < j;
+                  });
+        for (auto i = first; i != last; ++i)
+            if (i != first && point(*i) == point(i[-1]))
+                place[static_cast<std::size_t>(*i)] = place[static_cast<std::size_t>(i[-1])];
+    }
+    return place;
+}
+
+/// The same for points that may be `tolerance` apart: in their order, each of `some` joins the nearest before it that
+/// has joined none, so that nothing moves further. Those equal stay together.
+/// place: of equal_places()
+/// some:  points with place[i] == i, increasing
+inline std::vector<idx> near_places(std::span<const vec3> points, std::vector<idx> place, std::span<const idx> some,
+                                    double tolerance)
+{
+    const auto cell_of = [&](const vec3& p) { return glm::floor(p / tolerance); };
+    std::unordered_multimap<std::uint64_t, idx> apart; // by cells of the size of the tolerance
+    for (const idx i : some)
+    {
+        const vec3 p = points[static_cast<std::size_t>(i)], cell = cell_of(p);
+        double least = tolerance;
+        idx nearest = i;
+        for (int n = 0; n < 27; ++n)
+        {
+            const auto [from, to] = apart.equal_range(hash_place(cell + vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
+            for (auto k = from; k != to; ++k)
+            {
+                const double d = glm::length(points[static_cast<std::size_t>(k->second)] - p);
+                if (d < least || (d == least && k->second < nearest))
+                {
+                    least = d;
+                    nearest = k->second;
+                }
+            }
+        }
+        place[static_cast<std::size_t>(i)] = nearest;
+        if (nearest == i) apart.emplace(hash_place(cell), i);
+    }
+    for (idx& p : place) p = place[static_cast<std::size_t>(p)];
+    return place;
+}
+
+} // namespace taut::detail
