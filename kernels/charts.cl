@@ -2,7 +2,8 @@
 // Newton's method for many small maps at once, one group of TEAM work-items a chart: TEAM = 1 on CPUs.
 //
 // What belongs to a chart lies in one piece of each array, and its triangles and vertices are numbered from 0 there.
-// layout: 4 numbers a chart: first triangle and vertex of its pieces, number of triangles, number of vertices (even).
+// layout: 4 numbers a chart: first triangle and vertex of its pieces, number of triangles, number of vertices; an odd number
+// of vertices is followed by an idle one.
 // Arrays of triangles are structures of arrays, STRIDE(triangles) apart.
 //
 // The Hessian is banded after reordering, and stored by panels of two vertices, that is four columns: panel p of a
@@ -124,10 +125,12 @@ static REAL inverse_pivot(const REAL d)
     return d > 0 ? 1 / d : 0;
 }
 
-/// A = L D L', rhs = L^-1 rhs. Returns rhs' A^-1 rhs.
-static REAL factorize(const int panels, __global const int* offsets, __global const int* heights, __global REAL* A,
-                      __global REAL* rhs)
+/// A = L D L', rhs = L^-1 rhs. Returns rhs' A^-1 rhs, or -1, and nothing else of use, where a pivot is not positive: of
+/// all but the last three unknowns, which moving and turning the map leaves open, and for `semidefinite` of none.
+static REAL factorize(const int vertices, const int semidefinite, __global const int* offsets,
+                      __global const int* heights, __global REAL* A, __global REAL* rhs)
 {
+    const int panels = (vertices + 1) / 2, open = semidefinite ? 0 : 2 * vertices - 3;
     REAL square = 0;
     for (int p = 0; p < panels; ++p)
     {
@@ -145,6 +148,9 @@ static REAL factorize(const int panels, __global const int* offsets, __global co
         const REAL d2 = inverse_pivot(m22), f32 = m32 * d2;
         m33 -= f32 * m32;
         const REAL d3 = inverse_pivot(m33);
+        if ((d0 == 0 && 4 * p < open) || (d1 == 0 && 4 * p + 1 < open) || (d2 == 0 && 4 * p + 2 < open) ||
+            (d3 == 0 && 4 * p + 3 < open))
+            return -1;
         y1 -= f10 * y0;
         y2 -= f20 * y0 + f21 * y1;
         y3 -= f30 * y0 + f31 * y1 + f32 * y2;
@@ -224,8 +230,8 @@ static void substitute(const int panels, __global const int* offsets, __global c
     }
 }
 
-/// One step of each active chart. values: 3 a chart: the energy before the step, the decrease that Newton's model
-/// predicts, the length of the step. states: GOING, or why the chart is done. `before` is the last map.
+/// One step of each active chart. values: 4 a chart: the energy before the step, the decrease that Newton's model
+/// predicts, the length of the step, steps to wait before the Hessian itself is tried again. states: GOING, or why the chart is done. `before` is the last map.
 #define GOING 0
 #define CONVERGED 1
 #define STUCK 2
@@ -239,11 +245,12 @@ __kernel void chart_newton(__global const int* active, __global const int* layou
     __local REAL4 parts[TEAM];
     const int chart = active[get_group_id(0)];
     const int first = layout[4 * chart], base = layout[4 * chart + 1];
-    const int cells = layout[4 * chart + 2], vertices = layout[4 * chart + 3], stride = STRIDE(cells);
+    const int cells = layout[4 * chart + 2], used = layout[4 * chart + 3], vertices = (used + 1) / 2 * 2;
+    const int stride = STRIDE(cells);
     corners += 3 * first, inverse += 3 * first, measure += first, weight += first;
     energies += 4 * first, gradient += 6 * first, hessian += 21 * first;
     x += 2 * base, before += 2 * base, d += 2 * base, rhs += 2 * base;
-    fan_starts += base + chart, offsets += base / 2, heights += base / 2, values += 3 * chart;
+    fan_starts += base + chart, offsets += base / 2, heights += base / 2, values += 4 * chart;
 #define ELEMENTS corners, inverse, measure, weight, x, stride, vertices
 #define CELLS LANE, cells, TEAM
 
@@ -257,11 +264,19 @@ __kernel void chart_newton(__global const int* active, __global const int* layou
         if (LANE == 0) states[chart] = STUCK;
         return;
     }
-    element_hessian(ELEMENTS, 1, hessian, CELLS);
-    BARRIER;
-    assemble(vertices, cells, corners, fan_starts, fans, offsets, heights, gradient, hessian, A, rhs);
-    BARRIER;
-    const REAL square = factorize(vertices / 2, offsets, heights, A, rhs);
+    // The Hessian itself, where it is positive definite: near a minimum, and each fourth step.
+    const int wait = (int)values[3];
+    REAL square = -1;
+    for (int projected = wait > 0; square < 0; ++projected)
+    {
+        element_hessian(ELEMENTS, projected, hessian, CELLS);
+        BARRIER;
+        assemble(vertices, cells, corners, fan_starts, fans, offsets, heights, gradient, hessian, A, rhs);
+        BARRIER;
+        square = factorize(used, projected, offsets, heights, A, rhs);
+        BARRIER;
+        if (LANE == 0) values[3] = projected == 0 ? 0 : wait > 0 ? wait - 1 : 3;
+    }
     substitute(vertices / 2, offsets, heights, A, rhs, parts);
     EACH (v, 0, vertices)
     {

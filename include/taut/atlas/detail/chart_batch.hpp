@@ -96,7 +96,7 @@ public:
 
     chart_batch(queue& q, const chart_kernel& program, std::span<const chart_problem> problems)
         : program_(program), problems_(problems), lists_(problems, program.team), arrays_(q, program.type, lists_),
-          active_(q, lists_.dealt), states_(problems.size(), going), numbers_(3 * problems.size()),
+          active_(q, lists_.dealt), states_(problems.size(), going), numbers_(4 * problems.size()),
           remaining_(lists_.dealt)
     {
     }
@@ -136,7 +136,7 @@ public:
     state state_of(std::size_t k) const { return static_cast<state>(states_[k]); }
 
     /// Before the last step, area mean.
-    double energy(std::size_t k) const { return numbers_[3 * k]; }
+    double energy(std::size_t k) const { return numbers_[4 * k]; }
 
     /// The maps, one point a vertex in the order of the chart, in its units.
     std::vector<std::vector<vec2>> maps() const
@@ -147,7 +147,7 @@ public:
         {
             const auto& order = problems_[k].order;
             const auto base = 2 * static_cast<std::size_t>(lists_.layout[4 * k + 1]);
-            const auto stride = static_cast<std::size_t>(lists_.layout[4 * k + 3]);
+            const std::size_t stride = padded(order.size(), 2);
             auto& uv = result.emplace_back(order.size());
             for (std::size_t i = 0; i < order.size(); ++i)
                 uv[static_cast<std::size_t>(order[i])] = {x[base + i], x[base + stride + i]};
@@ -176,7 +176,7 @@ private:
         {
             const auto n = static_cast<std::size_t>(p.surface.cell_count()), stride = stride_of(n);
             const std::size_t vertices = padded(p.order.size(), 2), base = x.size() / 2;
-            for (const std::size_t number : {cells, base, n, vertices}) layout.push_back(static_cast<idx>(number));
+            for (const std::size_t number : {cells, base, n, p.order.size()}) layout.push_back(static_cast<idx>(number));
 
             corners.resize(3 * (cells + stride));
             inverse.resize(3 * (cells + stride));
@@ -246,9 +246,10 @@ private:
               inverse(q, type, l.inverse), measure(q, type, l.measure), weight(q, type, l.weight), x(q, type, l.x),
               before(q, type, l.x), d(q, type, l.x.size()), rhs(q, type, l.x.size()), energies(q, type, 4 * l.cells),
               gradient(q, type, 6 * l.cells), hessian(q, type, hessian_slots<2>::count * l.cells),
-              A(q, type, l.entries), values(q, type, 3 * l.layout.size() / 4)
+              A(q, type, l.entries), values(q, type, l.layout.size())
         {
             states.fill(going);
+            values.fill(1); // the first step is made with a projected Hessian
         }
     };
 
