@@ -116,6 +116,7 @@ public:
                                                                {"offsets", arrays_.offsets},
                                                                {"heights", arrays_.heights},
                                                                {"tolerance", tolerance},
+                                                               {"one", arrays_.one},
                                                                {"x", arrays_.x},
                                                                {"before", arrays_.before},
                                                                {"d", arrays_.d},
@@ -238,17 +239,18 @@ private:
     struct device_arrays
     {
         buffer<idx> layout, corners, fan_starts, fans, offsets, heights, states;
-        real_buffer inverse, measure, weight, x, before, d, rhs, energies, gradient, hessian, A, values;
+        real_buffer inverse, measure, weight, one, x, before, d, rhs, energies, gradient, hessian, A, values;
 
         device_arrays(queue& q, scalar_type type, const host_lists& l)
             : layout(q, l.layout), corners(q, l.corners), fan_starts(q, l.fan_starts), fans(q, l.fans),
               offsets(q, l.offsets), heights(q, l.heights), states(q, l.layout.size() / 4),
-              inverse(q, type, l.inverse), measure(q, type, l.measure), weight(q, type, l.weight), x(q, type, l.x),
+              inverse(q, type, l.inverse), measure(q, type, l.measure), weight(q, type, l.weight), one(q, type, 1), x(q, type, l.x),
               before(q, type, l.x), d(q, type, l.x.size()), rhs(q, type, l.x.size()), energies(q, type, 4 * l.cells),
               gradient(q, type, 6 * l.cells), hessian(q, type, hessian_slots<2>::count * l.cells),
               A(q, type, l.entries), values(q, type, l.layout.size())
         {
             states.fill(going);
+            one.fill(1);
             values.fill(1); // the first step is made with a projected Hessian
         }
     };

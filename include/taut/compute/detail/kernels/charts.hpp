@@ -248,15 +248,15 @@ static void substitute(const int panels, __global const int* offsets, __global c
 __kernel void chart_newton(__global const int* active, __global const int* layout, __global const int* corners,
                            __global const REAL* inverse, __global const REAL* measure, __global const REAL* weight,
                            __global const int* fan_starts, __global const int* fans, __global const int* offsets,
-                           __global const int* heights, const REAL tolerance, __global REAL* x, __global REAL* before,
+                           __global const int* heights, const REAL tolerance, __global const REAL* one, __global REAL* x, __global REAL* before,
                            __global REAL* d, __global REAL* rhs, __global REAL* energies, __global REAL* gradient,
                            __global REAL* hessian, __global REAL* A, __global REAL* values, __global int* states)
 {
     __local REAL4 parts[TEAM];
     const int chart = active[get_group_id(0)];
-    const int first = layout[4 * chart], base = layout[4 * chart + 1];
 )cl"
-R"cl(    const int cells = layout[4 * chart + 2], used = layout[4 * chart + 3], vertices = (used + 1) / 2 * 2;
+R"cl(    const int first = layout[4 * chart], base = layout[4 * chart + 1];
+    const int cells = layout[4 * chart + 2], used = layout[4 * chart + 3], vertices = (used + 1) / 2 * 2;
     const int stride = STRIDE(cells);
     corners += 3 * first, inverse += 3 * first, measure += first, weight += first;
     energies += 4 * first, gradient += 6 * first, hessian += 21 * first;
@@ -278,7 +278,8 @@ R"cl(    const int cells = layout[4 * chart + 2], used = layout[4 * chart + 3], 
     // The Hessian itself, where it is positive definite: near a minimum, and each fourth step.
     const int wait = (int)values[3];
     REAL square = -1;
-    for (int projected = wait > 0; square < 0; ++projected)
+    int projected = wait > 0;
+    for (;; projected = 1)
     {
         element_hessian(ELEMENTS, projected, hessian, CELLS);
         BARRIER;
@@ -286,8 +287,9 @@ R"cl(    const int cells = layout[4 * chart + 2], used = layout[4 * chart + 3], 
         BARRIER;
         square = factorize(used, projected, offsets, heights, A, rhs);
         BARRIER;
-        if (LANE == 0) values[3] = projected == 0 ? 0 : wait > 0 ? wait - 1 : 3;
+        if (square >= 0 || projected) break;
     }
+    if (LANE == 0) values[3] = projected == 0 ? 0 : wait > 0 ? wait - 1 : 3;
     substitute(vertices / 2, offsets, heights, A, rhs, parts);
     EACH (v, 0, vertices)
     {
@@ -296,28 +298,31 @@ R"cl(    const int cells = layout[4 * chart + 2], used = layout[4 * chart + 3], 
     }
     BARRIER;
 
-    // The step: 0.9 of the way to the first flip at most, then the best of shorter and shorter ones.
+    // The best of four lengths, up to 0.9 of the way to the first flip, or of shorter and shorter ones. Near the barrier
+    // Newton's step only multiplies the distance to it by 4/3, and a projected Hessian is too stiff: longer ones are
+    // tried there.
     element_first_flip(ELEMENTS, d, energies, CELLS);
     BARRIER;
     REAL flip = INFINITY;
     for (int c = LANE; c < cells; c += TEAM) flip = fmin(flip, energies[c]);
-    REAL longest = fmin((REAL)1, (REAL)0.9 * team_min(flip, parts)), step = 0, best = value;
-    for (int round = 0; round < 8 && step == 0; ++round, longest *= (REAL)0.0625)
+    const bool near = square > (REAL)0.4 * value;
+    const REAL ratio = near ? (REAL)0.25 : (REAL)0.5, most = near ? 64 : projected ? 4 : 1;
+    REAL longest = fmin(most, (REAL)0.9 * team_min(flip, parts)), step = 0, best = value;
+    for (int round = 0; round < 8 && step == 0; ++round)
     {
-        BARRIER;
-        if (LANE == 0) values[2] = longest;
-        BARRIER;
-        element_along(ELEMENTS, d, values + 2, energies, 1, (REAL)0.5, (REAL)0.25, (REAL)0.125, CELLS);
+        REAL lengths[4];
+        for (int k = 0; k < 4; ++k, longest *= ratio) lengths[k] = longest;
+        element_along(ELEMENTS, d, one, energies, lengths[0], lengths[1], lengths[2], lengths[3], CELLS);
         BARRIER;
         const REAL4 there = sums_of_energies(cells, energies, parts);
         const REAL trials[4] = {there.x, there.y, there.z, there.w};
-        REAL length = longest;
-        for (int k = 0; k < 4; ++k, length *= (REAL)0.5)
-            if (trials[k] < best && trials[k] <= value - (REAL)1e-4 * length * square)
+        for (int k = 0; k < 4; ++k)
+            if (trials[k] < best && trials[k] <= value - (REAL)1e-4 * fmin(lengths[k], (REAL)1) * square)
             {
                 best = trials[k];
-                step = length;
+                step = lengths[k];
             }
+        BARRIER;
     }
     EACH (i, 0, 2 * vertices)
     {
