@@ -289,7 +289,6 @@ R"cl(    const int first = layout[4 * chart], base = layout[4 * chart + 1];
         BARRIER;
         if (square >= 0 || projected) break;
     }
-    if (LANE == 0) values[3] = projected == 0 ? 0 : wait > 0 ? wait - 1 : 3;
     substitute(vertices / 2, offsets, heights, A, rhs, parts);
     EACH (v, 0, vertices)
     {
@@ -332,10 +331,15 @@ R"cl(    const int first = layout[4 * chart], base = layout[4 * chart + 1];
     BARRIER;
     if (LANE == 0)
     {
+        // What a projected Hessian predicts near a saddle is far too little: a minimum is seen by the Hessian itself.
+        const REAL predicted = (REAL)0.5 * square;
+        const bool small = !(predicted > tolerance * value);
+        const bool done = small && (!projected || !(predicted > (REAL)0.01 * tolerance * value));
         values[0] = value;
-        values[1] = (REAL)0.5 * square;
+        values[1] = predicted;
         values[2] = step;
-        states[chart] = !((REAL)0.5 * square > tolerance * value) ? CONVERGED : step > 0 ? GOING : STUCK;
+        values[3] = !projected || (small && wait > 0) ? 0 : wait > 0 ? wait - 1 : 3;
+        states[chart] = done ? CONVERGED : step > 0 ? GOING : STUCK;
     }
 }
 )cl";
