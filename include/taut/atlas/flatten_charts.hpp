@@ -38,7 +38,7 @@ struct flatten_params
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
     /// Asked after each step of the charts at work: go on? progress::iteration counts charts that are done,
-    /// progress::value is their mean energy by area.
+    /// progress::value is the mean energy of the maps there are.
     taut::observer observer = {};
 
     /// Throws parameter_error that names the field.

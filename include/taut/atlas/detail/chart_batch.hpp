@@ -15,7 +15,6 @@
 #include <taut/compute/kernel.hpp>
 #include <taut/compute/quirks.hpp>
 #include <taut/mesh/incidence.hpp>
-#include <taut/mesh/order.hpp>
 #include <taut/objective/element_hessian.hpp>
 #include <taut/objective/element_kernels.hpp>
 
@@ -28,21 +27,20 @@ struct chart_problem
     mesh<triangle> surface; ///< renumbered
     std::vector<idx> order; ///< the vertex of the chart, one a vertex here
     csr fans;               ///< corners of each vertex
-    panel_profile profile;
+    std::vector<idx> heights;
     std::vector<vec2> uv; ///< in this order
 
-    static chart_problem of(const mesh<triangle>& m, std::span<const vec2> start)
+    static chart_problem of(const mesh<triangle>& m, panel_profile profile, const std::vector<vec2>& start)
     {
-        const csr near = vertex_neighbours(m);
-        permutation order(band_order(near));
-        panel_profile profile(near, order.new_to_old, order.old_to_new);
+        const auto& order = profile.order;
         auto cells = m.cells();
         for (auto& t : cells)
             for (idx& v : t) v = order.old_to_new[static_cast<std::size_t>(v)];
         mesh<triangle> surface(order.apply(m.points()), std::move(cells));
         csr fans = vertex_corners(surface);
-        std::vector<vec2> uv = order.apply(std::vector<vec2>(start.begin(), start.end()));
-        return {std::move(surface), std::move(order.new_to_old), std::move(fans), std::move(profile), std::move(uv)};
+        std::vector<vec2> uv = order.apply(start);
+        return {std::move(surface), std::move(profile.order.new_to_old), std::move(fans), std::move(profile.heights),
+                std::move(uv)};
     }
 };
 
@@ -204,12 +202,12 @@ private:
             for (const idx start : p.fans.offsets) fan_starts.push_back(first + start);
             if (vertices > p.order.size()) fan_starts.push_back(fan_starts.back());
             fans.insert(fans.end(), p.fans.items.begin(), p.fans.items.end());
-            for (const idx height : p.profile.heights)
+            for (const idx height : p.heights)
             {
                 offsets.push_back(static_cast<idx>(entries));
                 entries += 4 * static_cast<std::size_t>(height);
             }
-            heights.insert(heights.end(), p.profile.heights.begin(), p.profile.heights.end());
+            heights.insert(heights.end(), p.heights.begin(), p.heights.end());
             x.resize(x.size() + 2 * vertices);
             for (std::size_t i = 0; i < p.uv.size(); ++i)
             {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -35,15 +34,15 @@ class flattening
 public:
     flattening(queue& q, const chart_mesh& charts, const flatten_params& params)
         : queue_(q), charts_(charts), params_(params), clock_(params.time_limit, params.observer),
-          single_(u(charts.charts())), maps_(u(charts.charts()))
+          work_(u(charts.charts()))
     {
-        result_.charts.resize(u(charts.charts()));
+        result_.charts.resize(work_.size());
         result_.uv.assign(charts.surface.points().size(), vec2(0.0));
     }
 
     flattened_charts run()
     {
-        make_starts();
+        prepare();
         minimize();
         map_large();
         certify();
@@ -53,44 +52,61 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// Calls work(k) for each of some charts, in parallel, large pieces of them between questions to the clock.
+    /// What is known of a chart on the way.
+    struct chart_work
+    {
+        std::optional<single_chart> chart;
+        std::optional<panel_profile> profile;
+        std::vector<vec2> uv; ///< in units of the chart; empty: it has no map
+        double energy = 0;
+    };
+
+    /// Calls work(i) for i below n, in parallel, pieces of them between questions to the clock.
     template <class Work>
-    void for_charts(std::span<const idx> some, const Work& work)
+    void for_each(std::size_t n, const Work& work)
     {
         constexpr std::size_t piece = 512;
-        for (std::size_t first = 0; first < some.size() && proceed(); first += piece)
-        {
-            const auto part = some.subspan(first, std::min(piece, some.size() - first));
+        for (std::size_t first = 0; first < n && proceed(); first += piece)
             parallel_for(
-                part.size(),
+                std::min(piece, n - first),
                 [&](std::size_t begin, std::size_t end)
                 {
-                    for (std::size_t i = begin; i < end; ++i) work(u(part[i]));
+                    for (std::size_t i = begin; i < end; ++i) work(first + i);
                 },
                 0, 1);
-        }
     }
 
     bool proceed()
     {
-        return clock_.proceed({.iteration = done_, .value = area_ > 0 ? energy_ / area_ : 0.0, .iterate = false});
+        double sum = 0;
+        idx mapped = 0;
+        for (std::size_t k = 0; k < work_.size(); ++k)
+            if (!work_[k].uv.empty())
+            {
+                sum += work_[k].energy * static_cast<double>(cells(k));
+                mapped += static_cast<idx>(cells(k));
+            }
+        return clock_.proceed({.iteration = done_, .value = mapped > 0 ? sum / mapped : 0.0, .usable = mapped > 0});
     }
 
-    void make_starts()
+    /// Orders all charts and makes their first maps.
+    void prepare()
     {
-        std::vector<idx> all(single_.size());
-        for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<idx>(k);
-        for_charts(all,
-                   [&](std::size_t k)
-                   {
-                       chart_report& report = result_.charts[k];
-                       single_[k] = single_chart::of(charts_, static_cast<idx>(k));
-                       auto start = chart_start::of(single_[k]->surface, given(k));
-                       report.start_energy = start.energy;
-                       report.reason = std::move(start.reason);
-                       if (!report.reason.empty()) report.outcome = chart_outcome::no_map;
-                       maps_[k] = std::move(start.uv);
-                   });
+        for_each(work_.size(),
+                 [&](std::size_t k)
+                 {
+                     chart_work& w = work_[k];
+                     chart_report& report = result_.charts[k];
+                     w.chart = single_chart::of(charts_, static_cast<idx>(k));
+                     w.profile.emplace(vertex_neighbours(w.chart->surface));
+                     report.multigrid = w.profile->work > 1e6 * params_.largest;
+                     if (report.multigrid) return;
+                     auto start = chart_start::of(w.chart->surface, given(k));
+                     report.start_energy = w.energy = start.energy;
+                     report.reason = std::move(start.reason);
+                     if (!report.reason.empty()) report.outcome = chart_outcome::no_map;
+                     w.uv = std::move(start.uv);
+                 });
         result_.seconds.start = clock_.lap();
     }
 
@@ -101,21 +117,22 @@ private:
         const auto part = params_.initial.subspan(u(charts_.first_vertex[k]),
                                                   u(charts_.first_vertex[k + 1] - charts_.first_vertex[k]));
         std::vector<vec2> uv(part.begin(), part.end());
-        for (vec2& p : uv) p *= single_[k]->unit;
+        for (vec2& p : uv) p *= work_[k].chart->unit;
         return uv;
     }
 
     /// Newton's method, in batches whose arrays fit the memory of a device well.
     void minimize()
     {
-        std::vector<idx> by_size;
-        for (std::size_t k = 0; k < maps_.size(); ++k)
-            if (!maps_[k].empty() && params_.max_iterations > 0) by_size.push_back(static_cast<idx>(k));
+        std::vector<std::size_t> by_size;
+        for (std::size_t k = 0; k < work_.size(); ++k)
+            if (!work_[k].uv.empty()) by_size.push_back(k);
         if (by_size.empty() || clock_.over()) return;
-        std::stable_sort(by_size.begin(), by_size.end(), [&](idx a, idx b) { return cells(a) > cells(b); });
+        std::stable_sort(by_size.begin(), by_size.end(),
+                         [&](std::size_t a, std::size_t b) { return cells(a) > cells(b); });
 
         const chart_kernel program(queue_);
-        result_.seconds.device += clock_.lap();
+        result_.seconds.device = clock_.lap();
         const std::size_t most = program.team == 1 ? std::size_t{1} << 16 : std::size_t{1} << 20;
         for (std::size_t first = 0, last = 0; first < by_size.size() && !clock_.over(); first = last)
         {
@@ -126,35 +143,32 @@ private:
         }
     }
 
-    void minimize(const chart_kernel& program, std::span<const idx> some)
+    void minimize(const chart_kernel& program, std::span<const std::size_t> some)
     {
-        std::vector<std::optional<chart_problem>> made(single_.size());
-        for_charts(some, [&](std::size_t k) { made[k] = chart_problem::of(single_[k]->surface, maps_[k]); });
+        std::vector<std::optional<chart_problem>> made(some.size());
+        for_each(some.size(),
+                 [&](std::size_t j)
+                 {
+                     chart_work& w = work_[some[j]];
+                     made[j] = chart_problem::of(w.chart->surface, std::move(*w.profile), w.uv);
+                 });
         if (clock_.over()) return;
         std::vector<chart_problem> problems;
-        std::vector<std::size_t> chart;
-        for (const idx k : some)
-            if (made[u(k)]->profile.work <= 1e6 * params_.largest)
-            {
-                problems.push_back(std::move(*made[u(k)]));
-                chart.push_back(u(k));
-            }
-            else
-                result_.charts[u(k)].multigrid = true;
-        if (problems.empty()) return;
+        for (auto& problem : made) problems.push_back(std::move(*problem));
         chart_batch batch(queue_, program, problems);
         result_.seconds.prepare += clock_.lap();
 
-        std::vector<char> at_work(chart.size(), 1);
-        for (int i = 0; i < params_.max_iterations; ++i)
+        std::vector<char> at_work(some.size(), 1);
+        for (int i = 1; i <= params_.max_iterations; ++i)
         {
             const std::size_t left = batch.step(params_.tolerance);
-            for (std::size_t j = 0; j < chart.size(); ++j)
+            for (std::size_t j = 0; j < some.size(); ++j)
             {
                 if (!at_work[j]) continue;
-                chart_report& report = result_.charts[chart[j]];
-                report.iterations = i + 1;
-                report.outcome = i + 1 < params_.max_iterations ? chart_outcome::stopped : chart_outcome::iterations;
+                chart_report& report = result_.charts[some[j]];
+                report.iterations = i;
+                work_[some[j]].energy = batch.energy(j);
+                report.outcome = i < params_.max_iterations ? chart_outcome::stopped : chart_outcome::iterations;
                 if (batch.state_of(j) == chart_batch::going) continue;
                 at_work[j] = 0;
                 report.outcome =
@@ -164,40 +178,55 @@ private:
             if (left == 0 || !proceed()) break;
         }
         auto maps = batch.maps();
-        for (std::size_t j = 0; j < chart.size(); ++j) maps_[chart[j]] = std::move(maps[j]);
+        for (std::size_t j = 0; j < some.size(); ++j) work_[some[j]].uv = std::move(maps[j]);
         result_.seconds.solve += clock_.lap();
     }
 
-    /// The charts that are left, one by one.
+    /// The large charts, one by one.
     void map_large()
     {
-        for (std::size_t k = 0; k < maps_.size(); ++k)
+        for (std::size_t k = 0; k < work_.size(); ++k)
+            if (result_.charts[k].multigrid && proceed()) map_large(k);
+        result_.seconds.large = clock_.lap();
+    }
+
+    void map_large(std::size_t k)
+    {
+        chart_report& report = result_.charts[k];
+        parameterize_params params{.initial = given(k), .holes = true, .time_limit = clock_.left()};
+        params.observer = [this](const progress&) { return proceed(); };
+        params.solve.stopping.max_iterations = params_.max_iterations;
+        try
         {
-            chart_report& report = result_.charts[k];
-            if (!report.multigrid || !proceed()) continue;
-            auto params = parameterize_params{.initial = maps_[k], .holes = true, .time_limit = clock_.left()};
-            params.observer = [this](const progress&) { return proceed(); };
-            params.solve.stopping.max_iterations = params_.max_iterations;
-            auto map = parameterize(queue_, single_[k]->surface, params);
+            auto map = parameterize(queue_, work_[k].chart->surface, params);
             report.iterations = static_cast<int>(map.report.solve.iterations);
-            report.outcome = solve::converged(map.report.solve.stop) ? chart_outcome::converged
+            report.reason = map.reason();
+            report.outcome = !map                                      ? chart_outcome::no_map
+                             : solve::converged(map.report.solve.stop) ? chart_outcome::converged
                              : clock_.over()                           ? chart_outcome::stopped
                                                                        : chart_outcome::stuck;
-            if (map) maps_[k] = std::move(map.uv);
-            ++done_;
+            if (map) work_[k].uv = std::move(map.uv);
         }
-        result_.seconds.large = clock_.lap();
+        catch (const mesh_error& e)
+        {
+            report.outcome = chart_outcome::no_map;
+            report.reason = e.what();
+        }
+        ++done_;
     }
 
     /// Brings the maps to the units of the surface and looks at what came out.
     void certify()
     {
         parallel_for(
-            maps_.size(),
+            work_.size(),
             [&](std::size_t begin, std::size_t end)
             {
                 for (std::size_t k = begin; k < end; ++k)
-                    if (!maps_[k].empty()) certify(k);
+                    if (!work_[k].uv.empty())
+                        certify(k);
+                    else if (result_.charts[k].outcome == chart_outcome::stopped)
+                        result_.charts[k].reason = "the run ended before the chart had a map";
             },
             0, 1);
         result_.seconds.certify = clock_.lap();
@@ -206,9 +235,9 @@ private:
     void certify(std::size_t k)
     {
         chart_report& report = result_.charts[k];
-        const auto& [surface, unit] = *single_[k];
+        const auto& [surface, unit] = *work_[k].chart;
         start_map map;
-        map.uv = maps_[k];
+        map.uv = std::move(work_[k].uv);
         map.assess(surface, ideal_elements<triangle>(surface));
         report.valid = bool(map.flips);
         if (!report.valid)
@@ -222,17 +251,15 @@ private:
             result_.uv[u(charts_.first_vertex[k]) + i] = map.uv[i] / unit; // a power of two: exact
     }
 
-    std::size_t cells(idx k) const { return u(charts_.first_cell[u(k) + 1] - charts_.first_cell[u(k)]); }
+    std::size_t cells(std::size_t k) const { return u(charts_.first_cell[k + 1] - charts_.first_cell[k]); }
 
     queue& queue_;
     const chart_mesh& charts_;
     const flatten_params& params_;
     budget clock_;
-    std::vector<std::optional<single_chart>> single_;
-    std::vector<std::vector<vec2>> maps_; // of charts that have one, in their units
+    std::vector<chart_work> work_;
     flattened_charts result_;
     int done_ = 0;
-    double energy_ = 0, area_ = 0;
 };
 
 } // namespace detail

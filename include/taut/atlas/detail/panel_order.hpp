@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include <taut/core/csr.hpp>
+#include <taut/mesh/order.hpp>
 
 namespace taut::detail
 {
@@ -59,23 +58,24 @@ inline std::vector<idx> band_order(const csr& near)
 /// A band matrix of two unknowns a vertex, stored by panels of two vertices (kernels/charts.cl).
 struct panel_profile
 {
+    permutation order;        ///< vertices in the order of the matrix
     std::vector<idx> heights; ///< rows of each panel, from its own first one; a multiple of 4
-    std::int64_t entries = 0; ///< numbers in all panels
     double work = 0;          ///< multiplications of a factorization, about
 
-    /// new_number: of each vertex in the order of the matrix.
-    panel_profile(const csr& near, std::span<const idx> order, std::span<const idx> new_number)
+    /// near: the neighbours of each vertex.
+    explicit panel_profile(const csr& near) : order(band_order(near))
     {
+        const auto& vertices = order.new_to_old;
         idx reach = 1; // the last vertex of the panel before
-        for (std::size_t first = 0; first < order.size(); first += 2)
+        for (std::size_t first = 0; first < vertices.size(); first += 2)
         {
             reach = std::max(reach, static_cast<idx>(first) + 1);
-            for (std::size_t i = first; i < std::min(first + 2, order.size()); ++i)
-                for (const idx w : near.row(order[i])) reach = std::max(reach, new_number[static_cast<std::size_t>(w)]);
+            for (std::size_t i = first; i < std::min(first + 2, vertices.size()); ++i)
+                for (const idx w : near.row(vertices[i]))
+                    reach = std::max(reach, order.old_to_new[static_cast<std::size_t>(w)]);
             reach |= 1; // whole panels
             const idx height = 2 * (reach - static_cast<idx>(first) + 1);
             heights.push_back(height);
-            entries += 4 * std::int64_t{height};
             work += 2.0 * height * height;
         }
     }
