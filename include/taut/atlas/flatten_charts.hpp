@@ -27,8 +27,9 @@ struct flatten_params
     int max_iterations = 100;
 
     /// Millions of multiplications that the factorization of a chart may take; above, the chart goes to `parameterize`
-    /// by itself. Triangles are 10,000 or so at the default.
-    double largest = 60;
+    /// by itself. At the default that is one of about 5,000 triangles, where both take as
+    /// long.
+    double largest = 30;
 
     /// A map to begin with, one point a vertex of the chart mesh in any place and in units of the surface, or nothing.
     /// Charts where it is not valid begin with another one.

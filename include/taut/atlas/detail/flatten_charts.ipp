@@ -127,7 +127,9 @@ private:
         std::vector<std::size_t> by_size;
         for (std::size_t k = 0; k < work_.size(); ++k)
             if (!work_[k].uv.empty()) by_size.push_back(k);
-        if (by_size.empty() || clock_.over()) return;
+        if (params_.max_iterations == 0)
+            for (const std::size_t k : by_size) result_.charts[k].outcome = chart_outcome::iterations;
+        if (by_size.empty() || params_.max_iterations == 0 || clock_.over()) return;
         std::stable_sort(by_size.begin(), by_size.end(),
                          [&](std::size_t a, std::size_t b) { return cells(a) > cells(b); });
 
