@@ -31,6 +31,12 @@ inline std::string parameter_text(const kernel_argument& a)
     }
 }
 
+/// Whether the statements stand in a loop over indices.
+inline bool has_loop(kernel_form form)
+{
+    return form == kernel_form::run || form == kernel_form::part;
+}
+
 /// The lines before the statements: which indices this work-item has.
 inline std::string prologue(kernel_form form, const kernel_needs& needs)
 {
@@ -43,10 +49,14 @@ inline std::string prologue(kernel_form form, const kernel_needs& needs)
         const std::string length = std::to_string(run_length);
         text += concat("    const int taut_first = (int)get_global_id(0) * ", length, ";\n");
         text += concat("    const int taut_last = min(taut_first + ", length, ", taut_count);\n");
+    }
+    if (has_loop(form))
+    {
         // Work-items are independent, so the indices are. Without this loop PoCL packs x and y of a point into pairs
         // first, and then no longer vectorises over work-items. Only innermost loops vectorise.
         if (!needs.loops) text += "    #pragma clang loop vectorize(assume_safety) vectorize_width(8)\n";
-        text += "    for (int i0 = taut_first; i0 < taut_last; ++i0)\n    {\n";
+        text += concat("    for (int i0 = taut_first; i0 < taut_last; ", form == kernel_form::run ? "++i0" : "i0 += taut_step",
+                       ")\n    {\n");
     }
     else if (needs.dimensions[0] || form == kernel_form::guarded)
         text += "    const int i0 = get_global_id(0);\n";
@@ -77,11 +87,16 @@ inline std::vector<std::size_t> accessed_by_index(const tape& t, const schedule&
 inline kernel_text emit(const tape& t, std::string name, std::vector<kernel_argument> arguments,
                         kernel_form form = kernel_form::item)
 {
-    const bool is_run = form == kernel_form::run;
+    const bool is_loop = detail::has_loop(form), is_part = form == kernel_form::part;
     const detail::schedule plan(t, t.stores());
-    const detail::statement_writer body(t, arguments, plan, is_run ? "        " : "    ");
+    const detail::statement_writer body(t, arguments, plan, is_loop ? "        " : "    ");
     const detail::kernel_needs& needs = body.needs();
-    if (form != kernel_form::item) arguments.push_back({"taut_count", argument_kind::scalar, scalar_type::i32});
+    const auto add_int = [&](const char* argument)
+    { arguments.push_back({argument, argument_kind::scalar, scalar_type::i32}); };
+    if (is_part)
+        for (const char* argument : {"taut_first", "taut_last", "taut_step"}) add_int(argument);
+    else if (form != kernel_form::item)
+        add_int("taut_count");
 
     std::string parameters;
     bool f64 = needs.f64;
@@ -92,11 +107,11 @@ inline kernel_text emit(const tape& t, std::string name, std::vector<kernel_argu
     }
 
     std::string source = f64 ? "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n" : "";
-    if (is_run) source += "#pragma clang diagnostic ignored \"-Wpass-failed\"\n"; // a call in the loop stays scalar
+    if (is_loop) source += "#pragma clang diagnostic ignored \"-Wpass-failed\"\n"; // a call in the loop stays scalar
     if (needs.cbrt_f32) source += detail::cbrt_f32_source;
     if (needs.cbrt_f64) source += detail::cbrt_f64_source;
-    source += detail::concat("__kernel void ", name, "(", parameters, ")\n{\n");
-    source += detail::prologue(form, needs) + body.text() + (is_run ? "    }\n}\n" : "}\n");
+    source += detail::concat(is_part ? "static void " : "__kernel void ", name, "(", parameters, ")\n{\n");
+    source += detail::prologue(form, needs) + body.text() + (is_loop ? "    }\n}\n" : "}\n");
     return {std::move(name), std::move(source), std::move(arguments), form, detail::accessed_by_index(t, plan)};
 }
 

@@ -36,17 +36,19 @@ enum class kernel_form : std::uint8_t
     item,    ///< one index each: the global size is the count
     guarded, ///< one index each, and those beyond the count return: for GPUs, where the global size is rounded up
     run,     ///< run_length consecutive indices each, in a loop that vectorises: for CPUs, with local size 1
+    part,    ///< no kernel but a function, for kernels written by hand: indices taut_first, taut_first + taut_step, ...
+             ///< below taut_last, which are its last three arguments; the loop vectorises where the step is 1
 };
 
 /// Indices per work-item of kernel_form::run: long enough to hide the cost of starting one.
 inline constexpr idx run_length = 256;
 
-/// A complete OpenCL C 1.2 program with one kernel. Equal recordings give equal text, so the text is its own cache key.
+/// A complete OpenCL C 1.2 program with one kernel, or the function of kernel_form::part. Equal recordings give equal text, so the text is its own cache key.
 struct kernel_text
 {
     std::string name;
     std::string source;
-    std::vector<kernel_argument> arguments; ///< guarded and run have a last one: the int `taut_count`
+    std::vector<kernel_argument> arguments; ///< guarded and run have a last one, the int `taut_count`; part has three
     kernel_form form = kernel_form::item;
     std::vector<std::size_t> by_index; ///< positions of arguments that are read or written at [i], the plain index
 };

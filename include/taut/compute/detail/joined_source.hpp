@@ -22,7 +22,7 @@ inline std::string joined_source(const std::vector<kernel_text>& texts)
     {
         const std::string& source = text.source;
         if (!names.insert(text.name).second) throw parameter_error(text.name, "a program has two kernels of this name");
-        const std::size_t kernel = source.find("__kernel ");
+        const std::size_t kernel = source.find(text.form == kernel_form::part ? "static void " : "__kernel ");
         // Directives take a line each; a blank line precedes each helper, and there is none inside of it.
         for (std::size_t at = 0; at < kernel;)
         {
