@@ -62,8 +62,9 @@ inline bool edges_meet(const std::array<idx, 2>& e, const std::array<idx, 2>& f,
 class edge_tree
 {
 public:
-    /// Edges with finite ends.
-    edge_tree(std::span<const std::array<idx, 2>> edges, std::span<const vec2> x) : order_(edges.size())
+    /// Edges with finite ends. group: one an edge, or empty; pairs of one group are left out
+    edge_tree(std::span<const std::array<idx, 2>> edges, std::span<const vec2> x, std::span<const idx> group = {})
+        : group_(group.begin(), group.end()), order_(edges.size())
     {
         for (const auto& [i, j] : edges)
         {
@@ -78,7 +79,23 @@ public:
     template <class Look>
     void for_each_pair(Look&& look) const
     {
-        if (!nodes_.empty()) visit(0, 0, look);
+        const auto meet = [](const box& a, const box& b) { return a.meets(b); };
+        if (!nodes_.empty()) visit(0, 0, look, meet);
+    }
+
+    /// The same of pairs whose boxes are nearer than `reach`, which `look` may make smaller.
+    template <class Look>
+    void for_each_pair_within(const double& reach, Look&& look) const
+    {
+        const auto near = [&reach](const box& a, const box& b) { return a.distance(b) < reach; };
+        if (!nodes_.empty()) visit(0, 0, look, near);
+    }
+
+    /// Calls look(i) for each edge whose box meets the one from low to high, until it returns false.
+    template <class Look>
+    void for_each_in(const vec2& low, const vec2& high, Look&& look) const
+    {
+        if (!nodes_.empty()) visit_in(0, {low, high}, look);
     }
 
 private:
@@ -90,6 +107,10 @@ private:
         {
             return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y;
         }
+        double distance(const box& o) const
+        {
+            return glm::length(glm::max(vec2(0), glm::max(low - o.high, o.low - high)));
+        }
     };
 
     struct node
@@ -97,6 +118,7 @@ private:
         box bounds;
         std::size_t first, last;         // of order_
         std::size_t left = 0, right = 0; // 0: a leaf
+        idx group = -1;                  // that all are of; -1: of several
     };
 
     static constexpr std::size_t leaf = 4;
@@ -111,7 +133,13 @@ private:
         }
         const std::size_t self = nodes_.size();
         nodes_.push_back({bounds, first, last});
-        if (last - first <= leaf) return self;
+        if (last - first <= leaf)
+        {
+            nodes_[self].group = group_of(first);
+            for (std::size_t k = first; k < last; ++k)
+                if (group_of(k) != nodes_[self].group) nodes_[self].group = -1;
+            return self;
+        }
         const int side = bounds.high.x / 2 - bounds.low.x / 2 >= bounds.high.y / 2 - bounds.low.y / 2 ? 0 : 1;
         const std::size_t middle = first + (last - first) / 2;
         const auto centre = [&](std::size_t e) { return edges_[e].low[side] / 2 + edges_[e].high[side] / 2; };
@@ -122,32 +150,49 @@ private:
         const std::size_t left = build(first, middle), right = build(middle, last);
         nodes_[self].left = left;
         nodes_[self].right = right;
+        if (nodes_[left].group == nodes_[right].group) nodes_[self].group = nodes_[left].group;
         return self;
     }
 
+    idx group_of(std::size_t k) const { return group_.empty() ? -1 : group_[order_[k]]; }
+
     /// Looks at the pairs of an edge of node a and one of node b; a == b: at those within it.
-    template <class Look>
-    bool visit(std::size_t a, std::size_t b, Look& look) const
+    template <class Look, class Near>
+    bool visit(std::size_t a, std::size_t b, Look& look, const Near& near) const
     {
         const node &m = nodes_[a], &n = nodes_[b];
-        if (!m.bounds.meets(n.bounds)) return true;
+        if ((m.group >= 0 && m.group == n.group) || !near(m.bounds, n.bounds)) return true;
         if (m.left == 0 && n.left == 0)
         {
             for (std::size_t i = m.first; i < m.last; ++i)
                 for (std::size_t j = a == b ? i + 1 : n.first; j < n.last; ++j)
-                    if (edges_[order_[i]].meets(edges_[order_[j]]) &&
+                    if ((group_.empty() || group_of(i) != group_of(j)) && near(edges_[order_[i]], edges_[order_[j]]) &&
                         !look(std::min(order_[i], order_[j]), std::max(order_[i], order_[j])))
                         return false;
             return true;
         }
-        if (a == b) return visit(m.left, m.left, look) && visit(m.right, m.right, look) && visit(m.left, m.right, look);
+        if (a == b)
+            return visit(m.left, m.left, look, near) && visit(m.right, m.right, look, near) &&
+                   visit(m.left, m.right, look, near);
         // The larger one is halved.
         if (n.left == 0 || (m.left != 0 && m.last - m.first >= n.last - n.first))
-            return visit(m.left, b, look) && visit(m.right, b, look);
-        return visit(a, n.left, look) && visit(a, n.right, look);
+            return visit(m.left, b, look, near) && visit(m.right, b, look, near);
+        return visit(a, n.left, look, near) && visit(a, n.right, look, near);
+    }
+
+    template <class Look>
+    bool visit_in(std::size_t a, const box& window, Look& look) const
+    {
+        const node& m = nodes_[a];
+        if (!m.bounds.meets(window)) return true;
+        if (m.left != 0) return visit_in(m.left, window, look) && visit_in(m.right, window, look);
+        for (std::size_t i = m.first; i < m.last; ++i)
+            if (edges_[order_[i]].meets(window) && !look(order_[i])) return false;
+        return true;
     }
 
     std::vector<box> edges_;
+    std::vector<idx> group_;
     std::vector<std::size_t> order_;
     std::vector<node> nodes_;
 };

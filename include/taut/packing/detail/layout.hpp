@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/core/budget.hpp>
+#include <taut/packing/detail/occupancy.hpp>
+#include <taut/packing/detail/pieces.hpp>
+#include <taut/packing/detail/raster.hpp>
+
+namespace taut::detail
+{
+
+/// Where a piece lies: its pose, the tile, and the cell of the tile that its mask begins at.
+struct spot
+{
+    idx pose = -1, tile = 0, x = 0, y = 0;
+};
+
+/// Pieces in tiles of equal width; the last one is as high as it takes.
+struct layout
+{
+    std::vector<spot> spots;
+    double width = 0, height = 0; ///< of what is taken, in cells: the most of all tiles; of the last one
+    idx tiles = 1;                ///< in use
+    bool complete = false;        ///< false: a piece is wider than a tile, or the budget is over
+
+    /// Lengths from the extents of the pieces as they lie.
+    void measure(std::span<const std::vector<pose>> poses, double scale = 1)
+    {
+        width = height = 0;
+        tiles = 1;
+        for (const spot& s : spots) tiles = std::max(tiles, s.tile + 1);
+        for (std::size_t c = 0; c < spots.size(); ++c)
+        {
+            const spot& s = spots[c];
+            const vec2 size = scale * poses[c][static_cast<std::size_t>(s.pose)].size;
+            width = std::max(width, s.x + size.x + inset);
+            if (s.tile + 1 == tiles)
+                height = std::max(height, s.y + size.y + inset);
+            else
+                width = std::max(width, s.y + size.y + inset);
+        }
+    }
+};
+
+/// Lays pieces, in the order given, each in the pose whose top is lowest, as low as there is room for it and then as
+/// far left: in any gap that is left of what lies there.
+/// side:  of a tile in cells; gap: least distance of two pieces in cells
+/// quick: a piece does not look below where the last one of about its width and height found room
+inline layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses,
+                      std::span<const idx> order, idx side, idx tiles, double gap, double cells_per_length, bool quick,
+                      budget& limits)
+{
+    layout out;
+    out.spots.resize(pieces.size());
+    occupancy taken(side); // tiles lie on each other, with a row between them
+    for (idx t = 1; t < tiles; ++t) taken.block(t * (side + 1) - 1);
+    const auto tile_of = [&](idx y) { return std::min(y / (side + 1), tiles - 1); };
+    std::map<std::pair<int, int>, idx> starts;
+    for (std::size_t placed = 0; const idx i : order)
+    {
+        if (placed++ % 64 == 0 && !limits.proceed()) return out;
+        const auto c = static_cast<std::size_t>(i);
+        spot best;
+        idx lowest = 0; // top of the best
+        for (std::size_t k = 0; k < poses[c].size(); ++k)
+        {
+            const probe_list& mask = poses[c][k].probes;
+            if (mask.width > side || (tiles > 1 && mask.height > side)) continue;
+            const auto size = [](idx n) { return static_cast<int>(4 * std::log2(n)); };
+            idx* const start = quick ? &starts[{size(mask.width), size(mask.height)}] : nullptr;
+            for (idx y = start ? *start : 0;; ++y)
+            {
+                if (const idx tile = tile_of(y); tile < tiles - 1 && y - tile * (side + 1) + mask.height > side)
+                    y = (tile + 1) * (side + 1);
+                const idx top = y + mask.height;
+                if (best.pose >= 0 && top > lowest) break;
+                const idx x = taken.find(mask, y);
+                if (x < 0) continue;
+                if (start) *start = y;
+                if (best.pose < 0 || top < lowest || x < best.x) best = {static_cast<idx>(k), tile_of(y), x, y};
+                lowest = top;
+                break;
+            }
+        }
+        if (best.pose < 0) return out;
+        const pose& at = poses[c][static_cast<std::size_t>(best.pose)];
+        taken.take(rasterize(posed_edges(pieces[c], at, cells_per_length), gap), best.x, best.y);
+        best.y -= best.tile * (side + 1);
+        out.spots[c] = best;
+    }
+    out.complete = true;
+    out.measure(poses);
+    return out;
+}
+
+} // namespace taut::detail

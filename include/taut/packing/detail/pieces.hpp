@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/core/parallel.hpp>
+#include <taut/packing/detail/occupancy.hpp>
+#include <taut/packing/detail/outlines.hpp>
+#include <taut/packing/detail/raster.hpp>
+
+namespace taut::detail
+{
+
+/// What the packer knows of a chart. Lengths are its own times its density, points are relative to `centre`.
+struct piece
+{
+    std::vector<std::array<vec2, 2>> edges;
+    std::vector<vec2> hull;      ///< counter-clockwise
+    vec2 centre{0, 0};           ///< in the user's coordinates
+    vec2 axis{1, 0};             ///< the long side of the smallest box, unit length
+    vec2 box{0, 0};              ///< its sides along and across `axis`
+    double area = 0, length = 0; ///< of the triangles, of the border
+    double density = 1;
+    double doubt = 0; ///< bound of the rounding errors of a place
+};
+
+/// The points that the convex hull turns at, counter-clockwise; collinear ones are left out.
+inline std::vector<vec2> convex_hull(std::vector<vec2> points)
+{
+    const auto less = [](const vec2& a, const vec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+    std::sort(points.begin(), points.end(), less);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < 3) return points;
+    std::vector<vec2> hull;
+    for (int half = 0; half < 2; ++half)
+    {
+        const std::size_t floor = hull.size() + 1;
+        for (const vec2& p : points)
+        {
+            while (hull.size() > floor && orient2d(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+            hull.push_back(p);
+        }
+        hull.pop_back();
+        std::reverse(points.begin(), points.end());
+    }
+    return hull;
+}
+
+/// The box of points in a frame: low and high corner.
+inline std::array<vec2, 2> box_in(std::span<const vec2> points, const vec2& axis)
+{
+    vec2 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const vec2& p : points)
+    {
+        const vec2 q(axis.x * p.x + axis.y * p.y, axis.x * p.y - axis.y * p.x);
+        low = glm::min(low, q);
+        high = glm::max(high, q);
+    }
+    return {low, high};
+}
+
+/// The direction of a hull's side that has the box of least area.
+inline vec2 tightest_axis(std::span<const vec2> hull)
+{
+    vec2 best(1, 0);
+    double least = std::numeric_limits<double>::infinity();
+    // Many sides: only those of a sample are tried, since their boxes hardly differ.
+    const std::size_t step = hull.size() / 64 + 1;
+    for (std::size_t k = 0; k < hull.size(); k += step)
+    {
+        const vec2 d = hull[(k + 1) % hull.size()] - hull[k];
+        if (!(glm::length(d) > 0)) continue;
+        const auto [low, high] = box_in(hull, d / glm::length(d));
+        const double area = (high.x - low.x) * (high.y - low.y);
+        if (!(area < least)) continue;
+        least = area;
+        best = d / glm::length(d);
+    }
+    const auto [low, high] = box_in(hull, best);
+    return high.x - low.x >= high.y - low.y ? best : vec2(-best.y, best.x);
+}
+
+inline std::vector<piece> make_pieces(std::span<const vec2> uv, const chart_outlines& outlines,
+                                      std::span<const double> densities, bool turn)
+{
+    std::vector<piece> pieces(outlines.areas.size());
+    parallel_for(
+        pieces.size(),
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t c = begin; c < end; ++c)
+            {
+                piece& p = pieces[c];
+                p.density = densities.empty() ? 1 : densities[c];
+                const auto at = [&](idx v) { return uv[static_cast<std::size_t>(v)]; };
+                const std::span edges(outlines.edges.data() + outlines.first[c],
+                                      outlines.edges.data() + outlines.first[c + 1]);
+                vec2 low = at(edges.front()[0]), high = low;
+                for (const auto& e : edges)
+                {
+                    low = glm::min(low, at(e[0]));
+                    high = glm::max(high, at(e[0]));
+                }
+                p.centre = low / 2.0 + high / 2.0;
+                std::vector<vec2> points;
+                for (const auto& [a, b] : edges)
+                {
+                    p.edges.push_back({p.density * (at(a) - p.centre), p.density * (at(b) - p.centre)});
+                    p.length += glm::length(p.edges.back()[1] - p.edges.back()[0]);
+                    points.push_back(p.edges.back()[0]);
+                }
+                p.hull = convex_hull(std::move(points));
+                if (turn) p.axis = tightest_axis(p.hull);
+                const auto [least, most] = box_in(p.hull, p.axis);
+                p.box = most - least;
+                p.area = p.density * p.density * outlines.areas[c];
+                p.doubt =
+                    16 * std::numeric_limits<double>::epsilon() * p.density * (glm::length(low) + glm::length(high));
+            }
+        },
+        0, 1);
+    return pieces;
+}
+
+/// A piece turned and drawn: as a mask for cells of one size.
+struct pose
+{
+    vec2 axis;   ///< of the chart that lies along x
+    vec2 corner; ///< of the turned chart's box, in cells; it is laid on `inset` within the mask
+    vec2 size;   ///< of that box, in cells
+    probe_list probes;
+};
+
+/// How far charts stay away from the borders of their masks, in cells: rounding never carries them across.
+inline constexpr double inset = 1e-6;
+
+/// The edges of a piece in a pose, in cells, its box from (inset, inset) on.
+inline std::vector<std::array<vec2, 2>> posed_edges(const piece& p, const pose& at, double cells_per_length)
+{
+    std::vector<std::array<vec2, 2>> edges;
+    edges.reserve(p.edges.size());
+    const vec2 axis = cells_per_length * at.axis, shift = vec2(inset) - at.corner;
+    const auto turned = [&](const vec2& x)
+    { return vec2(axis.x * x.x + axis.y * x.y, axis.x * x.y - axis.y * x.x) + shift; };
+    for (const auto& [a, b] : p.edges) edges.push_back({turned(a), turned(b)});
+    return edges;
+}
+
+/// turn: by this from the tightest box
+inline pose make_pose(const piece& p, double turn, double cells_per_length)
+{
+    pose made;
+    const vec2 t(std::cos(turn), std::sin(turn));
+    made.axis = turn == 0 ? p.axis : vec2(t.x * p.axis.x - t.y * p.axis.y, t.x * p.axis.y + t.y * p.axis.x);
+    const auto [low, high] = box_in(p.hull, made.axis);
+    made.corner = cells_per_length * low;
+    made.size = cells_per_length * (high - low);
+    made.probes = probe_list(rasterize(posed_edges(p, made, cells_per_length), 0));
+    return made;
+}
+
+} // namespace taut::detail

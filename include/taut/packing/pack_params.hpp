@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <taut/core/budget.hpp>
+#include <taut/core/error.hpp>
+#include <taut/core/types.hpp>
+
+namespace taut
+{
+
+/// How charts are laid side by side.
+struct pack_params
+{
+    /// Texels along a side of a tile, 1 to 65536. It gives `padding` its length and nothing else.
+    int resolution = 1024;
+
+    /// Least distance in texels between two charts, and between a chart and the border of its tile; at least 0.
+    double padding = 2;
+
+    /// Squares to fill, 1 to 1000, as evenly as charts allow. All charts keep one scale.
+    int tiles = 1;
+
+    /// Charts may be turned. Otherwise they are only shifted and scaled, as those who paint or comb them may want.
+    bool rotate = true;
+
+    /// Lengths of a chart are first multiplied by its number: more texels for a face, fewer for a sole. One positive
+    /// number a chart; empty: 1 each.
+    std::vector<double> densities;
+
+    /// By how much a coordinate in [0, tiles) may be off in the file it is written to; the padding holds there, too.
+    /// Default: floats, tiles up to the eighth. 0 to 0.001.
+    double rounding = 1e-6;
+
+    /// When it is over the best layout so far is returned; one of shelves costs next to nothing and is made first.
+    budget::seconds time_limit = budget::unlimited;
+    taut::observer observer; ///< asked between charts; `value` is the use of the squares so far
+
+    /// Throws parameter_error.
+    void validate(idx charts) const
+    {
+        const auto require = [](bool holds, const char* name, const char* range)
+        {
+            if (!holds) throw parameter_error(name, std::string("must be ") + range);
+        };
+        require(resolution >= 1 && resolution <= 65536, "resolution", "1 to 65536");
+        require(padding >= 0 && padding <= std::numeric_limits<double>::max(), "padding", "at least 0 and finite");
+        require(2 * padding < resolution, "padding", "less than half the resolution");
+        require(tiles >= 1 && tiles <= 1000, "tiles", "1 to 1000");
+        require(rounding >= 0 && rounding <= 1e-3, "rounding", "0 to 0.001");
+        require(time_limit.count() > 0, "time_limit", "positive");
+        require(densities.empty() || densities.size() == static_cast<std::size_t>(charts), "densities",
+                "empty or one number a chart");
+        for (const double d : densities)
+            require(d > 0 && d <= std::numeric_limits<double>::max(), "densities", "positive and finite");
+    }
+};
+
+} // namespace taut

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include <support/chart_sets.hpp>
+#include <taut/packing/certificate.hpp>
+#include <taut/packing/pack.hpp>
+
+namespace
+{
+
+using support::chart_set;
+using taut::idx;
+using taut::vec2;
+
+taut::packing packed(const chart_set& s, const taut::pack_params& params = {})
+{
+    return taut::pack(s.uv, s.cells, s.first_cell, s.first_vertex, params);
+}
+
+/// Certifies what files get: coordinates as floats.
+taut::packing_certificate as_floats(const chart_set& s, const taut::packing& p)
+{
+    auto x = p.apply(s.uv, s.first_vertex);
+    for (vec2& q : x) q = {static_cast<float>(q.x), static_cast<float>(q.y)};
+    return taut::certify_packing(x, s.cells, s.first_cell, s.first_vertex);
+}
+
+bool holds(const chart_set& s, const taut::packing& p, const taut::pack_params& params = {})
+{
+    return as_floats(s, p).holds(params.padding, params.resolution);
+}
+
+chart_set squares(int count, double side = 1)
+{
+    chart_set s;
+    for (int c = 0; c < count; ++c) s.add_rectangle(side, side, 0.3 * c);
+    return s;
+}
+
+double area_of(const chart_set& s, std::span<const vec2> x)
+{
+    double area = 0;
+    for (const auto& [a, b, c] : s.cells)
+        area +=
+            taut::orient(x[static_cast<std::size_t>(a)], x[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(c)])
+                .det /
+            2;
+    return area;
+}
+
+} // namespace
+
+TEST_CASE("pack: one square fills its tile up to the padding, whichever way it lies")
+{
+    for (const double angle : {0.0, 0.5, 2.0})
+    {
+        chart_set s;
+        s.add_rectangle(3, 3, angle);
+        const auto p = packed(s);
+        CHECK(holds(s, p));
+        CHECK(p.scale * 3 == doctest::Approx(1 - 4.0 / 1024).epsilon(0.002));
+        CHECK(p.utilization == doctest::Approx(area_of(s, p.apply(s.uv, s.first_vertex))));
+    }
+}
+
+TEST_CASE("pack: nothing is mirrored, all keep one scale, and places say so")
+{
+    const auto s = support::ragged_charts(12, 60, 20, 1);
+    const auto p = packed(s);
+    CHECK(holds(s, p));
+    REQUIRE(p.places.size() == 12);
+    for (const auto& place : p.places)
+    {
+        CHECK(place.scale == p.scale);
+        CHECK(place.cosine * place.cosine + place.sine * place.sine == doctest::Approx(1));
+        CHECK(place.tile == 0);
+    }
+    CHECK(area_of(s, p.apply(s.uv, s.first_vertex)) == doctest::Approx(p.utilization));
+}
+
+TEST_CASE("pack: squares of one size fill nine tenths")
+{
+    for (const int n : {2, 3, 5, 10})
+    {
+        const auto s = squares(n * n);
+        taut::pack_params params;
+        params.padding = 0;
+        const auto p = packed(s, params);
+        CAPTURE(n);
+        CHECK(holds(s, p, params));
+        CHECK(p.utilization >= 0.9);
+    }
+}
+
+TEST_CASE("pack: ragged charts of mixed sizes use most of the square")
+{
+    for (const int n : {30, 150})
+    {
+        const auto s = support::ragged_charts(n, 100, 20, 7);
+        const auto p = packed(s);
+        CAPTURE(n);
+        CHECK(holds(s, p));
+        CHECK(p.utilization > 0.63);
+    }
+}
+
+TEST_CASE("pack: a thousand charts keep their padding")
+{
+    const auto s = support::ragged_charts(1000, 16, 50, 2);
+    taut::pack_params params;
+    params.resolution = 4096;
+    const auto p = packed(s, params);
+    CHECK(holds(s, p, params));
+    CHECK(p.utilization > 0.6);
+}
+
+TEST_CASE("pack: small charts are laid in the hole of a large one")
+{
+    chart_set s;
+    s.add(
+        16, [](vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)) > 0.75; }, [](vec2 p) { return 10.0 * p; });
+    for (int c = 0; c < 4; ++c) s.add_rectangle(6, 6, 0.2);
+    const auto p = packed(s);
+    CHECK(holds(s, p));
+    CHECK(p.scale * 20 == doctest::Approx(1 - 4.0 / 1024).epsilon(0.01)); // the frame has the tile to itself
+}
+
+TEST_CASE("pack: padding and resolution are kept")
+{
+    const auto s = support::ragged_charts(8, 40, 10, 3);
+    for (const int resolution : {64, 1024, 8192})
+        for (const double padding : {0.0, 1.5, 16.0})
+        {
+            if (padding > 10 && resolution < 100) continue; // eight charts leave no room for that
+            taut::pack_params params;
+            params.resolution = resolution;
+            params.padding = padding;
+            const auto p = packed(s, params);
+            CAPTURE(resolution);
+            CAPTURE(padding);
+            CHECK(holds(s, p, params));
+        }
+}
+
+TEST_CASE("pack: lengths may be of any unit, and charts anywhere")
+{
+    const auto s = support::ragged_charts(10, 40, 10, 4);
+    const auto use = packed(s).utilization;
+    for (const double unit : {1e-150, 1e-9, 1e9, 1e150})
+    {
+        auto scaled = s;
+        for (vec2& p : scaled.uv) p *= unit;
+        const auto p = packed(scaled);
+        CAPTURE(unit);
+        CHECK(holds(scaled, p));
+        CHECK(p.utilization == doctest::Approx(use).epsilon(0.02));
+    }
+    auto far = s;
+    for (vec2& p : far.uv) p += vec2(1e9, -3e9);
+    CHECK(holds(far, packed(far)));
+}
+
+TEST_CASE("pack: a long sliver lies along the diagonal")
+{
+    chart_set s;
+    s.add_rectangle(1000, 1);
+    const auto p = packed(s);
+    CHECK(holds(s, p));
+    CHECK(p.scale * 1000 > 1.38);
+    taut::pack_params params;
+    params.rotate = false;
+    CHECK(packed(s, params).scale * 1000 == doctest::Approx(1 - 4.0 / 1024).epsilon(0.01));
+}
+
+TEST_CASE("pack: charts that may not be turned are not")
+{
+    const auto s = support::ragged_charts(15, 60, 20, 5);
+    taut::pack_params params;
+    params.rotate = false;
+    const auto p = packed(s, params);
+    CHECK(holds(s, p));
+    for (const auto& place : p.places)
+    {
+        CHECK(place.cosine == 1);
+        CHECK(place.sine == 0);
+    }
+}
+
+TEST_CASE("pack: several tiles hold larger charts, and each is used")
+{
+    const auto s = support::ragged_charts(60, 40, 5, 6);
+    const double one = packed(s).scale;
+    taut::pack_params params;
+    params.tiles = 4;
+    const auto p = packed(s, params);
+    CHECK(holds(s, p));
+    CHECK(p.scale > 1.8 * one);
+    std::array<int, 4> charts{};
+    for (const auto& place : p.places) ++charts.at(static_cast<std::size_t>(place.tile));
+    CHECK(*std::min_element(charts.begin(), charts.end()) > 0);
+}
+
+TEST_CASE("pack: a density gives a chart more texels")
+{
+    const auto s = squares(5);
+    taut::pack_params params;
+    params.densities = {2, 1, 1, 1, 0.5};
+    const auto p = packed(s, params);
+    CHECK(holds(s, p));
+    CHECK(p.places[0].scale == 2 * p.scale);
+    CHECK(p.places[4].scale == 0.5 * p.scale);
+    params.densities = {1, 2};
+    CHECK_THROWS_AS(packed(s, params), taut::parameter_error);
+    params.densities = {1, 1, 1, 1, 0};
+    CHECK_THROWS_AS(packed(s, params), taut::parameter_error);
+}
+
+TEST_CASE("pack: the same charts are packed the same way")
+{
+    const auto s = support::ragged_charts(40, 60, 20, 8);
+    const auto x = packed(s).apply(s.uv, s.first_vertex);
+    CHECK(packed(s).apply(s.uv, s.first_vertex) == x);
+}
+
+TEST_CASE("pack: ended at once, there still is a layout, and it holds")
+{
+    const auto s = support::ragged_charts(100, 40, 20, 9);
+    taut::pack_params params;
+    params.time_limit = taut::budget::seconds(1e-9);
+    const auto limited = packed(s, params);
+    CHECK_FALSE(limited.complete);
+    CHECK(holds(s, limited));
+    params = {};
+    int asked = 0;
+    params.observer = [&](const taut::progress&) { return ++asked < 3; };
+    const auto ended = packed(s, params);
+    CHECK(asked == 3);
+    CHECK_FALSE(ended.complete);
+    CHECK(holds(s, ended));
+    CHECK(packed(s).complete);
+    CHECK(packed(s).scale > ended.scale);
+}
+
+TEST_CASE("pack: charts without area among others, folded and clockwise ones have their place, too")
+{
+    chart_set s = squares(3);
+    s.add(
+        2, [](vec2) { return true; }, [](vec2 p) { return vec2(p.x, 0); }); // a line
+    s.add(
+        2, [](vec2) { return true; }, [](vec2) { return vec2(7, 7); }); // a point
+    s.add(
+        2, [](vec2) { return true; }, [](vec2 p) { return vec2(p.y, p.x); }); // clockwise
+    s.add(
+        4, [](vec2) { return true; }, [](vec2 p) { return vec2(std::abs(p.x), p.y); }); // folded
+    const auto p = packed(s);
+    CHECK(holds(s, p));
+    CHECK(p.utilization > 0.4);
+}
+
+TEST_CASE("pack: refuses what has no area or no room, and takes nothing for nothing")
+{
+    chart_set s;
+    CHECK(packed(s).places.empty());
+    s.add(
+        1, [](vec2) { return true; }, [](vec2 p) { return vec2(p.x, 0); });
+    const auto fault_of = [](const chart_set& charts, const taut::pack_params& params)
+    {
+        try
+        {
+            packed(charts, params);
+        }
+        catch (const taut::packing_error& e)
+        {
+            return e.fault();
+        }
+        return taut::packing_fault::out_of_range;
+    };
+    CHECK(fault_of(s, {}) == taut::packing_fault::no_area);
+    taut::pack_params params;
+    params.resolution = 64;
+    params.padding = 16;
+    CHECK(fault_of(squares(9), params) == taut::packing_fault::no_room);
+    params.tiles = 9;
+    CHECK(holds(squares(9), packed(squares(9), params), params));
+    params.padding = 32;
+    CHECK_THROWS_AS(packed(squares(9), params), taut::parameter_error);
+}
