@@ -17,6 +17,7 @@ using command = std::function<exit_code()>;
 
 /// Each adds one subcommand with its options and returns what it does. `launch` is when the program started.
 command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point launch);
+command add_atlas(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_deform(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch);
@@ -29,10 +30,9 @@ command add_devices(CLI::App& program);
 /// All of them, in the order in which the help lists them.
 inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_clock::time_point launch)
 {
-    return {add_unwrap(program, launch), add_untangle(program, launch),
-            add_deform(program, launch), add_smooth(program, launch),
-            add_paste(program, launch),  add_check(program),
-            add_eval(program),           add_view(program),
+    return {add_unwrap(program, launch), add_atlas(program, launch),  add_untangle(program, launch),
+            add_deform(program, launch), add_smooth(program, launch), add_paste(program, launch),
+            add_check(program),          add_eval(program),           add_view(program),
             add_devices(program)};
 }
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include <taut/atlas/flatten_charts.hpp>
+#include <taut/atlas/segment.hpp>
+#include <taut/packing/pack_params.hpp>
+
+namespace taut
+{
+
+/// Where a run of make_atlas() is.
+struct atlas_progress
+{
+    std::string_view stage;                                  ///< "charts", "flatten", "pack" or "certify"
+    idx charts = 0;                                          ///< that are done in this stage
+    double value = std::numeric_limits<double>::quiet_NaN(); ///< mean energy of these, or the use of the squares
+    double seconds = 0;                                      ///< since the start
+    bool usable = false;                                     ///< a run that ends now has a result
+};
+
+/// How an atlas is made. Every field has a sensible default.
+struct atlas_params
+{
+    segment_params charts = {}; ///< how far charts go, and seams that are given
+
+    /// Charts are what `charts.seams` part, and stay: they are flattened, from `initial` if it is given, and packed.
+    bool keep_charts = false;
+
+    /// Of kept charts: the map to start from, one coordinate a corner; or empty.
+    std::vector<std::array<vec2, 3>> initial = {};
+
+    flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
+    pack_params packing = {};       ///< the same
+
+    /// Wall-clock limit of the whole call. What is not flattened by then is as it began.
+    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+
+    /// Asked several times a second whether to go on.
+    std::function<bool(const atlas_progress&)> observer = {};
+};
+
+} // namespace taut

@@ -1,0 +1,280 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""program.py TAUT FOLDER: `taut atlas` as its users meet it. Its results are judged by other code than its own."""
+import json
+import math
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+TAUT, FOLDER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+
+
+# Meshes
+
+def ball(n, radius=1.0, bumps=0.0):
+    """A closed surface: a cube with n^2 squares a face, blown up, with bumps."""
+    points, triangles, number = [], [], {}
+
+    def vertex(p):
+        if p not in number:
+            number[p] = len(points)
+            x = [math.tan((2 * c / n - 1) * math.pi / 4) for c in p]
+            length = math.sqrt(sum(c * c for c in x))
+            x = [c / length for c in x]
+            r = radius * (1 + bumps * math.sin(5 * x[0] + 1) * math.sin(4 * x[1]) * math.cos(6 * x[2]))
+            points.append([r * c for c in x])
+        return number[p]
+
+    for axis in range(3):
+        for side in (0, n):
+            for i in range(n):
+                for j in range(n):
+                    def at(a, b):
+                        p = [0, 0, 0]
+                        p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, a, b
+                        return vertex(tuple(p))
+                    q = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
+                    q = q if side else q[::-1]
+                    triangles += [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]
+    return points, triangles
+
+
+def torus(n, m, R=2.0, r=0.7):
+    points = [[(R + r * math.cos(2 * math.pi * j / m)) * math.cos(2 * math.pi * i / n),
+               (R + r * math.cos(2 * math.pi * j / m)) * math.sin(2 * math.pi * i / n),
+               r * math.sin(2 * math.pi * j / m)] for i in range(n) for j in range(m)]
+    triangles = []
+    for i in range(n):
+        for j in range(m):
+            a, b, c, d = i * m + j, (i + 1) % n * m + j, (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m
+            triangles += [[a, b, c], [a, c, d]]
+    return points, triangles
+
+
+def obj(points, faces):
+    return "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points) + \
+           "".join("f " + " ".join(str(v + 1) for v in f) + "\n" for f in faces)
+
+
+def write(name, points, faces):
+    pathlib.Path(name).write_text(obj(points, faces))
+
+
+# What comes back
+
+def read(name):
+    points, uv, faces, texcoords = [], [], [], []
+    for line in pathlib.Path(name).read_text().splitlines():
+        word = line.split()
+        if word and word[0] == "v":
+            points.append([float(x) for x in word[1:4]])
+        elif word and word[0] == "vt":
+            uv.append((float(word[1]), float(word[2])))
+        elif word and word[0] == "f":
+            corners = [c.split("/") for c in word[1:]]
+            faces.append([int(c[0]) - 1 for c in corners])
+            texcoords.append([int(c[1]) - 1 if len(c) > 1 and c[1] else None for c in corners])
+    return points, uv, faces, texcoords
+
+
+def cross(a, b, c):
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def judge(name, points, faces, dropped=(), samples=512, tiles=1):
+    """The file has these vertices and faces in their order, none flipped, no sample of a grid covered twice."""
+    got, uv, got_faces, texcoords = read(name)
+    assert got == points and got_faces == faces, f"{name}: vertices or faces have changed"
+    count = {}
+    for f, corners in enumerate(texcoords):
+        if f in dropped:
+            assert all(c is None for c in corners), f"{name}: face {f} was left out and has vt"
+            continue
+        t = [uv[c] for c in corners]
+        for k in range(1, len(t) - 1):
+            a, b, c = t[0], t[k], t[k + 1]
+            assert cross(a, b, c) > 0, f"{name}: face {f} is flipped"
+            low = [min(p[d] for p in (a, b, c)) for d in (0, 1)]
+            high = [max(p[d] for p in (a, b, c)) for d in (0, 1)]
+            assert low[0] >= 0 and low[1] >= 0 and high[0] <= tiles and high[1] <= 1, f"{name}: outside of the square"
+            for i in range(math.floor(low[0] * samples), math.ceil(high[0] * samples) + 1):
+                for j in range(math.floor(low[1] * samples), math.ceil(high[1] * samples) + 1):
+                    p = ((i + 0.37) / samples, (j + 0.61) / samples)
+                    if cross(a, b, p) > 0 and cross(b, c, p) > 0 and cross(c, a, p) > 0:
+                        assert (i, j) not in count, f"{name}: faces {count[i, j]} and {f} overlap"
+                        count[i, j] = f
+    return len(count) / samples ** 2
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([TAUT, *map(str, arguments)], capture_output=True, text=True, check=False)
+    assert done.returncode == code, f"taut {arguments}: code {done.returncode}, not {code}\n{done.stdout}{done.stderr}"
+    return done
+
+
+def stats(name):
+    s = json.loads(pathlib.Path(name).read_text())
+    assert s["schema"] == "taut.atlas/1"
+    assert s["flipped"] == s["branch_points"] == s["overlaps"] == 0
+    return s
+
+
+# Cases
+
+def closed_surfaces():
+    for name, (points, faces) in {"ball": ball(12, bumps=0.2), "torus": torus(40, 16)}.items():
+        write(f"{name}.obj", points, faces)
+        told = run("atlas", f"{name}.obj", "-o", f"{name}.out.obj", "--stats", "s.json", "--picture", "p.png",
+                   "--render", "r.png").stdout
+        assert "certificate" in told and "0 flips, 0 overlaps" in told, told
+        s = stats("s.json")
+        use = judge(f"{name}.out.obj", points, faces)
+        assert abs(use - s["utilization"]) < 0.02, (use, s["utilization"])
+        assert s["utilization"] > 0.5 and 4 <= s["distortion"] <= 4.05 and s["worst_distortion"] <= 4.21
+        assert s["charts"] == len(s["chart_table"]) < 40
+        assert sum(c["triangles"] for c in s["chart_table"]) == len(faces)
+        assert s["least_distance"] >= s["padding"] * (1 - 1e-9)
+        assert pathlib.Path("p.png").stat().st_size > 1000 and pathlib.Path("r.png").stat().st_size > 1000
+        again = run("atlas", f"{name}.obj", "-o", "again.obj", "--quiet")
+        assert again.stdout == "" and pathlib.Path("again.obj").read_bytes() == \
+            pathlib.Path(f"{name}.out.obj").read_bytes(), "not the same twice"
+
+
+def parts_holes_and_padding():
+    points, faces = ball(8)
+    more, others = torus(24, 10)
+    both = points + [[x + 5, y, z] for x, y, z in more], faces[7:] + [[v + len(points) for v in f] for f in others]
+    write("both.obj", *both)
+    run("atlas", "both.obj", "-o", "out.obj", "--padding", 8, "--resolution", 256, "--upright", "--stats", "s.json",
+        "--max-distortion", 5)
+    s = stats("s.json")
+    assert s["least_distance"] >= 8 * (1 - 1e-9) and s["worst_distortion"] <= 5
+    judge("out.obj", *both)
+    fewer = s["charts"]
+    run("atlas", "both.obj", "-o", "out.obj", "--max-distortion", 4.01, "--stats", "s.json", "--udim", 2)
+    s = stats("s.json")
+    assert s["worst_distortion"] <= 4.01 and s["charts"] > fewer and s["tiles"] == 2
+    judge("out.obj", *both, tiles=2)
+
+
+def repairs():
+    points, faces = ball(6)
+    broken = points + [[9.0, 9.0, 9.0]], faces + [faces[3], [0, 1, 1]]
+    broken[1][5] = broken[1][5][::-1]
+    write("broken.obj", *broken)
+    done = run("atlas", "broken.obj", "-o", "out.obj", code=4)
+    assert "--repair" in done.stderr, done.stderr
+    assert not pathlib.Path("out.obj").exists()
+    run("atlas", "broken.obj", "-o", "out.obj", "--repair", "--stats", "s.json")
+    s = stats("s.json")
+    assert s["surfaces"][0]["mapped"] == len(faces)
+    kinds = {r["kind"] for r in s["surfaces"][0]["repairs"]}
+    assert {"duplicate_cell", "repeated_vertex", "inconsistent_orientation", "unreferenced_vertex"} <= kinds, kinds
+    _, _, got_faces, texcoords = read("out.obj")
+    assert got_faces == broken[1]
+    assert texcoords[-1] == [None] * 3 and texcoords[-2] == [None] * 3 and None not in texcoords[5]
+
+
+def kept_charts_and_seams():
+    points, faces = ball(8)
+    write("ball.obj", points, faces)
+    run("atlas", "ball.obj", "-o", "once.obj", "--stats", "s.json")
+    first = stats("s.json")
+    run("atlas", "once.obj", "-o", "kept.obj", "--charts", "keep", "--stats", "s.json")
+    assert stats("s.json")["charts"] == first["charts"]
+    judge("kept.obj", points, faces)
+    done = run("atlas", "ball.obj", "-o", "x.obj", "--charts", "keep", code=4)
+    assert "no texture coordinates" in done.stderr
+
+    # The equator is a seam.
+    edges = {tuple(sorted((f[k], f[k - 1]))) for f in faces for k in range(3)}
+    equator = [e for e in edges if all(abs(points[v][2]) < 1e-9 for v in e)]
+    pathlib.Path("seams").write_text("# equator\n" + "".join(f"{a} {b}\n" for a, b in equator))
+    run("atlas", "ball.obj", "-o", "out.obj", "--seams", "seams", "--max-distortion", 8)
+    judge("out.obj", points, faces)
+    _, uv, _, texcoords = read("out.obj")
+    sides = {}
+    for f, t in zip(faces, texcoords):
+        for k in range(3):
+            sides.setdefault(tuple(sorted((f[k], f[k - 1]))), []).append({uv[t[k]], uv[t[k - 1]]})
+    assert equator and all(sides[e][0] != sides[e][1] for e in equator), "the equator is no seam"
+    pathlib.Path("seams").write_text("0 399999\n")
+    assert "line 1" in run("atlas", "ball.obj", "-o", "x.obj", "--seams", "seams", code=3).stderr
+    pathlib.Path("seams").write_text(f"{equator[0][0]} 0\n" if equator[0][0] else f"{equator[0][1]} 1\n")
+    assert "have no edge" in run("atlas", "ball.obj", "-o", "x.obj", "--seams", "seams", code=4).stderr
+
+
+def polygons_and_several_surfaces():
+    points, faces = ball(6)
+    quads = [[a[0], a[1], a[2], b[2]] for a, b in zip(faces[::2], faces[1::2])]
+    write("quads.obj", points, quads)
+    run("atlas", "quads.obj", "-o", "out.obj")
+    judge("out.obj", points, quads)
+    more = torus(24, 10)
+    write("torus.obj", *more)
+    run("atlas", "quads.obj", "torus.obj", "-o", "a.obj", "-o", "b.obj", "--stats", "s.json")
+    assert len(stats("s.json")["surfaces"]) == 2
+    use = judge("a.obj", points, quads) + judge("b.obj", *more)
+    assert abs(use - stats("s.json")["utilization"]) < 0.03
+    run("atlas", "quads.obj", "torus.obj", "-o", "one.obj")
+    both = points + more[0], faces + [[v + len(points) for v in f] for f in more[1]]
+    text = pathlib.Path("one.obj").read_text()
+    assert "o quads\n" in text and "o torus\n" in text
+    got, _, got_faces, _ = read("one.obj")
+    assert got == both[0] and len(got_faces) == len(both[1])
+    judge("one.obj", both[0], got_faces)
+
+
+def wrong_usage():
+    points, faces = ball(4)
+    write("ball.obj", points, faces)
+    for arguments, words in ((["ball.obj"], "--output"), (["ball.obj", "-o", "x.png"], "must end in"),
+                             (["ball.obj", "-o", "x.obj", "--max-distortion", "4"], "not above 4"),
+                             (["ball.obj", "-o", "x.obj", "--padding", "-1"], "padding"),
+                             (["ball.obj", "ball.obj", "ball.obj", "-o", "x.obj", "-o", "y.obj"], "outputs"),
+                             (["ball.obj", "ball.obj", "-o", "x.obj", "--seams", "ball.obj"], "--seams")):
+        assert words in run("atlas", *arguments, code=2).stderr
+    assert run("atlas", "none.obj", "-o", "x.obj", code=3).stderr
+    pathlib.Path("garbage.obj").write_text("v 0 0\nf 1 2 3\n")
+    assert run("atlas", "garbage.obj", "-o", "x.obj", code=3).stderr
+    assert not pathlib.Path("x.obj").exists()
+
+
+def stops():
+    points, faces = ball(60, bumps=0.2)
+    write("large.obj", points, faces)
+    began = time.monotonic()
+    done = subprocess.Popen([TAUT, "atlas", "large.obj", "-o", "out.obj", "--progress", "json"],
+                            stderr=subprocess.PIPE, text=True)
+    stage = ""
+    for line in done.stderr:
+        if line.startswith("{"):
+            stage = json.loads(line)["phase"]
+            if stage == "flatten":
+                break
+    assert stage == "flatten", stage
+    os.kill(done.pid, signal.SIGINT)
+    done.communicate()
+    assert done.returncode == 130, (done.returncode, time.monotonic() - began)
+    if pathlib.Path("out.obj").exists():
+        judge("out.obj", points, faces)
+
+
+def main():
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    FOLDER.mkdir(parents=True)
+    os.chdir(FOLDER)
+    for case in (closed_surfaces, parts_holes_and_padding, repairs, kept_charts_and_seams,
+                 polygons_and_several_surfaces, wrong_usage, stops):
+        begin = time.monotonic()
+        case()
+        print(f"{case.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main()

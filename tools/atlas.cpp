@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <atlas/atlas_options.hpp>
+#include <atlas/atlas_report.hpp>
+#include <atlas/atlas_source.hpp>
+#include <atlas/joined_surfaces.hpp>
+#include <atlas/seam_edges.hpp>
+#include <picture/layout_picture.hpp>
+#include <picture/layout_svg.hpp>
+#include <picture/render_picture.hpp>
+#include <picture/symmetric_distortion.hpp>
+#include <taut/atlas/make_atlas.hpp>
+#include <taut/io/write_files.hpp>
+
+#include "commands.hpp"
+#include "failure.hpp"
+#include "interrupt.hpp"
+#include "open_queue.hpp"
+#include "outputs.hpp"
+#include "png.hpp"
+#include "progress.hpp"
+#include "report_files.hpp"
+#include "run_clock.hpp"
+#include "shared_options.hpp"
+#include "writing.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// One run of `taut atlas`, phase by phase.
+class atlas_run
+{
+public:
+    atlas_run(const atlas_options& options, std::chrono::steady_clock::time_point launch)
+        : options_(options), clock_(launch), progress_(progress_of(options.progress, options.quiet), std::cerr)
+    {
+    }
+
+    exit_code operator()()
+    {
+        const auto outputs = check(options_);
+        if (!options_.quiet) place_of_report_ = outputs.place_of_report();
+        limit_time(options_.time_limit - clock_.now());
+        tell("read");
+        report_.read = clock_.timed([&] { read(); });
+        make();
+        write();
+        return report_.code;
+    }
+
+private:
+    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
+
+    void read()
+    {
+        for (std::size_t i = 0; i < options_.inputs.size(); ++i)
+        {
+            sources_.push_back(open_atlas_source(options_.inputs[i], to_source_options(options_)));
+            const auto& s = *sources_.back();
+            auto& told = report_.surfaces.emplace_back();
+            told.input = options_.inputs[i];
+            told.output = options_.outputs[options_.outputs.size() == 1 ? 0 : i];
+            told.vertices = s.file_vertices;
+            told.triangles = s.file_triangles;
+            told.mapped = s.surface().cell_count();
+            told.repairs = s.repairs;
+            told.repair_lines = s.repair_lines;
+            report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());
+        }
+        joined_.emplace(join(sources_));
+    }
+
+    void make()
+    {
+        const auto& m = joined_->surface;
+        auto params = to_params(options_);
+        const auto f = facets(m);
+        const auto seams = seams_of(sources_, *joined_, f, options_);
+        params.charts.seams = seams;
+        if (options_.keep_charts) params.initial = texcoords_of(sources_);
+        params.observer = [this](const atlas_progress& p)
+        {
+            keep(p.usable);
+            progress_.update(
+                {.phase = p.stage, .step = static_cast<int>(p.charts), .energy = p.value, .seconds = clock_.now()});
+            return !interrupted();
+        };
+        tell("device");
+        std::optional<queue> q;
+        report_.queue = clock_.timed([&] { q = open_queue(options_.device, false); });
+        report_.device = q->device().name();
+        report_.device_label = (std::ostringstream() << q->device()).str();
+        if (std::isfinite(options_.time_limit))
+            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+        atlas_ = make_atlas(*q, m, params);
+        report_.atlas = atlas_->report;
+        report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
+        if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;
+        if (!*atlas_) throw no_valid_map(atlas_->report.reason);
+    }
+
+    void write()
+    {
+        tell("write");
+        keep(true);
+        const double begin = clock_.now();
+        const auto note_time = [&]
+        {
+            report_.total = clock_.now();
+            report_.write = report_.total - begin - report_.draw;
+        };
+        const corner_maps maps(*joined_, *atlas_);
+        std::vector<io::file_to_write> files;
+        if (options_.outputs.size() < sources_.size())
+            files.push_back({options_.outputs[0],
+                             [&](io::atomic_file& file) { write_joined(file, options_.inputs, *joined_, maps); }});
+        else
+            for (std::size_t i = 0; i < sources_.size(); ++i)
+                files.push_back({options_.outputs[i],
+                                 [this, i, &maps](io::atomic_file& file) { sources_[i]->write(file, maps.of(i)); }});
+        if (drawn(options_.picture, report_.notes))
+            files.push_back(
+                {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});
+        if (drawn(options_.render, report_.notes))
+            files.push_back(
+                {options_.render, [&](io::atomic_file& file) { file.write(timed([&] { return render(); })); }});
+        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
+    }
+
+    /// A picture, whose making is no part of the writing.
+    template <class Draw>
+    std::string timed(Draw&& draw)
+    {
+        std::string image;
+        report_.draw += clock_.timed([&] { image = draw(); });
+        return image;
+    }
+
+    std::string title() const
+    {
+        std::string names;
+        for (const auto& input : options_.inputs)
+            names += (names.empty() ? "" : ", ") + std::filesystem::path(input).filename().string();
+        return names;
+    }
+
+    std::string picture() const
+    {
+        const auto& cut = atlas_->charts.surface;
+        std::vector<vec2> sized = atlas_->uv;
+        for (vec2& p : sized) p /= atlas_->layout.scale;
+        const auto distortion = io::symmetric_distortion(cut.points(), cut.cells(), sized);
+        const auto loops = boundary_loops(cut);
+        const io::layout_style style{.title = title(),
+                                     .energy = report_.atlas.distortion,
+                                     .note = std::to_string(report_.atlas.charts.size()) + " charts, " +
+                                             std::to_string(static_cast<int>(100 * report_.atlas.utilization)) +
+                                             " % of the square used"};
+        if (extension(options_.picture) == ".svg")
+            return io::layout_svg(atlas_->uv, cut.cells(), distortion, loops, style, {});
+        return encode_png(io::layout_picture(atlas_->uv, cut.cells(), distortion, loops, style, {}));
+    }
+
+    std::string render() const
+    {
+        const auto& cut = atlas_->charts.surface;
+        return encode_png(io::render_picture(cut.points(), cut.cells(), atlas_->uv, {.title = title()}));
+    }
+
+    atlas_options options_;
+    run_clock clock_;
+    progress progress_;
+    std::vector<std::unique_ptr<atlas_source>> sources_;
+    std::optional<joined_surfaces> joined_;
+    std::optional<atlas> atlas_;
+    atlas_run_report report_;
+    const char* place_of_report_ = nullptr; ///< null: there is none
+};
+
+} // namespace
+
+command add_atlas(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<atlas_options>();
+    declare(*program.add_subcommand("atlas", "Cut any surface into charts, flatten them and pack them in a square"),
+            *options);
+    return [options, launch] { return atlas_run(*options, launch)(); };
+}
+
+} // namespace taut::tools

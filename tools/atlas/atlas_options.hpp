@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <taut/atlas/atlas_params.hpp>
+#include <taut/io/read_surface.hpp>
+
+#include "../outputs.hpp"
+#include "atlas_source.hpp"
+
+namespace taut::tools
+{
+
+/// What the user asked `taut atlas` for.
+struct atlas_options
+{
+    std::vector<std::string> inputs, outputs; ///< as many of these as of those
+    std::string seams, stats, picture, render, report, device, progress;
+    io::surface_format format{};
+    bool repair = false, keep_charts = false, keep_seams = false, upright = false, quiet = false;
+    std::optional<double> max_distortion, mean_distortion;
+    double padding = pack_params{}.padding;
+    int resolution = pack_params{}.resolution, tiles = 1, texcoord_set = 0;
+    double time_limit = std::numeric_limits<double>::infinity();
+    std::string command; ///< to do it again
+};
+
+/// Declares the options; they are filled when the program's arguments are parsed.
+void declare(CLI::App& app, atlas_options& options);
+
+/// Throws usage_error for options that do not fit together and for outputs that could not be written.
+outputs check(const atlas_options& options);
+
+source_options to_source_options(const atlas_options& options);
+
+/// What the library is to do, all but seams, the map to begin with and the observer.
+atlas_params to_params(const atlas_options& options);
+
+} // namespace taut::tools

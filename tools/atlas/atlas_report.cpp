@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "atlas_report.hpp"
+
+#include <iostream>
+#include <sstream>
+
+#include "../assessment.hpp"
+#include "../run_clock.hpp"
+#include "../text_table.hpp"
+
+namespace taut::tools
+{
+
+nlohmann::ordered_json to_json(const atlas_run_report& r, const atlas_options& o)
+{
+    const auto& a = r.atlas;
+    nlohmann::ordered_json json;
+    json["schema"] = "taut.atlas/1";
+    json["surfaces"] = nlohmann::ordered_json::array();
+    for (const auto& s : r.surfaces)
+        json["surfaces"].push_back({{"input", s.input},
+                                    {"output", s.output},
+                                    {"vertices", s.vertices},
+                                    {"faces", s.triangles},
+                                    {"mapped", s.mapped},
+                                    {"repairs", s.repairs}});
+    json["device"] = r.device;
+    json["complete"] = a.complete;
+    json["charts"] = a.charts.size();
+    json["distortion"] = finite(a.distortion);
+    json["worst_distortion"] = finite(a.worst);
+    json["utilization"] = a.utilization;
+    json["flipped"] = a.flips.flipped;
+    json["branch_points"] = a.flips.branched;
+    json["overlaps"] = a.overlaps;
+    json["seam_length"] = a.seam_length;
+    json["resolution"] = o.resolution;
+    json["padding"] = o.padding;
+    json["least_distance"] = finite(a.least_distance);
+    json["tiles"] = a.tiles;
+    json["seconds"] = {{"read", r.read},
+                       {"device", r.queue},
+                       {"setup", a.seconds.setup},
+                       {"charts", a.seconds.charts},
+                       {"flatten", a.seconds.flatten},
+                       {"pack", a.seconds.pack},
+                       {"certify", a.seconds.certify},
+                       {"draw", r.draw},
+                       {"write", r.write},
+                       {"total", r.total}};
+    json["chart_table"] = nlohmann::ordered_json::array();
+    for (const auto& c : a.charts)
+        json["chart_table"].push_back(
+            {{"triangles", c.triangles}, {"tile", c.tile}, {"area", c.area}, {"energy", finite(c.energy)}});
+    json["peak_memory_bytes"] = peak_memory();
+    json["notes"] = r.notes;
+    return json;
+}
+
+std::string text_of(const atlas_run_report& r, const atlas_options& o)
+{
+    for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
+    const auto& a = r.atlas;
+    labelled_lines lines;
+    std::string files;
+    for (const auto& s : r.surfaces)
+    {
+        const auto all = static_cast<std::uint64_t>(s.triangles), mapped = static_cast<std::uint64_t>(s.mapped);
+        lines.add("mesh", s.input + ": " + count(static_cast<std::uint64_t>(s.vertices), "vertex", "vertices") + ", " +
+                              count(all, "triangle", "triangles") +
+                              (mapped < all ? ", " + count(all - mapped) + " left out" : ""));
+        for (const auto& line : s.repair_lines) lines.add("repair", line);
+        if (files.empty() || s.output != r.surfaces.front().output) files += (files.empty() ? "" : ", ") + s.output;
+    }
+    lines.add("device", r.device_label);
+    lines.add("charts", count(a.charts.size(), "chart", "charts") + ", seams of length " + number(a.seam_length));
+    lines.add("distortion", "isometric energy " + number(a.distortion, 6) + " by area, " + number(a.worst, 4) +
+                                " in the worst chart; 4 is none");
+    lines.add("atlas", number(100 * a.utilization, 3) + " % of " +
+                           (a.tiles > 1 ? count(static_cast<std::uint64_t>(a.tiles)) + " squares" : "the square") +
+                           " used, charts " + number(a.least_distance, 3) + " texels apart at " +
+                           std::to_string(o.resolution));
+    lines.add("certificate", count(a.flips.flipped, "flip", "flips") + ", " + count(a.overlaps, "overlap", "overlaps") +
+                                 (a.complete ? "" : "; ended early"));
+    lines.add("time", duration(r.total) + ": read " + duration(r.read) + ", device " + duration(r.queue) + ", setup " +
+                          duration(a.seconds.setup) + ", charts " + duration(a.seconds.charts) + ", flatten " +
+                          duration(a.seconds.flatten) + ", pack " + duration(a.seconds.pack) + ", certify " +
+                          duration(a.seconds.certify) + (r.draw > 0 ? ", draw " + duration(r.draw) : "") + ", write " +
+                          duration(r.write));
+    lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
+    for (const auto& file : {o.picture, o.render, o.report, o.stats})
+        if (!file.empty()) files += ", " + file;
+    lines.add("wrote", files);
+    return (std::ostringstream() << lines).str();
+}
+
+} // namespace taut::tools

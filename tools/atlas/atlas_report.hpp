@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <taut/atlas/make_atlas.hpp>
+
+#include "../exit_codes.hpp"
+#include "atlas_options.hpp"
+
+namespace taut::tools
+{
+
+/// Everything that a run of `taut atlas` says of itself.
+struct atlas_run_report
+{
+    struct surface
+    {
+        std::string input, output;
+        idx vertices = 0, triangles = 0; ///< of the file
+        idx mapped = 0;                  ///< triangles that have a place in the atlas
+        nlohmann::ordered_json repairs = nlohmann::ordered_json::array();
+        std::vector<std::string> repair_lines;
+    };
+
+    std::vector<surface> surfaces;
+    std::vector<std::string> notes;
+    std::string device, device_label;
+    taut::atlas_report atlas;
+    double read = 0, queue = 0, draw = 0, write = 0, total = 0; ///< seconds
+    exit_code code = exit_code::valid;
+};
+
+nlohmann::ordered_json to_json(const atlas_run_report& report, const atlas_options& options);
+std::string text_of(const atlas_run_report& report, const atlas_options& options);
+
+} // namespace taut::tools

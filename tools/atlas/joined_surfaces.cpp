@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "joined_surfaces.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include <taut/io/detail/obj_output.hpp>
+
+namespace taut::tools
+{
+
+joined_surfaces join(const std::vector<std::unique_ptr<atlas_source>>& sources)
+{
+    std::vector<vec3> points;
+    std::vector<std::array<idx, 3>> cells;
+    std::vector<idx> first_cell{0}, first_vertex{0};
+    for (const auto& source : sources)
+    {
+        const auto& m = source->surface();
+        points.insert(points.end(), m.points().begin(), m.points().end());
+        for (auto t : m.cells())
+        {
+            for (idx& v : t) v += first_vertex.back();
+            cells.push_back(t);
+        }
+        first_cell.push_back(first_cell.back() + m.cell_count());
+        first_vertex.push_back(first_vertex.back() + m.vertex_count());
+    }
+    return {mesh<triangle>(std::move(points), std::move(cells)), std::move(first_cell), std::move(first_vertex)};
+}
+
+corner_maps::corner_maps(const joined_surfaces& joined, const atlas& made)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    const auto cells = made.corners(); // in the order of the joined surface
+    for (std::size_t i = 0; i + 1 < joined.first_cell.size(); ++i)
+    {
+        std::vector<idx> number(made.uv.size(), -1);
+        part own;
+        for (auto c = u(joined.first_cell[i]); c < u(joined.first_cell[i + 1]); ++c)
+        {
+            own.cells.push_back(cells[c]);
+            for (idx& v : own.cells.back())
+            {
+                idx& n = number[u(v)];
+                if (n < 0)
+                {
+                    n = static_cast<idx>(own.uv.size());
+                    own.uv.push_back(made.uv[u(v)]);
+                }
+                v = n;
+            }
+        }
+        parts_.push_back(std::move(own));
+    }
+}
+
+corner_map corner_maps::of(std::size_t file) const
+{
+    return {parts_[file].uv, parts_[file].cells};
+}
+
+void write_joined(io::atomic_file& out, std::span<const std::string> names, const joined_surfaces& joined,
+                  const corner_maps& maps)
+{
+    idx first_texcoord = 0;
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+        out.write("o " + std::filesystem::path(names[i]).stem().string() + '\n');
+        const auto first = static_cast<std::size_t>(joined.first_vertex[i]);
+        io::detail::write_items(out, static_cast<std::size_t>(joined.first_vertex[i + 1]) - first,
+                                [&](std::string& text, std::size_t v)
+                                {
+                                    const vec3& p = joined.surface.points()[first + v];
+                                    io::detail::append_line(text, "v", {p.x, p.y, p.z});
+                                });
+        const corner_map map = maps.of(i);
+        io::detail::write_texcoords(out, map.uv);
+        const auto first_cell = static_cast<std::size_t>(joined.first_cell[i]);
+        io::detail::write_items(out, map.cells.size(),
+                                [&](std::string& text, std::size_t c)
+                                {
+                                    auto texcoords = map.cells[c];
+                                    for (idx& t : texcoords) t += first_texcoord;
+                                    io::detail::append_face(text, joined.surface.cells()[first_cell + c], texcoords,
+                                                            false);
+                                });
+        first_texcoord += static_cast<idx>(map.uv.size());
+    }
+}
+
+} // namespace taut::tools

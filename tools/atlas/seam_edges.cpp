@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "seam_edges.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <utility>
+
+#include <taut/io/read_file.hpp>
+
+#include "../failure.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+std::size_t u(idx i)
+{
+    return static_cast<std::size_t>(i);
+}
+
+/// Edges of a file, two vertices a line, from 0, with the smaller vertex first, sorted.
+std::vector<std::array<idx, 2>> read_edges(const std::string& path, idx vertices)
+{
+    const std::string text = io::read_file(path);
+    std::vector<std::array<idx, 2>> edges;
+    std::size_t line = 1;
+    const auto fail = [&](const std::string& what)
+    { throw io::io_error(path, "line " + std::to_string(line) + ": " + what); };
+    for (std::size_t begin = 0; begin < text.size(); ++line)
+    {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const char *at = text.data() + begin, *const stop = text.data() + std::min(text.find('#', begin), end);
+        begin = end + 1;
+        const auto blank = [&] { return at != stop && (*at == ' ' || *at == '\t' || *at == '\r' || *at == ','); };
+        std::vector<idx> numbers;
+        while (true)
+        {
+            while (blank()) ++at;
+            if (at == stop) break;
+            idx v = 0;
+            const auto [next, error] = std::from_chars(at, stop, v);
+            if (error != std::errc{}) fail("no number of a vertex; write two a line, from 0");
+            if (v < 0 || v >= vertices)
+                fail("vertex " + std::to_string(v) + " of " + std::to_string(vertices) + "; write them from 0");
+            numbers.push_back(v);
+            at = next;
+        }
+        if (numbers.empty()) continue;
+        if (numbers.size() != 2) fail(std::to_string(numbers.size()) + " numbers; write the two vertices of an edge");
+        edges.push_back({std::min(numbers[0], numbers[1]), std::max(numbers[0], numbers[1])});
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+/// Marks these edges.
+void mark_edges(std::vector<char>& seam, const std::vector<std::array<idx, 2>>& edges, const atlas_source& source,
+                const std::string& path)
+{
+    const auto& m = source.surface();
+    std::vector<char> found(edges.size(), 0);
+    for (idx s = 0; s < 3 * m.cell_count(); ++s)
+    {
+        auto v = side_vertices(m, s);
+        for (idx& i : v) i = source.vertex_origin(i);
+        std::sort(v.begin(), v.end());
+        const auto at = std::lower_bound(edges.begin(), edges.end(), v);
+        if (at == edges.end() || *at != v) continue;
+        seam[u(s)] = 1;
+        found[static_cast<std::size_t>(at - edges.begin())] = 1;
+    }
+    const auto missing = std::find(found.begin(), found.end(), char(0));
+    if (missing == found.end()) return;
+    const auto& e = edges[static_cast<std::size_t>(missing - found.begin())];
+    throw unsuitable_input(path + ": vertices " + std::to_string(e[0]) + " and " + std::to_string(e[1]) +
+                           " have no edge; name two vertices of a triangle, from 0");
+}
+
+/// Marks the sides along which the texture coordinates of two triangles disagree.
+void mark_texcoords(std::vector<char>& seam, const mesh<triangle>& m, const facet_table& f,
+                    const std::vector<std::array<vec2, 3>>& uv)
+{
+    for (std::size_t s = 0; s < seam.size(); ++s)
+    {
+        if (f.twin[s] < 0) continue;
+        const auto t = u(f.twin[s]);
+        for (const std::size_t k : {(s + 1) % 3, (s + 2) % 3})
+            for (const std::size_t j : {(t + 1) % 3, (t + 2) % 3}) // positions in the triangles, as 3 divides 3 c
+                if (m.cells()[s / 3][k] == m.cells()[t / 3][j] && uv[s / 3][k] != uv[t / 3][j]) seam[s] = 1;
+    }
+}
+
+} // namespace
+
+std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
+                           const facet_table& f, const atlas_options& options)
+{
+    if (options.seams.empty() && !options.keep_charts && !options.keep_seams) return {};
+    std::vector<char> seam(f.twin.size(), 0);
+    if (!options.seams.empty())
+        mark_edges(seam, read_edges(options.seams, sources[0]->file_vertices), *sources[0], options.seams);
+    if (options.keep_charts) mark_texcoords(seam, joined.surface, f, texcoords_of(sources));
+    if (!options.keep_seams) return seam;
+
+    std::vector<std::array<vec2, 3>> uv;
+    std::vector<idx> label;
+    bool any = false;
+    for (const auto& source : sources)
+    {
+        auto own = source->texcoords();
+        any = any || !own.empty();
+        own.resize(source->surface().cells().size(), {vec2(0), vec2(0), vec2(0)});
+        uv.insert(uv.end(), own.begin(), own.end());
+        auto parts = source->parts();
+        any = any || !parts.empty();
+        parts.resize(source->surface().cells().size(), 0);
+        label.insert(label.end(), parts.begin(), parts.end());
+    }
+    if (!any)
+        throw unsuitable_input("--keep-seams: the file has neither texture coordinates nor materials; leave it out");
+    mark_texcoords(seam, joined.surface, f, uv);
+    const auto borders = seams_between(f, label);
+    for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
+    return seam;
+}
+
+std::vector<std::array<vec2, 3>> texcoords_of(const std::vector<std::unique_ptr<atlas_source>>& sources)
+{
+    std::vector<std::array<vec2, 3>> uv;
+    for (const auto& source : sources)
+    {
+        const auto own = source->texcoords();
+        if (own.empty())
+            throw unsuitable_input(
+                "--charts keep: a file has no texture coordinates (vt) that show charts; leave it out");
+        uv.insert(uv.end(), own.begin(), own.end());
+    }
+    return uv;
+}
+
+} // namespace taut::tools

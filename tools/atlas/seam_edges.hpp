@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <taut/mesh/facets.hpp>
+
+#include "atlas_options.hpp"
+#include "joined_surfaces.hpp"
+
+namespace taut::tools
+{
+
+/// The seams that the options ask for, one flag a side of the joined surface, whose facets are `f`; empty if there are
+/// none. Throws io_error, unsuitable_input.
+std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
+                           const facet_table& f, const atlas_options& options);
+
+/// The texture coordinates of all files, one a corner of the joined surface.
+/// Throws unsuitable_input if a file has none, io::texcoord_error if a corner has none.
+std::vector<std::array<vec2, 3>> texcoords_of(const std::vector<std::unique_ptr<atlas_source>>& sources);
+
+} // namespace taut::tools
