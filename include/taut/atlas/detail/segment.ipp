@@ -29,9 +29,16 @@ class segmenting
 public:
     segmenting(const mesh<triangle>& m, const facet_table& f,
                const std::function<chart_maps(const chart_mesh&)>& flatten, const segment_params& params)
-        : mesh_(m), facets_(f), flatten_(flatten), params_(params), budget_(params.time_limit, params.observer),
-          seam_(f.twin.size(), 0), uv_(f.twin.size(), vec2(0.0)), chart_(m.cells().size(), 0),
-          number_(m.points().size(), -1), area_(m.cells().size())
+        : mesh_(m),
+          facets_(f),
+          flatten_(flatten),
+          params_(params),
+          budget_(params.time_limit, params.observer),
+          seam_(f.twin.size(), 0),
+          uv_(f.twin.size(), vec2(0.0)),
+          chart_(m.cells().size(), 0),
+          number_(m.points().size(), -1),
+          area_(m.cells().size())
     {
         for (std::size_t c = 0; c < area_.size(); ++c)
         {
@@ -47,8 +54,12 @@ public:
         std::vector<idx> all(chart_.size());
         std::iota(all.begin(), all.end(), idx(0));
         renew(all);
-        for (int round = 0; round < params_.rounds && proceed(round) && cut_round(); ++round) {}
-        for (int round = 0; round < params_.rounds && proceed(round) && unite_round(); ++round) {}
+        for (int round = 0; round < params_.rounds && proceed(round) && cut_round(); ++round)
+        {
+        }
+        for (int round = 0; round < params_.rounds && proceed(round) && unite_round(); ++round)
+        {
+        }
         return result();
     }
 
@@ -65,10 +76,7 @@ private:
 
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    bool proceed(int round)
-    {
-        return budget_.proceed({.iteration = round, .value = 4 + total_excess() / total_area_});
-    }
+    bool proceed(int round) { return budget_.proceed({.iteration = round, .value = 4 + total_excess() / total_area_}); }
 
     double allowed() const { return (params_.mean_distortion - 4) * total_area_; }
 

@@ -25,9 +25,17 @@ class straightening
 public:
     /// m: oriented; f: its facets. seam: one flag a side; kept: seams that stay where they are, or empty
     straightening(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam, std::span<const char> kept)
-        : mesh_(m), facets_(f), seam_(seam), kept_(kept), sides_(starting_sides(m)), weight_(seam_weights(m, f)),
-          chart_(m.cells().size()), on_seam_(m.points().size(), 0), ring_(m.points().size(), -1),
-          distance_(m.points().size(), infinite), came_(m.points().size(), -1)
+        : mesh_(m),
+          facets_(f),
+          seam_(seam),
+          kept_(kept),
+          sides_(starting_sides(m)),
+          weight_(seam_weights(m, f)),
+          chart_(m.cells().size()),
+          on_seam_(m.points().size(), 0),
+          ring_(m.points().size(), -1),
+          distance_(m.points().size(), infinite),
+          came_(m.points().size(), -1)
     {
         disjoint_sets parts(m.cell_count());
         for (std::size_t s = 0; s < seam.size(); ++s)
@@ -38,13 +46,22 @@ public:
                 for (const idx v : side_vertices(m, static_cast<idx>(s))) on_seam_[u(v)] = 1;
     }
 
-    /// Straightens every arc once. Returns whether a seam has become shorter.
-    bool run()
+    void run()
     {
-        const csr arcs = seam_arcs(mesh_, facets_, sides_, seam_);
-        bool gained = false;
-        for (idx a = 0; a < arcs.rows(); ++a) gained = straighten(arcs.row(a)) || gained;
-        return gained;
+        // Piece by piece, since the shortest way between the ends of a long arc may be another one altogether: around
+        // the foot of a finger instead of over its tip. Then again, where pieces met.
+        constexpr std::size_t piece = 24;
+        for (const std::size_t first : {piece, piece / 2})
+        {
+            const csr arcs = seam_arcs(mesh_, facets_, sides_, seam_);
+            for (idx a = 0; a < arcs.rows(); ++a)
+            {
+                const auto arc = arcs.row(a);
+                for (std::size_t begin = 0, end = std::min(first, arc.size()); begin < end;
+                     begin = end, end = std::min(end + piece, arc.size()))
+                    straighten(arc.subspan(begin, end - begin));
+            }
+        }
     }
 
 private:
@@ -54,10 +71,10 @@ private:
 
     idx end_of(idx side) const { return first_vertex(mesh_, facets_.twin[u(side)]); }
 
-    bool straighten(std::span<const idx> arc)
+    void straighten(std::span<const idx> arc)
     {
         const auto is_kept = [&](idx s) { return !kept_.empty() && kept_[u(s)]; };
-        if (arc.size() < 2 || std::any_of(arc.begin(), arc.end(), is_kept)) return false;
+        if (arc.size() < 2 || std::any_of(arc.begin(), arc.end(), is_kept)) return;
         const idx from = first_vertex(mesh_, arc.front()), to = end_of(arc.back());
         left_ = chart_[u(arc.front() / 3)];
         right_ = chart_[u(facets_.twin[u(arc.front())] / 3)];
@@ -69,14 +86,13 @@ private:
         gather_band(arc, to);
         const auto starts = sector(arc.front()), ends = sector(facets_.twin[u(arc.back())]);
         const double after = find_way(from, to, starts, ends);
-        const bool gains = after < (1 - 1e-9) * before;
-        std::vector<idx> way(arc.begin(), arc.end());
-        if (gains)
-        {
-            way.clear();
+        std::vector<idx> way;
+        if (after < (1 - 1e-9) * before)
             for (idx v = to; way.empty() || v != from; v = first_vertex(mesh_, way.back())) way.push_back(came_[u(v)]);
-            std::reverse(way.begin(), way.end());
-        }
+        std::reverse(way.begin(), way.end());
+        // Less than jags are worth is a short cut, and leads elsewhere.
+        const bool gains = !way.empty() && length(way) > 0.6 * length(arc);
+        if (!gains) way.assign(arc.begin(), arc.end());
         for (const idx v : band_)
         {
             ring_[u(v)] = came_[u(v)] = -1;
@@ -85,7 +101,14 @@ private:
         set_seam(way, 1);
         for (std::size_t i = 1; i < way.size(); ++i) on_seam_[u(first_vertex(mesh_, way[i]))] = 1;
         if (gains && left_ != right_) relabel(way);
-        return gains;
+    }
+
+    double length(std::span<const idx> arc) const
+    {
+        double sum = 0;
+        for (const idx s : arc)
+            sum += glm::distance(mesh_.points()[u(first_vertex(mesh_, s))], mesh_.points()[u(end_of(s))]);
+        return sum;
     }
 
     void set_seam(std::span<const idx> arc, char value)
@@ -125,7 +148,7 @@ private:
     /// The vertices within some rings of an arc that a way may lead through, and its ends.
     void gather_band(std::span<const idx> arc, idx to)
     {
-        const auto rings = static_cast<idx>(3 + arc.size() / 8);
+        constexpr idx rings = 3; // of triangles: seams that lead over the tip of a finger are to stay there
         band_.clear();
         const auto add = [&](idx v, idx ring)
         {
