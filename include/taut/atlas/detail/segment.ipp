@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <taut/atlas/cluster_tree.hpp>
+#include <taut/atlas/detail/seam_arcs.hpp>
+#include <taut/atlas/detail/straighten.hpp>
+#include <taut/atlas/detail/surface_part.hpp>
+#include <taut/atlas/segment.hpp>
+
+namespace taut::detail
+{
+
+/// The charts of a surface while they are cut and united.
+class segmenting
+{
+public:
+    segmenting(const mesh<triangle>& m, const facet_table& f,
+               const std::function<chart_maps(const chart_mesh&)>& flatten, const segment_params& params)
+        : mesh_(m),
+          facets_(f),
+          flatten_(flatten),
+          params_(params),
+          budget_(params.time_limit, params.observer),
+          seam_(f.twin.size(), 0),
+          uv_(f.twin.size(), vec2(0.0)),
+          chart_(m.cells().size(), 0),
+          number_(m.points().size(), -1),
+          area_(m.cells().size())
+    {
+        for (std::size_t c = 0; c < area_.size(); ++c)
+        {
+            const auto x = m.rest(static_cast<idx>(c));
+            area_[c] = glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
+        }
+        total_area_ = std::accumulate(area_.begin(), area_.end(), 0.0);
+    }
+
+    segmentation run()
+    {
+        cut_by_estimate();
+        std::vector<idx> all(chart_.size());
+        std::iota(all.begin(), all.end(), idx(0));
+        renew(all);
+        for (int round = 0; round < params_.rounds && proceed(round) && cut_round(); ++round)
+        {
+        }
+        for (int round = 0; round < params_.rounds && proceed(round) && unite_round(); ++round)
+        {
+        }
+        return result();
+    }
+
+private:
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    struct record
+    {
+        double area = 0, energy = 4;
+        std::vector<idx> triangles; // ascending; none: there is no such chart any more
+
+        double excess() const { return area * (energy - 4); }
+    };
+
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    bool proceed(int round) { return budget_.proceed({.iteration = round, .value = 4 + total_excess() / total_area_}); }
+
+    double allowed() const { return (params_.mean_distortion - 4) * total_area_; }
+
+    /// Of the charts that have a map.
+    double total_excess() const
+    {
+        double sum = 0;
+        for (const record& r : charts_)
+            if (!r.triangles.empty() && r.energy < infinite) sum += r.excess();
+        return sum;
+    }
+
+    /// The seams of a first set of charts. The estimate is about twice the distortion of maps.
+    void cut_by_estimate()
+    {
+        budget_.lap();
+        const auto tree = make_cluster_tree(mesh_, facets_, params_.seams);
+        std::vector<char> chosen(u(tree.nodes()), 0);
+        double strain = 0;
+        for (idx n = 0; n < tree.nodes(); ++n)
+            if (tree.parents[u(n)] == cluster_tree::none)
+            {
+                chosen[u(n)] = 1;
+                strain += tree.strain[u(n)];
+            }
+        for (idx n = tree.nodes(); n-- > tree.leaves && strain > 2 * allowed();)
+        {
+            chosen[u(n)] = 0; // those behind are no more: it is a chart
+            strain -= tree.strain[u(n)];
+            for (const idx child : tree.children[u(n - tree.leaves)])
+                if (child != cluster_tree::none)
+                {
+                    chosen[u(child)] = 1;
+                    strain += tree.strain[u(child)];
+                }
+        }
+        seam_ = tree.seams(facets_, tree.labels(chosen));
+        report_.tree_seconds += budget_.lap();
+        straighten(mesh_, facets_, seam_, params_.seams);
+        report_.straighten_seconds += budget_.lap();
+    }
+
+    /// Makes the charts of these triangles anew, from the seams, and their maps.
+    void renew(std::span<const idx> triangles)
+    {
+        for (const idx c : triangles)
+            if (!charts_.empty()) charts_[u(chart_[u(c)])].triangles.clear();
+        const surface_part part = part_of(mesh_, triangles, seam_, number_);
+        budget_.lap();
+        const chart_maps maps = flatten_(part.charts);
+        report_.flatten_seconds += budget_.lap();
+        for (idx k = 0; k < part.charts.charts(); ++k) take(part, maps, k);
+    }
+
+    /// Takes over chart k of a part, with its map.
+    void take(const surface_part& part, const chart_maps& maps, idx k)
+    {
+        record r{.area = 0, .energy = maps.energy[u(k)], .triangles = {}};
+        for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
+        {
+            const idx c = part.triangles[i];
+            chart_[u(c)] = static_cast<idx>(charts_.size());
+            r.area += area_[u(c)];
+            r.triangles.push_back(c);
+            for (std::size_t j = 0; j < 3; ++j) uv_[3 * u(c) + j] = maps.uv[u(part.charts.surface.cells()[i][j])];
+        }
+        charts_.push_back(std::move(r));
+    }
+
+    /// The triangles of charts, ascending.
+    std::vector<idx> triangles_of(std::span<const idx> charts) const
+    {
+        std::vector<idx> triangles;
+        for (const idx k : charts)
+            triangles.insert(triangles.end(), charts_[u(k)].triangles.begin(), charts_[u(k)].triangles.end());
+        std::sort(triangles.begin(), triangles.end());
+        return triangles;
+    }
+
+    /// Cuts the charts that are above the bound, and the worst ones where the whole is. False if there are none.
+    bool cut_round()
+    {
+        std::vector<idx> order;
+        double excess = 0;
+        for (idx k = 0; k < static_cast<idx>(charts_.size()); ++k)
+            if (charts_[u(k)].triangles.size() > 1)
+            {
+                order.push_back(k);
+                if (charts_[u(k)].energy < infinite) excess += charts_[u(k)].excess();
+            }
+        std::stable_sort(order.begin(), order.end(),
+                         [&](idx a, idx b) { return charts_[u(a)].excess() > charts_[u(b)].excess(); });
+        std::vector<idx> chosen;
+        for (const idx k : order)
+        {
+            const record& r = charts_[u(k)];
+            if (r.energy <= params_.max_distortion && excess <= allowed()) continue;
+            chosen.push_back(k);
+            if (r.energy < infinite) excess -= 0.6 * r.excess(); // what two halves have less, about
+        }
+        if (chosen.empty()) return false;
+        cut(chosen);
+        return true;
+    }
+
+    /// Cuts each of these charts so that the estimated distortion is halved.
+    void cut(std::span<const idx> charts)
+    {
+        report_.cut += static_cast<idx>(charts.size());
+        const auto triangles = triangles_of(charts);
+        const surface_part part = part_of(mesh_, triangles, seam_, number_);
+        const auto f = facets(part.charts.surface);
+        budget_.lap();
+        std::vector<char> keep(params_.seams.empty() ? 0 : f.twin.size(), 0);
+        for (std::size_t s = 0; s < keep.size(); ++s) keep[s] = params_.seams[part.origin(s)];
+        const auto tree = make_cluster_tree(part.charts.surface, f, keep);
+
+        // Pieces of a chart are undone in the order from the last.
+        std::vector<char> chosen(u(tree.nodes()), 0);
+        std::vector<idx> root(u(tree.nodes()), 0), pieces(u(tree.nodes()), 0);
+        std::vector<double> strain(u(tree.nodes()), 0), wanted(u(tree.nodes()), 0);
+        for (idx n = tree.nodes(); n-- > 0;)
+        {
+            const idx parent = tree.parents[u(n)];
+            root[u(n)] = parent == cluster_tree::none ? n : root[u(parent)];
+        }
+        // A chart may have several roots, where given seams part it.
+        const auto chart_of = [&](idx n) { return root[u(n)]; };
+        for (idx n = 0; n < tree.nodes(); ++n)
+            if (root[u(n)] == n)
+            {
+                chosen[u(n)] = 1;
+                pieces[u(n)] = 1;
+                strain[u(n)] = tree.strain[u(n)];
+                wanted[u(n)] = tree.strain[u(n)] / 2;
+            }
+        for (idx n = tree.nodes(); n-- > tree.leaves;)
+        {
+            const auto r = u(chart_of(n));
+            if (!chosen[u(n)] || (pieces[r] > 1 && strain[r] <= wanted[r])) continue;
+            chosen[u(n)] = 0;
+            strain[r] -= tree.strain[u(n)];
+            --pieces[r];
+            for (const idx child : tree.children[u(n - tree.leaves)])
+                if (child != cluster_tree::none)
+                {
+                    chosen[u(child)] = 1;
+                    strain[r] += tree.strain[u(child)];
+                    pieces[r] += tree.area[u(child)] > 0;
+                }
+        }
+        auto seam = tree.seams(f, tree.labels(chosen));
+        report_.tree_seconds += budget_.lap();
+        straighten(part.charts.surface, f, seam, keep);
+        for (std::size_t s = 0; s < seam.size(); ++s)
+            if (f.twin[s] >= 0) seam_[part.origin(s)] = seam[s];
+        report_.straighten_seconds += budget_.lap();
+        renew(triangles);
+    }
+
+    /// Flattens pairs of neighbouring charts as one, and keeps those that the bounds allow. False if no pair is left.
+    bool unite_round()
+    {
+        struct pair
+        {
+            double price = 0;
+            idx arc = 0;
+            std::array<idx, 2> charts;
+        };
+        const double room = allowed() - total_excess();
+        if (!(room > 0)) return false;
+        const csr arcs = seam_arcs(mesh_, facets_, starting_sides(mesh_), seam_);
+        std::vector<chart_moments> moments(charts_.size());
+        for (idx c = 0; c < mesh_.cell_count(); ++c)
+        {
+            const auto x = mesh_.rest(c);
+            moments[u(chart_[u(c)])] += chart_moments::of_triangle(glm::cross(x[1] - x[0], x[2] - x[0]));
+            for (std::size_t s = 3 * u(c); s < 3 * u(c) + 3; ++s)
+                if (facets_.twin[s] < 0 || seam_[s]) moments[u(chart_[u(c)])].perimeter += length(s);
+        }
+        std::vector<pair> pairs;
+        for (idx a = 0; a < arcs.rows(); ++a)
+        {
+            const idx side = arcs.row(a)[0];
+            const idx p = chart_[u(side) / 3], q = chart_[u(facets_.twin[u(side)]) / 3];
+            if (p == q || !(charts_[u(p)].energy < infinite) || !(charts_[u(q)].energy < infinite)) continue;
+            double shared = 0;
+            bool kept = false;
+            for (const idx s : arcs.row(a))
+            {
+                shared += length(u(s));
+                kept = kept || (!params_.seams.empty() && params_.seams[u(s)]);
+            }
+            const std::array<idx, 2> both{std::min(p, q), std::max(p, q)};
+            if (kept || std::binary_search(refused_.begin(), refused_.end(), both)) continue;
+            chart_moments sum = moments[u(p)];
+            sum += moments[u(q)];
+            sum.perimeter -= 2 * shared;
+            const double strain = sum.strain();
+            // An estimate that is far above the bound is seldom wrong.
+            if (strain / sum.area > 4 * (params_.max_distortion - 4)) continue;
+            const double more = strain / 2 - charts_[u(p)].excess() - charts_[u(q)].excess();
+            if (more < 2 * room) pairs.push_back({more, a, both});
+        }
+        std::stable_sort(pairs.begin(), pairs.end(), [](const pair& x, const pair& y) { return x.price < y.price; });
+
+        std::vector<char> taken(charts_.size(), 0);
+        std::vector<pair> tried;
+        double planned = 0;
+        for (const pair& p : pairs)
+        {
+            if (taken[u(p.charts[0])] || taken[u(p.charts[1])] || planned > 2 * room) continue;
+            taken[u(p.charts[0])] = taken[u(p.charts[1])] = 1;
+            planned += std::max(0.0, p.price);
+            tried.push_back(p);
+        }
+        if (tried.empty()) return false;
+        try_pairs(arcs, tried, room);
+        return true;
+    }
+
+    template <class Pairs>
+    void try_pairs(const csr& arcs, const Pairs& tried, double room)
+    {
+        auto seam = seam_;
+        std::vector<idx> involved;
+        for (const auto& p : tried)
+        {
+            for (const idx s : arcs.row(p.arc)) seam[u(s)] = seam[u(facets_.twin[u(s)])] = 0;
+            involved.insert(involved.end(), p.charts.begin(), p.charts.end());
+        }
+        const auto triangles = triangles_of(involved);
+        const surface_part part = part_of(mesh_, triangles, seam, number_);
+        budget_.lap();
+        const chart_maps maps = flatten_(part.charts);
+        report_.flatten_seconds += budget_.lap();
+
+        struct trial
+        {
+            double more = 0;
+            std::size_t pair = 0;
+            idx chart = 0; // of the part
+        };
+        std::vector<std::size_t> pair_of(charts_.size(), 0);
+        for (std::size_t i = 0; i < tried.size(); ++i)
+            for (const idx k : tried[i].charts) pair_of[u(k)] = i;
+        std::vector<trial> trials;
+        for (idx k = 0; k < part.charts.charts(); ++k)
+        {
+            const std::size_t i = pair_of[u(chart_[u(part.triangles[u(part.charts.first_cell[u(k)])])])];
+            const record &a = charts_[u(tried[i].charts[0])], &b = charts_[u(tried[i].charts[1])];
+            const double more = (maps.energy[u(k)] - 4) * (a.area + b.area) - a.excess() - b.excess();
+            trials.push_back({maps.energy[u(k)] <= params_.max_distortion ? more : infinite, i, k});
+        }
+        std::stable_sort(trials.begin(), trials.end(), [](const trial& x, const trial& y) { return x.more < y.more; });
+        for (const trial& t : trials)
+        {
+            const auto& pair = tried[t.pair];
+            if (!(t.more <= room))
+            {
+                refused_.push_back(pair.charts);
+                continue;
+            }
+            room -= t.more;
+            accept(arcs.row(pair.arc), pair.charts, part, maps, t.chart);
+        }
+        std::sort(refused_.begin(), refused_.end());
+    }
+
+    /// Makes two charts one, which is chart k of a part.
+    void accept(std::span<const idx> arc, const std::array<idx, 2>& charts, const surface_part& part,
+                const chart_maps& maps, idx k)
+    {
+        ++report_.united;
+        for (const idx s : arc) seam_[u(s)] = seam_[u(facets_.twin[u(s)])] = 0;
+        for (const idx old : charts) charts_[u(old)].triangles.clear();
+        take(part, maps, k);
+    }
+
+    double length(std::size_t side) const
+    {
+        const auto [a, b] = side_vertices(mesh_, static_cast<idx>(side));
+        return glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
+    }
+
+    segmentation result()
+    {
+        segmentation r{seam_, cut_charts(mesh_, facets_, seam_), {}, {}, {}};
+        r.uv.resize(r.charts.surface.points().size());
+        for (std::size_t i = 0; i < r.charts.cell_origins.size(); ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                r.uv[u(r.charts.surface.cells()[i][j])] = uv_[3 * u(r.charts.cell_origins[i]) + j];
+        double area = 0;
+        for (idx k = 0; k < r.charts.charts(); ++k)
+        {
+            const idx first = r.charts.cell_origins[u(r.charts.first_cell[u(k)])];
+            const record& one = charts_[u(chart_[u(first)])];
+            r.energy.push_back(one.energy);
+            report_.unmapped += !(one.energy < infinite);
+            report_.above += one.energy > params_.max_distortion;
+            if (!(one.energy < infinite)) continue;
+            area += one.area;
+            report_.largest_distortion = std::max(report_.largest_distortion, one.energy);
+        }
+        if (area > 0) report_.distortion = 4 + total_excess() / area;
+        for (std::size_t s = 0; s < seam_.size(); ++s)
+            if (facets_.twin[s] > static_cast<idx>(s) && seam_[s]) report_.seam_length += length(s);
+        report_.total_seconds = budget_.total();
+        r.report = report_;
+        return r;
+    }
+
+    const mesh<triangle>& mesh_;
+    const facet_table& facets_;
+    const std::function<chart_maps(const chart_mesh&)>& flatten_;
+    const segment_params& params_;
+    budget budget_;
+    segment_report report_;
+    std::vector<char> seam_;  // one a side
+    std::vector<vec2> uv_;    // one a corner
+    std::vector<idx> chart_;  // one a triangle: its record
+    std::vector<idx> number_; // for part_of()
+    std::vector<double> area_;
+    double total_area_ = 0;
+    std::vector<record> charts_;
+    std::vector<std::array<idx, 2>> refused_; // pairs that the bounds did not allow, ascending
+};
+
+TAUT_INLINE segmentation segment_surface(const mesh<triangle>& m, const facet_table& f,
+                                         const std::function<chart_maps(const chart_mesh&)>& flatten,
+                                         const segment_params& params)
+{
+    params.validate();
+    return segmenting(m, f, flatten, params).run();
+}
+
+} // namespace taut::detail

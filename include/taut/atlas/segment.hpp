@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/atlas/chart_mesh.hpp>
+#include <taut/core/budget.hpp>
+#include <taut/core/error.hpp>
+
+namespace taut
+{
+
+/// How to make charts of a surface. Distortions are area means of energy::isometric, 4 at least.
+struct segment_params
+{
+    /// Bound of a chart, above 4. Charts above it are cut further.
+    double max_distortion = 4.2;
+
+    /// Bound of the whole surface, above 4, at one common scale: there are as few charts as it allows.
+    double mean_distortion = 4.045;
+
+    /// Edges that are to be seams in any case: one flag a side, the same on both sides of an edge; or empty.
+    std::span<const char> seams = {};
+
+    /// At most so many times charts are cut further, and as often united, 0 to 100.
+    int rounds = 8;
+
+    /// Time limit of the whole call: no round begins afterwards.
+    budget::seconds time_limit = budget::unlimited;
+
+    /// Asked before each round: go on?
+    taut::observer observer = {};
+
+    /// Throws parameter_error with the name of a field outside its domain.
+    void validate() const
+    {
+        if (!(max_distortion > 4)) throw parameter_error("max_distortion", "must be above 4, that of no distortion");
+        if (!(mean_distortion > 4)) throw parameter_error("mean_distortion", "must be above 4, that of no distortion");
+        if (rounds < 0 || rounds > 100) throw parameter_error("rounds", "must be 0 to 100");
+    }
+};
+
+/// What was done, and how long it took in seconds.
+struct segment_report
+{
+    double distortion = 4;         ///< of the whole surface, charts without a map left out
+    double largest_distortion = 4; ///< of a chart that has a map
+    idx unmapped = 0;              ///< charts without a valid map
+    idx above = 0;                 ///< charts above max_distortion: of single triangles, or for want of rounds or time
+    idx cut = 0, united = 0;       ///< charts cut further, pairs united
+    double seam_length = 0;        ///< in units of the surface
+    double tree_seconds = 0;       ///< pieces united to a tree
+    double straighten_seconds = 0;
+    double flatten_seconds = 0;
+    double total_seconds = 0;
+};
+
+/// Charts of a surface, and their maps.
+struct segmentation
+{
+    std::vector<char> seam; ///< one flag a side of the surface; some have one chart on both sides
+    chart_mesh charts;
+    std::vector<vec2> uv;       ///< one a vertex of charts.surface: as it was flattened
+    std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
+    segment_report report;
+};
+
+/// Maps of charts, as they come from flatten_charts().
+struct chart_maps
+{
+    std::vector<vec2> uv;       ///< one a vertex
+    std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
+};
+
+namespace detail
+{
+
+segmentation segment_surface(const mesh<triangle>& m, const facet_table& f,
+                             const std::function<chart_maps(const chart_mesh&)>& flatten, const segment_params& params);
+
+} // namespace detail
+
+/// Cuts a surface to charts that can be flattened within a bound of distortion, few of them, along short seams that
+/// follow creases. Every chart is a disk, or one with holes of the surface in it, whatever the surface is: closed, with
+/// handles, of several components.
+///
+/// Pieces are united bottom-up by an estimate of their distortion; then charts are flattened, cut further where they
+/// are above the bound, and united where it allows (cluster_tree.hpp). Deterministic if `flatten` is. Time O(n log n)
+/// beside that of `flatten`.
+///
+/// m: an oriented manifold without flat triangles; f: its facets
+/// flatten: callable with a chart_mesh, returns uv (one a vertex), and charts with `valid` and `energy` each
+/// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).
+template <class Flatten>
+segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& flatten,
+                     const segment_params& params = {})
+{
+    return detail::segment_surface(
+        m, f,
+        [&](const chart_mesh& charts)
+        {
+            auto flat = flatten(charts);
+            chart_maps maps{std::move(flat.uv), {}};
+            for (const auto& chart : flat.charts)
+                maps.energy.push_back(chart.valid ? chart.energy : std::numeric_limits<double>::infinity());
+            return maps;
+        },
+        params);
+}
+
+} // namespace taut
+
+#ifndef TAUT_COMPILED
+#include <taut/atlas/detail/segment.ipp>
+#endif
