@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "choices.hpp"
 #include "commands.hpp"
 #include "outputs.hpp"
+#include "repair_report.hpp"
 #include "report_files.hpp"
 #include "seams.hpp"
 #include "shared_options.hpp"
@@ -89,18 +91,82 @@ void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element
         report.add({false, "feasibility", to_string(f.kind), f.ids, f.message}, exit_code::valid);
 }
 
+/// What --repair mends.
+std::vector<repair_finding> find_repairs(const io::surface_soup& soup)
+{
+    try
+    {
+        return repair(soup).findings;
+    }
+    catch (const repair_error& e)
+    {
+        return e.findings();
+    }
+    catch (const mesh_error&) // there is nothing to mend
+    {
+        return {};
+    }
+}
+
+/// Adds what is known from mending alone. A mesh that can be used is no worse for it.
+void report_repairs(check_report& report, const std::vector<repair_finding>& repairs, bool usable)
+{
+    for (const auto& r : repairs)
+    {
+        const auto known = [&](const finding& f) { return f.fault == to_string(r.kind); };
+        if (std::none_of(report.findings.begin(), report.findings.end(), known))
+            report.add({!usable && is_fault(r.kind), "mesh", to_string(r.kind), r.ids, r.problem, r.action},
+                       exit_code::unsuitable_input);
+    }
+}
+
+/// The surface of a file. One that cannot be made is a finding, with its place in the file and all others of its kind.
+std::optional<io::surface_file> find_surface(check_report& report, const std::string& path, io::surface_soup soup,
+                                             const std::vector<repair_finding>& repairs)
+{
+    try
+    {
+        return to_surface_file(std::move(soup), path);
+    }
+    catch (const mesh_error& e)
+    {
+        mesh_finding found{e.fault(), e.ids(), e.what()};
+        std::string action;
+        for (const auto& r : repairs)
+        {
+            if (std::string_view(to_string(r.kind)) != to_string(e.fault())) continue;
+            action = r.action;
+            if (r.ids.size() == 1) continue;
+            found.ids = r.ids;
+            found.message += "; in all " + r.problem;
+        }
+        report_mesh(report, found, true, action);
+        return std::nullopt;
+    }
+}
+
 void check_surface(check_report& report, const check_options& options)
 {
     report.kind = "surface";
-    const auto file = io::read_surface_file(options.input, *options.format);
-    report.vertices = file.surface.points().size();
-    report.cells = file.surface.cells().size();
-    for (const auto& note : file.notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
-    const auto cut = find_cut(report, file);
-    const auto& m = cut ? cut->surface : file.surface;
-    for (const auto& f : taut::check(m)) report_mesh(report, f, true);
+    auto soup = io::read_surface_soup(options.input, *options.format);
+    report.vertices = soup.points.size();
+    report.cells = soup.triangles.size();
+    for (const auto& note : soup.notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
+    const auto repairs = find_repairs(soup);
+    const auto file = find_surface(report, options.input, std::move(soup), repairs);
+    if (!file) return report_repairs(report, repairs, false);
+    const auto cut = find_cut(report, *file);
+    const auto& m = cut ? cut->surface : file->surface;
+    for (const auto& f : taut::check(m))
+    {
+        const auto mends = [&](const repair_finding& r)
+        { return std::string_view(to_string(r.kind)) == to_string(f.fault); };
+        const auto at = std::find_if(repairs.begin(), repairs.end(), mends);
+        report_mesh(report, f, true, at == repairs.end() ? std::string() : at->action);
+    }
+    report_repairs(report, repairs, true);
     auto pins = taut::constraints(m);
-    read_constraints(report, options.pins, pins, file.surface.vertex_count(), cut);
+    read_constraints(report, options.pins, pins, file->surface.vertex_count(), cut);
     judge(report, m, std::vector<vec2>(m.points().size(), vec2(0.0)), pins);
 }
 
@@ -186,11 +252,13 @@ nlohmann::ordered_json json_of(const check_report& r, const check_options& optio
     json["exit_code"] = to_int(r.code);
     json["findings"] = nlohmann::ordered_json::array();
     for (const auto& f : r.findings)
-        json["findings"].push_back({{"severity", f.wrong ? "error" : "warning"},
-                                    {"about", f.about},
-                                    {"fault", f.fault},
-                                    {"ids", f.ids},
-                                    {"message", f.message}});
+        json["findings"].push_back(
+            {{"severity", f.wrong ? "error" : "warning"},
+             {"about", f.about},
+             {"fault", f.fault},
+             {"ids", f.ids},
+             {"message", f.message},
+             {"repair", f.repair.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(f.repair)}});
     return json;
 }
 
@@ -210,7 +278,7 @@ std::string lines_of(const check_report& r, const check_options& options)
     std::size_t wrong = 0;
     for (const auto& f : r.findings)
     {
-        lines.add(f.wrong ? "error" : "warning", f.message);
+        lines.add(f.wrong ? "error" : "warning", f.message + (f.repair.empty() ? "" : "; --repair: " + f.repair));
         wrong += f.wrong ? 1 : 0;
     }
     lines.add("result", wrong == 0 ? "nothing wrong" : count(wrong, "error", "errors") + ": " + describe(r.code));

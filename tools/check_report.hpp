@@ -36,6 +36,7 @@ struct finding
     std::string fault; ///< a word for programs
     std::vector<idx> ids;
     std::string message;
+    std::string repair = {}; ///< what --repair does about it; empty: nothing
 };
 
 /// Everything that `taut check` has to say.
@@ -60,11 +61,12 @@ struct check_report
     }
 };
 
-inline void report_mesh(check_report& report, const mesh_finding& f, bool wrong)
+inline void report_mesh(check_report& report, const mesh_finding& f, bool wrong, const std::string& repair = {})
 {
     const bool holes = f.fault == mesh_fault::several_boundaries;
-    report.add({wrong, "mesh", to_string(f.fault), f.ids, f.message + (holes ? ", or `taut unwrap --holes`" : "")},
-               code_of(f.fault));
+    report.add(
+        {wrong, "mesh", to_string(f.fault), f.ids, f.message + (holes ? ", or `taut unwrap --holes`" : ""), repair},
+        code_of(f.fault));
 }
 
 template <class Element>

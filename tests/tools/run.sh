@@ -1081,6 +1081,23 @@ test_check()
     expect 4 check ring.obj
     says out 'boundary loops' '--holes'
 
+    # Also of a file that is no mesh, and what --repair would do.
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 nan\nv 1 1 0\nv 0 1 inf\nv 0 2 0\nf 1 2 3\nf 1 2 4\nf 2 2 4\nf 1 9 2\nf 4 2 1\nf 1 2 6\n' >raw.obj
+    expect 3 check raw.obj
+    says out '^input .*surface, 6 vertices, 6 triangles' \
+        '^error +raw.obj, line 3: vertex 2 .*; in all 2 vertices \(2, 4\).*; --repair: left out' \
+        '^error +1 triangle \(2\) naming a vertex twice; --repair: left out' '^error +1 triangle \(3\) naming' \
+        '^error +1 pair \(1-4\) of triangles' '^error +1 triangle \(5\) oriented' \
+        '^warning +1 vertex \(4\) without' '^result +5 errors'
+    expect 3 check raw.obj --json
+    cp out check.json
+    keys check.json findings.0.fault findings.0.ids findings.0.repair findings.1.about findings.1.repair
+    says values '^findings.0.fault=non_finite$' '^findings.1.about=mesh$' '^findings.1.repair=left out$'
+    # Of one that is a mesh, what is worth knowing besides.
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n' >crack.obj
+    expect 4 check crack.obj
+    says out '^error +2 components' '^warning +2 pairs \(1-3, 2-4\) of vertices .*; --repair: welded'
+
     expect 3 check nothing.obj
     says out '^error +nothing.obj: No such file'
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n' >word.obj

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 #include <taut/config.hpp>
-#include <taut/io/surface_soup.hpp>
+#include <taut/io/surface_file.hpp>
 
 namespace taut::io
 {

@@ -6,7 +6,6 @@
 #include <taut/config.hpp>
 #include <taut/io/atomic_file.hpp>
 #include <taut/io/cut_seams.hpp>
-#include <taut/io/surface_soup.hpp>
 
 namespace taut::io
 {
@@ -25,7 +24,8 @@ void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2>
 /// uv: one a vertex of cut.surface.
 void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut, std::span<const vec2> uv);
 
-/// The same for a file as it is, whose corners have texture coordinates of their own, or none.
+/// The same for a file as it is, whose corners have texture coordinates of their own, or none. A face gets them at all
+/// corners or at none: a corner of a polygon that has none gets what lies between those before and after it.
 /// texcoords: one a corner of file.faces, into uv; -1: none. Throws io_error; parameter_error if there are more or
 /// fewer, or one names what is not there.
 void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords, std::span<const vec2> uv);

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
+#include <taut/io/detail/complete_texcoords.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_obj.hpp>
 
@@ -146,4 +147,28 @@ TEST_CASE("read_surface_soup: files of each kind, faults and all")
     CHECK(io::read_surface_soup(folder / "a.obj").triangles == cells_of_soup{{0, 0, 0}});
     CHECK(io::read_surface_soup(folder / "b.off").triangles == cells_of_soup{{0, 0, -1}});
     CHECK_THROWS_AS(io::read_surface_soup(folder / "missing.ply"), io::io_error);
+}
+
+TEST_CASE("soup: a face that is written has texture coordinates at all corners or at none")
+{
+    // A pentagon whose corner 2 lies between 1 and 3, one with a vertex twice, a triangle that was left out.
+    const auto soup =
+        io::parse_obj_soup("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 4 0\nv 0 4 0\nf 1 2 3 4 5\nf 1 2 2 4\nf 1 1 2\n");
+    std::vector<taut::idx> texcoords{0, 1, -1, 2, 3, 0, 1, -1, 2, -1, -1, -1};
+    std::vector<vec2> uv{{0, 0}, {1, 0}, {1, 4}, {0, 4}};
+    io::detail::complete_texcoords(soup.faces, soup.points, texcoords, uv);
+    CHECK(texcoords == std::vector<taut::idx>{0, 1, 4, 2, 3, 0, 1, 1, 2, -1, -1, -1});
+    CHECK(uv.size() == 5);
+    CHECK(uv[4] == vec2(1, 1));
+    // Across the start of a face, several in a row.
+    texcoords = {-1, 1, 1, 2, -1, -1, 3, -1, -1, -1, -1, -1};
+    io::detail::complete_texcoords(soup.faces, soup.points, texcoords, uv);
+    CHECK(uv[std::size_t(texcoords[4])].y == doctest::Approx(4 - 4.0 / 6));
+    CHECK(uv[std::size_t(texcoords[0])].y == doctest::Approx(4 - 4 * 5.0 / 6));
+    CHECK(texcoords[5] == 3); // the only one
+    // Nothing is between what is not there.
+    const auto broken = io::parse_obj_soup("v 0 0 0\nv nan 0 0\nf 1 2 9 0\n");
+    texcoords = {0, -1, -1, 1};
+    io::detail::complete_texcoords(broken.faces, broken.points, texcoords, uv);
+    CHECK(texcoords == std::vector<taut::idx>{0, 0, 0, 1});
 }

@@ -15,7 +15,7 @@
 
 #include <taut/core/parallel.hpp>
 #include <taut/io/detail/obj_statements.hpp>
-#include <taut/io/surface_soup.hpp>
+#include <taut/io/surface_file.hpp>
 
 /// OBJ text, handed to an Out that has write(std::string_view), such as atomic_file. uv: texture coordinates.
 namespace taut::io::detail

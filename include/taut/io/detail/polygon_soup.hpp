@@ -14,7 +14,7 @@
 
 #include <taut/io/detail/polygons.hpp>
 #include <taut/io/io_error.hpp>
-#include <taut/io/surface_soup.hpp>
+#include <taut/io/surface_file.hpp>
 
 namespace taut::io::detail
 {

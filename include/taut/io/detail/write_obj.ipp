@@ -8,6 +8,7 @@
 #include <string_view>
 #include <taut/io/atomic_file.hpp>
 #include <taut/io/cut_seams.hpp>
+#include <taut/io/detail/complete_texcoords.hpp>
 #include <taut/io/detail/obj_output.hpp>
 #include <taut/io/detail/obj_statements.hpp>
 #include <taut/io/surface_file.hpp>
@@ -90,7 +91,10 @@ TAUT_INLINE void write_obj(atomic_file& out, const surface_soup& file, std::span
         if (t < -1 || t >= static_cast<idx>(uv.size()))
             throw parameter_error("texcoords", std::to_string(t) + " of " + std::to_string(uv.size()) +
                                                    "; numbers start at 0, -1 is none");
-    detail::write_with_texcoords(out, file, texcoords, uv);
+    std::vector<idx> complete(texcoords.begin(), texcoords.end());
+    std::vector<vec2> coords(uv.begin(), uv.end());
+    detail::complete_texcoords(file.faces, file.points, complete, coords);
+    detail::write_with_texcoords(out, file, complete, coords);
 }
 
 TAUT_INLINE void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points)
