@@ -255,6 +255,21 @@ TEST_CASE("emit: the forms of a kernel differ only in the indices that a work-it
                         "}\n");
     CHECK(run.arguments.back() == count);
     CHECK(run.form == taut::kernel_form::run);
+
+    const auto part = record(taut::kernel_form::part);
+    CHECK(part.source == "#pragma clang diagnostic ignored \"-Wpass-failed\"\n"
+                         "static void f(__global const float* x, __global float* y, const int taut_first, "
+                         "const int taut_last, const int taut_step)\n"
+                         "{\n"
+                         "    #pragma clang loop vectorize(assume_safety) vectorize_width(8)\n"
+                         "    for (int i0 = taut_first; i0 < taut_last; i0 += taut_step)\n"
+                         "    {\n"
+                         "        const float t0 = x[i0];\n"
+                         "        const float t1 = -t0;\n"
+                         "        y[i0] = t1;\n"
+                         "    }\n"
+                         "}\n");
+    CHECK(part.arguments.size() == 5);
 }
 
 TEST_CASE_TEMPLATE("emit: a cube root brings its own function, in its own precision", T, float, double)
