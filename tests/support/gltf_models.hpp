@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,22 +111,23 @@ struct torus_arrays
             }
     }
 
-    gltf_json bounds() const
+    static gltf_json bounds(const std::vector<float>& points)
     {
         gltf_json low = gltf_json::array(), high = gltf_json::array();
         for (std::size_t k = 0; k < 3; ++k)
         {
-            float least = positions[k], most = least;
-            for (std::size_t i = k; i < positions.size(); i += 3)
+            float least = points[k], most = least;
+            for (std::size_t i = k; i < points.size(); i += 3)
             {
-                least = std::min(least, positions[i]);
-                most = std::max(most, positions[i]);
+                least = std::min(least, points[i]);
+                most = std::max(most, points[i]);
             }
             low.push_back(least);
             high.push_back(most);
         }
         return {{"min", low}, {"max", high}};
     }
+    gltf_json bounds() const { return bounds(positions); }
 };
 
 /// Two materials, each with half of the triangles, an image as a bufferView, a camera, extras everywhere, and
@@ -150,7 +153,9 @@ inline gltf_builder textured_model(std::uint32_t n = 8)
     const std::size_t id =
         b.accessor(b.view(io::detail::bytes_of<std::uint8_t>(ids), {{"byteStride", 4}, {"target", 34962}}), 5121,
                    "VEC3", torus.vertices);
-    const std::string png("\x89PNG\r\n\x1a\n no image that anybody looks at", 40);
+    const std::string png = // one pixel
+        *io::detail::from_base64(
+            "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mP436AAAAQhAaBzQuE8AAAAAElFTkSuQmCC");
     b.document["images"] = gltf_json::array({{{"bufferView", b.view(png)}, {"mimeType", "image/png"}}});
     b.document["textures"] = gltf_json::array({{{"source", 0}, {"extras", nullptr}}});
     const std::size_t half = torus.indices.size() / 6 * 3;
@@ -247,7 +252,7 @@ inline gltf_builder morphing_model(std::uint32_t n = 8)
     gltf_json members = bounds;
     members["sparse"] = sparse({2}, moved);
     const std::size_t position = b.array(torus.positions, 5126, "VEC3", members),
-                      dense = b.array(torus.normals, 5126, "VEC3", {{"min", {-1, -1, -1}}, {"max", {1, 1, 1}}});
+                      dense = b.array(torus.normals, 5126, "VEC3", torus_arrays::bounds(torus.normals));
     const gltf_json few = sparse({0, 3, 9}, {0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f});
     b.document["accessors"].push_back({{"componentType", 5126},
                                        {"count", torus.vertices},
