@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,7 @@ std::string generate(dice& random)
                      : random.one_in(2) ? d["bufferViews"]
                                         : d["accessors"];
         auto& item = list[random.below(list.size())];
-        auto member = item.begin() + static_cast<std::ptrdiff_t>(random.below(item.size()));
+        auto member = std::next(item.begin(), static_cast<std::ptrdiff_t>(random.below(item.size())));
         if (random.one_in(5))
             item.erase(member);
         else if (member->is_number())
