@@ -161,6 +161,25 @@ void round_trip(const gltf_builder& builder, int set = 0)
 
 } // namespace
 
+TEST_CASE("gltf: the program of the document")
+{
+    const test::temporary_folder folder;
+    const auto in = folder / "model.glb", out = folder / "mapped.glb";
+    folder.write(in, test::textured_model().glb());
+    // [model]
+    const auto model = io::read_gltf(in);
+    std::vector<std::array<vec2, 3>> uv(model.triangles.size()); // v upwards, one a corner
+    for (std::size_t t = 0; t < uv.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const vec3& p = model.points[static_cast<std::size_t>(model.triangles[t][k])];
+            uv[t][k] = io::texcoord_in_gltf({0.5 + 0.1 * p.x, 0.5 + 0.1 * p.y}); // what the file will hold
+        }
+    io::write_gltf(out, model, uv);
+    // [model]
+    CHECK(require_kept(model, uv, io::read_gltf(out), 0) == 0);
+}
+
 TEST_CASE("gltf: a textured model with two materials keeps all but what new texture coordinates change")
 {
     const auto builder = test::textured_model();
