@@ -300,10 +300,10 @@ command add_check(CLI::App& program)
     const auto options = std::make_shared<check_options>();
     auto& app = *program.add_subcommand(
         "check", "Say what is wrong with a surface, a volume, a problem or pins, without solving");
-    add_path(
-        app, "IN", options->input, standard_input,
-        "Surface (OBJ, OFF, PLY) as `unwrap` takes it, problem (.prob), or volume, or mesh of the plane (.mesh .msh "
-        ".vtk .vtu .node .su2); - is standard input")
+    add_path(app, "IN", options->input, standard_input,
+             "Surface (OBJ, OFF, PLY, STL) as `unwrap` takes it, problem (.prob), or volume, or mesh of the plane "
+             "(.mesh .msh "
+             ".vtk .vtu .node .su2); - is standard input")
         ->required()
         ->type_name("FILE");
     using io::surface_format;
@@ -312,6 +312,7 @@ command add_check(CLI::App& program)
                                                {"obj", surface_format::obj},
                                                {"off", surface_format::off},
                                                {"ply", surface_format::ply},
+                                               {"stl", surface_format::stl},
                                                {"prob", {}}},
                                               "What IN is; auto: what its name says, for - (standard input) a surface");
     add_path(app, "--pins", options->pins, standard_input,

@@ -304,7 +304,7 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
     const auto options = std::make_shared<paste_options>();
     auto& app = *program.add_subcommand("paste", "Cut a feature out of one surface and paste it on another");
     const auto positive = number_that([](double x) { return x > 0 && std::isfinite(x); }, "is not positive");
-    app.add_option("--source", options->source, "Surface that has the feature: OBJ, OFF or PLY")
+    app.add_option("--source", options->source, "Surface that has the feature: OBJ, OFF, PLY or STL")
         ->required()
         ->type_name("FILE");
     app.add_option("--at", options->at, "Its vertex in the middle of the feature, from 0")

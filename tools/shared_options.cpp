@@ -54,7 +54,8 @@ void add_format(CLI::App& app, io::surface_format& format)
                                    {{"auto", io::surface_format::automatic},
                                     {"obj", io::surface_format::obj},
                                     {"off", io::surface_format::off},
-                                    {"ply", io::surface_format::ply}},
+                                    {"ply", io::surface_format::ply},
+                                    {"stl", io::surface_format::stl}},
                                    "What IN is; auto: what its name says, for - (standard input) how it begins");
 }
 

@@ -106,7 +106,7 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 void declare(CLI::App& app, unwrap_options& o)
 {
     add_path(app, "IN", o.input, standard_input,
-             "Surface: OBJ, OFF or PLY; - is standard input; cut open along the seams of its vt if it is no disk")
+             "Surface: OBJ, OFF, PLY or STL; - is standard input; cut open along the seams of its vt if it is no disk")
         ->required()
         ->type_name("FILE");
     add_path(app, "-o,--output", o.output, standard_output,

@@ -575,9 +575,9 @@ test_input()
     error_says 'nothing.obj'
     expect 3 eval nothing.obj
     error_says 'nothing.obj'
-    grid 4 >in.stl
-    expect 3 unwrap in.stl -o out.obj
-    error_says '.obj, .off and .ply'
+    grid 4 >in.stp
+    expect 3 unwrap in.stp -o out.obj
+    error_says '.obj, .off, .ply and .stl'
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n' >word.obj
     expect 3 unwrap word.obj -o out.obj
     error_says 'line 3'

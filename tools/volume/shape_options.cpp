@@ -22,7 +22,7 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
 {
     app.add_option("MESH", o.input,
                    std::string("Tetrahedra, or triangles of the plane: .mesh .msh .vtk .vtu .node .su2 .prob") +
-                       (o.smoothing ? "" : "; or a surface in space: .obj .off .ply"))
+                       (o.smoothing ? "" : "; or a surface in space: .obj .off .ply .stl"))
         ->required()
         ->type_name("FILE");
     app.add_option("-o,--output", o.output,
@@ -65,7 +65,7 @@ void declare_deform(CLI::App& app, shape_options& o)
                "What to keep: lengths, angles, volumes and lengths, or as rubber does");
     app.add_option(
            "--thickness", o.thickness,
-           "Of a surface in space (.obj .off .ply), in its lengths: thick ones arch, thin ones crease. Default: "
+           "Of a surface in space (.obj .off .ply .stl), in its lengths: thick ones arch, thin ones crease. Default: "
            "its mean edge")
         ->type_name("H")
         ->check(number_that([](double x) { return x > 0; }, "must be positive"));

@@ -15,7 +15,8 @@ enum class surface_format
     automatic,
     obj,
     off,
-    ply
+    ply,
+    stl
 };
 
 /// Reads a surface with its texture coordinates and notes.

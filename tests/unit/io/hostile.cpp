@@ -95,3 +95,8 @@ TEST_CASE("hostile files: PLY")
 {
     for (const auto& s : samples("ply")) torture([](const std::string& t) { return io::parse_ply(t); }, s);
 }
+
+TEST_CASE("hostile files: STL")
+{
+    for (const auto& s : samples("stl")) torture([](const std::string& t) { return io::parse_stl(t); }, s);
+}

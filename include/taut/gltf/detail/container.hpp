@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <taut/gltf/detail/source.hpp>
+#include <taut/gltf/detail/uri.hpp>
+#include <taut/io/detail/byte_order.hpp>
+#include <taut/io/read_file.hpp>
+
+/// A glTF document and its buffers taken from a file, and put into one.
+namespace taut::io::detail
+{
+
+constexpr std::uint32_t glb_magic = 0x46546c67, glb_json = 0x4e4f534a, glb_bin = 0x004e4942; // glTF, JSON, BIN
+
+inline std::uint32_t load_u32(std::string_view bytes, std::size_t at)
+{
+    return load<std::uint32_t>(bytes.data() + at, std::endian::little);
+}
+
+inline void append_u32(std::string& bytes, std::size_t x)
+{
+    char four[4];
+    store(four, static_cast<std::uint32_t>(x), std::endian::little);
+    bytes.append(four, 4);
+}
+
+inline bool is_glb(std::string_view bytes)
+{
+    return bytes.size() >= 4 && load_u32(bytes, 0) == glb_magic;
+}
+
+/// The chunks of a GLB file: the JSON, the binary one if there is one, and others as they are.
+struct glb_chunks
+{
+    std::string_view json;
+    std::optional<std::string_view> bin = {};
+    std::vector<std::string> more = {};
+};
+
+inline glb_chunks split_glb(std::string_view bytes, const std::string& path)
+{
+    const auto fail = [&](const std::string& what, std::size_t at) {
+        throw io_error(path, what, file_place{file_place::byte, at});
+    };
+    if (bytes.size() < 20) fail("the file ends in the head of GLB", bytes.size());
+    if (const auto version = load_u32(bytes, 4); version != 2)
+        fail("GLB of version " + std::to_string(version) + "; convert it to glTF 2.0", 4);
+    const std::size_t length = load_u32(bytes, 8);
+    if (length > bytes.size())
+        fail("the file has " + std::to_string(bytes.size()) + " bytes, not the " + std::to_string(length) +
+                 " that it says",
+             8);
+    glb_chunks chunks;
+    for (std::size_t at = 12, count = 0; at + 8 <= length; ++count)
+    {
+        const std::size_t size = load_u32(bytes, at);
+        const auto type = load_u32(bytes, at + 4);
+        if (size > length - at - 8) fail("a chunk of " + std::to_string(size) + " bytes goes beyond the end", at);
+        const auto content = bytes.substr(at + 8, size);
+        if ((count == 0) != (type == glb_json)) fail("the first chunk, and no other, must be JSON", at);
+        if (type == glb_json)
+            chunks.json = content;
+        else if (type == glb_bin && count == 1)
+            chunks.bin = content;
+        else
+            chunks.more.emplace_back(bytes.substr(at, 8 + size));
+        at += 8 + size;
+    }
+    return chunks;
+}
+
+/// A GLB file. Throws io_error where it would be longer than its 32 bits can say.
+inline std::string join_glb(std::string json, std::string_view bin, const std::vector<std::string>& more,
+                            const std::string& path)
+{
+    json.append((4 - json.size() % 4) % 4, ' ');
+    const std::size_t padding = (4 - bin.size() % 4) % 4;
+    std::size_t length = 12 + 8 + json.size() + (bin.empty() ? 0 : 8 + bin.size() + padding);
+    for (const std::string& chunk : more) length += chunk.size();
+    if (length > UINT32_MAX)
+        throw io_error(path, "would have " + std::to_string(length >> 20) +
+                                 " MiB, more than GLB can; write .gltf, which has its data in a file of its own");
+    std::string bytes;
+    bytes.reserve(length);
+    append_u32(bytes, glb_magic);
+    append_u32(bytes, 2);
+    append_u32(bytes, length);
+    append_u32(bytes, json.size());
+    append_u32(bytes, glb_json);
+    bytes += json;
+    if (!bin.empty())
+    {
+        append_u32(bytes, bin.size() + padding);
+        append_u32(bytes, glb_bin);
+        bytes.append(bin).append(padding, '\0');
+    }
+    for (const std::string& chunk : more) bytes += chunk;
+    return bytes;
+}
+
+/// The bytes of buffer i, of which the document says what it needs.
+inline std::string load_buffer(const gltf_source& source, std::size_t i, std::optional<std::string_view> bin)
+{
+    const gltf_object buffer = item_of(source, "buffers", i);
+    const std::size_t length = buffer.whole("byteLength");
+    std::string bytes;
+    if (!buffer.find("uri"))
+    {
+        if (i > 0 || !bin) buffer.fail("has no uri, and there is no binary chunk for it");
+        bytes = *bin;
+    }
+    else
+    {
+        const std::string& uri = buffer.text("uri");
+        if (uri.starts_with("data:"))
+        {
+            const auto comma = uri.find(";base64,");
+            auto decoded = comma == uri.npos ? std::nullopt : from_base64(std::string_view(uri).substr(comma + 8));
+            if (!decoded) buffer.fail("has a data URI that is no base64");
+            bytes = std::move(*decoded);
+        }
+        else if (has_scheme(uri))
+            buffer.fail("lies at " + uri.substr(0, 80) + "; fetch it to a file beside the document");
+        else
+        {
+            const auto file = std::filesystem::path(source.path).parent_path() / percent_decoded(uri);
+            std::error_code unknown;
+            if (!std::filesystem::is_regular_file(file, unknown))
+                buffer.fail("lies in " + file.string() + ", which is no file");
+            bytes = read_file(file);
+        }
+    }
+    if (bytes.size() < length)
+        buffer.fail("has " + std::to_string(bytes.size()) + " bytes, not the " + std::to_string(length) +
+                    " that the document says");
+    bytes.resize(length);
+    return bytes;
+}
+
+/// Throws io_error if a bufferView is compressed, in a way that names places in buffers.
+inline void require_uncompressed(const gltf_source& source)
+{
+    for (std::size_t i = 0; i < root_of(source).items("bufferViews").size(); ++i)
+        if (const gltf_object view = item_of(source, "bufferViews", i); view.find("extensions"))
+            for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+                if (view.object("extensions").find(name))
+                    view.fail("is compressed with " + std::string(name) +
+                              "; decompress the file, as gltf-transform does");
+}
+
+/// The document in the bytes of a .gltf or .glb file with all its buffers. Throws io_error.
+inline gltf_source gltf_source_of(std::string_view bytes, const std::string& path)
+{
+    const glb_chunks chunks = is_glb(bytes) ? split_glb(bytes, path) : glb_chunks{bytes};
+    gltf_source source{path, parse_gltf_json(chunks.json, path), {}, chunks.more};
+    const std::string& version = root_of(source).object("asset").text("version");
+    if (!version.starts_with("2."))
+        throw io_error(path, "glTF " + version.substr(0, 20) + " is not read; convert it to glTF 2.0");
+    require_uncompressed(source);
+    const gltf_json& buffers = root_of(source).items("buffers");
+    source.data_uris = !buffers.empty();
+    for (std::size_t i = 0; i < buffers.size(); ++i)
+    {
+        source.buffers.push_back(load_buffer(source, i, chunks.bin));
+        const gltf_json* const uri = item_of(source, "buffers", i).find("uri");
+        source.data_uris = source.data_uris && uri && uri->get_ref<const std::string&>().starts_with("data:");
+    }
+    return source;
+}
+
+} // namespace taut::io::detail

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <taut/core/types.hpp>
+#include <taut/gltf/detail/source.hpp>
+#include <taut/io/write_files.hpp>
+
+/// glTF 2.0, .gltf and .glb. An optional header: taut.hpp does not include it, as it needs nlohmann-json.
+namespace taut::io
+{
+
+/// The triangles of all meshes of a glTF file, in its order, and the file itself.
+///
+/// Corners of a mesh with equal coordinates are one point, whatever glTF has split vertices for: normals, texture
+/// coordinates, materials. Points of different meshes are not joined. Coordinates are those of meshes: a mesh that is
+/// drawn by several nodes is there once, and what nodes do to its size is not regarded. Strips and fans are triangles;
+/// points and lines are left out, and so are primitives that draw the same triangles as an earlier one.
+struct gltf_model
+{
+    std::vector<vec3>
+        points; ///< those that triangles name, in the order of first appearance; as in the file, perhaps not finite
+    std::vector<std::array<idx, 3>> triangles; ///< of points; may name one twice, or have none of area
+    std::vector<std::array<idx, 3>> vertices;  ///< the vertex of glTF at each corner: those that share attributes are
+                                               ///< numbered one after the other
+    std::vector<idx> meshes;                   ///< of each triangle
+    std::vector<idx> materials;                ///< of each triangle; -1: none
+    std::vector<vec2> texcoords;               ///< of the set that was asked for, v upwards (texcoord_in_gltf)
+    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: none
+    std::vector<std::string> notes;                 ///< what was changed in reading, in sentences
+    gltf_source source;                             ///< the file
+};
+
+/// Whether a name ends in .gltf or .glb, in either case.
+bool is_gltf(const std::filesystem::path& path);
+
+/// Reads a .gltf file with its buffers, or a .glb file; the bytes tell which. Coordinates may be quantized
+/// (KHR_mesh_quantization) and sparse. Images are not looked at.
+/// texcoord_set: the N of TEXCOORD_N that texcoords are read from
+/// Throws io_error: unreadable, malformed, or compressed with Draco or meshopt; mesh_error (empty) without triangles.
+gltf_model read_gltf(const std::filesystem::path& path, int texcoord_set = 0);
+
+/// The same from memory; path: named in errors, and where external buffers are looked for.
+gltf_model parse_gltf(std::string_view bytes, const std::string& path = "glTF file", int texcoord_set = 0);
+
+/// A surface as a new glTF document, to be written with texture coordinates: one mesh, points as floats in their order,
+/// normals weighted by area, and an attribute _SOURCE_VERTEX that tells the point of each vertex: two unsigned shorts,
+/// the lower and the upper 16 bits of its number. Triangles keep their numbers; one that names a point that is not
+/// there or not finite draws nothing. Throws mesh_error (empty).
+gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
+
+/// Texture coordinates as a glTF file can hold them, and as they are read back bit for bit. glTF has floats, and v runs
+/// downwards from the top left of the image: v there is 1 - v. Certify these if the file is to be certain.
+vec2 texcoord_in_gltf(vec2 uv);
+
+/// The files to be written for a model with other texture coordinates: one, or a .gltf and the .bin beside it. Their
+/// bytes are made here.
+///
+/// The set is added or replaced in all primitives with triangles. A vertex becomes several only where its corners
+/// differ in texture coordinates; vertices keep their numbers, new ones follow, and have all attributes of theirs bit
+/// for bit. All else is as it was: every member of the JSON, the bytes of every bufferView that needs no change, and
+/// images, whose URIs are made relative to the new file. All buffers become one.
+///
+/// corner_uv:    one a corner of model.triangles; a corner with one that is not finite takes that of its vertex at
+///               another triangle, or else 0
+/// texcoord_set: the N of TEXCOORD_N
+/// path:         ends in .glb or .gltf
+/// Throws io_error; parameter_error for a wrong number of corner_uv, a set without those before it, another ending.
+std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
+                                      std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0);
+
+/// Writes them; they appear together or not at all.
+void write_gltf(const std::filesystem::path& path, const gltf_model& model,
+                std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0);
+
+} // namespace taut::io
+
+#include <taut/gltf/detail/read_gltf.ipp>
+#include <taut/gltf/detail/write_gltf.ipp>

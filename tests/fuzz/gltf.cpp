@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <taut/gltf/gltf.hpp>
+
+#include "../support/gltf_models.hpp"
+#include "mutator.hpp"
+#include "require.hpp"
+
+namespace
+{
+
+using namespace taut;
+using fuzz::dice;
+
+std::string generate(dice& random)
+{
+    const auto n = static_cast<std::uint32_t>(random.between(3, 4));
+    auto builder = random.one_in(3)   ? test::textured_model(n)
+                   : random.one_in(2) ? test::skinned_model(n)
+                                      : test::morphing_model(n);
+    auto& d = builder.document;
+    // Members of accessors, bufferViews and primitives that are off, missing, or those of another one.
+    for (std::size_t changes = random.between(0, 2); changes > 0; --changes)
+    {
+        auto& list = random.one_in(3)   ? d["meshes"][0]["primitives"]
+                     : random.one_in(2) ? d["bufferViews"]
+                                        : d["accessors"];
+        auto& item = list[random.below(list.size())];
+        auto member = std::next(item.begin(), static_cast<std::ptrdiff_t>(random.below(item.size())));
+        if (random.one_in(5))
+            item.erase(member);
+        else if (member->is_number())
+            *member = random.one_in(4) ? random.between(0, 1000000) : random.below(9);
+        else if (member->is_object() && !member->empty())
+            *member->begin() = random.below(7);
+        else
+            *member = random.pick({"SCALAR", "VEC2", "VEC3", "MAT2"});
+    }
+    for (std::size_t changes = random.one_in(2) ? 3 : 0; changes > 0; --changes)
+        builder.bytes[random.below(builder.bytes.size())] = static_cast<char>(random.between(0, 255));
+    return random.one_in(2) ? builder.glb() : builder.with_data_uri();
+}
+
+std::vector<std::array<vec2, 3>> corner_uv(const io::gltf_model& model)
+{
+    std::vector<std::array<vec2, 3>> uv(model.triangles.size());
+    for (std::size_t t = 0; t < uv.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            uv[t][k] = {static_cast<double>(t % 4), static_cast<double>(model.triangles[t][k])};
+    return uv;
+}
+
+} // namespace
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
+{
+    return taut::fuzz::mutate(data, size, most, seed, generate);
+}
+
+/// Whatever the bytes, they are a model that is written with other texture coordinates and read back, or an error of
+/// the library.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    try
+    {
+        const auto model = io::parse_gltf({reinterpret_cast<const char*>(data), size}, "/dev/null/a.gltf");
+        const auto n = static_cast<idx>(model.points.size());
+        for (const auto& t : model.triangles)
+            for (const idx v : t) fuzz::require(v >= 0 && v < n, "triangles name points");
+        const auto uv = corner_uv(model);
+        auto [document, bytes] = io::detail::gltf_writer(model, uv, 0).write();
+        const auto again = io::detail::join_glb(document.dump(), bytes, {}, "again");
+        try
+        {
+            const auto back = io::parse_gltf(again, "again");
+            fuzz::require(back.triangles == model.triangles, "the same triangles");
+            for (std::size_t t = 0; t < uv.size(); ++t)
+                for (std::size_t k = 0; k < 3; ++k)
+                    fuzz::require(back.texcoords[static_cast<std::size_t>(back.texcoord_cells[t][k])] ==
+                                      io::texcoord_in_gltf(uv[t][k]),
+                                  "the texture coordinates that were written");
+        }
+        catch (const error& e)
+        {
+            std::fprintf(stderr, "%s\n%s\n", e.what(), document.dump().c_str());
+            fuzz::require(false, "what is written can be read");
+        }
+    }
+    catch (const error&)
+    {
+    }
+    return 0;
+}
