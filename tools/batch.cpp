@@ -68,7 +68,8 @@ exit_code run(batch_options options, const run_clock& clock)
     for (std::size_t k = 0; k < jobs.size(); ++k)
         if (part->has(k)) own.push_back(std::move(jobs[k]));
     options.run.caches = options.cache.empty() ? batch::default_caches() : std::filesystem::path(options.cache);
-    if (std::isfinite(options.memory_limit)) options.run.bounds.memory = static_cast<std::uint64_t>(options.memory_limit);
+    if (std::isfinite(options.memory_limit))
+        options.run.bounds.memory = static_cast<std::uint64_t>(options.memory_limit);
     options.run.at_once = static_cast<std::size_t>(options.jobs);
     options.run.resume |= options.run.retry;
 
@@ -97,9 +98,10 @@ command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launc
     const auto options = std::make_shared<batch_options>();
     auto& o = *options;
     auto& app = *program.add_subcommand("batch", "Run many calls of this program, each held to its limits");
-    add_path(app, "--manifest", o.manifest, standard_input,
-             R"(The jobs, a JSON object a line: {"id": "a", "args": ["unwrap", "a.obj", "-o", "flat.obj"]}, and in it, )"
-             R"(if wanted, "time_limit": S and "memory_limit": BYTES)")
+    add_path(
+        app, "--manifest", o.manifest, standard_input,
+        R"(The jobs, a JSON object a line: {"id": "a", "args": ["unwrap", "a.obj", "-o", "flat.obj"]}, and in it, )"
+        R"(if wanted, "time_limit": S and "memory_limit": BYTES)")
         ->required()
         ->type_name("FILE.jsonl");
     add_path(app, "--out", o.out, standard_output, "Append the results, a JSON object a line; - is standard output")

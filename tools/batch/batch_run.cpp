@@ -88,7 +88,9 @@ class running_job
 {
 public:
     running_job(const job& j, job_files files, const std::vector<std::string>& environment, limits bounds)
-        : job_(j), files_(std::move(files)), inputs_(hashes_of(files_.inputs)),
+        : job_(j),
+          files_(std::move(files)),
+          inputs_(hashes_of(files_.inputs)),
           before_(files_.outputs.begin(), files_.outputs.end())
     {
         bounds.seconds = j.time_limit.value_or(bounds.seconds);
@@ -160,7 +162,8 @@ private:
     {
         for (auto& w : workers_)
             if (!w.at_work) start(w);
-        while (workers_.size() < options_.at_once && next_ < jobs_.size() && !interrupted()) start(workers_.emplace_back());
+        while (workers_.size() < options_.at_once && next_ < jobs_.size() && !interrupted())
+            start(workers_.emplace_back());
     }
 
     void start(worker& w)

@@ -17,10 +17,10 @@ namespace taut::tools::batch
 struct run_options
 {
     std::size_t at_once = 1;
-    bool resume = false;           ///< jobs whose results stand are left out
-    bool retry = false;            ///< but for those that failed
-    limits bounds;                 ///< of jobs that have none of their own
-    std::filesystem::path caches;  ///< of compiled kernels
+    bool resume = false;          ///< jobs whose results stand are left out
+    bool retry = false;           ///< but for those that failed
+    limits bounds;                ///< of jobs that have none of their own
+    std::filesystem::path caches; ///< of compiled kernels
 };
 
 /// How far a run is.

@@ -76,9 +76,9 @@ private:
 
     limits bounds_;
     clock::time_point start_ = clock::now();
-    pid_t process_ = 0; ///< 0 once its end is known
+    pid_t process_ = 0;                             ///< 0 once its end is known
     std::array<io::detail::descriptor, 2> streams_; ///< closed once nothing more can come
-    io::detail::descriptor over_;                  ///< readable once it has ended; none on older systems
+    io::detail::descriptor over_;                   ///< readable once it has ended; none on older systems
     std::array<std::string, 2> said_;
     child_end::cause by_ = child_end::itself;
     double killed_at_ = std::numeric_limits<double>::infinity(); ///< seconds

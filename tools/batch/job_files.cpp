@@ -44,8 +44,10 @@ job_files argument_reader::files(const std::vector<std::string>& args)
         for (const auto* option : command->get_options())
         {
             const auto& names = option->get_lnames();
-            const bool output = std::any_of(names.begin(), names.end(), [&](const std::string& name)
-                                            { return std::find(written.begin(), written.end(), name) != written.end(); });
+            const bool output = std::any_of(names.begin(), names.end(),
+                                            [&](const std::string& name) {
+                                                return std::find(written.begin(), written.end(), name) != written.end();
+                                            });
             if (!output && !option->get_type_name().starts_with("FILE")) continue;
             for (const auto& path : option->results())
             {

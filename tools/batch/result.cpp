@@ -148,7 +148,8 @@ bool stands(const result& r, const job& wanted, const job_files& files)
     const auto inputs = r.value("inputs", no_files), outputs = r.value("outputs", no_files);
     const auto found = to_json(hashes_of(files.inputs));
     for (const auto& [path, now] : found.items())
-        if (now != inputs.value(path, no_files) && (now.is_null() || now != outputs.value(path, no_files))) return false;
+        if (now != inputs.value(path, no_files) && (now.is_null() || now != outputs.value(path, no_files)))
+            return false;
     for (const auto& [path, hash] : outputs.items())
         if (::access(path.c_str(), F_OK) != 0) return false;
     return true;
