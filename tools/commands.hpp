@@ -25,6 +25,7 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
 command add_check(CLI::App& program);
 command add_eval(CLI::App& program);
 command add_view(CLI::App& program);
+command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_devices(CLI::App& program);
 
 /// All of them, in the order in which the help lists them.
@@ -33,7 +34,7 @@ inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_
     return {add_unwrap(program, launch), add_atlas(program, launch),  add_untangle(program, launch),
             add_deform(program, launch), add_smooth(program, launch), add_paste(program, launch),
             add_check(program),          add_eval(program),           add_view(program),
-            add_devices(program)};
+            add_batch(program, launch),  add_devices(program)};
 }
 
 } // namespace taut::tools

@@ -18,6 +18,7 @@ enum class exit_code : int
     infeasible = 7,       ///< it is proved that no valid map exists; nothing was written
     time_limit = 8,       ///< time ran out; the best valid map so far was written
     device_failure = 9,   ///< the device or its driver failed: build error, out of memory, lost device
+    some_failed = 10,     ///< of a batch: all jobs were run, and the results say which of them failed
     interrupted = 130,    ///< Ctrl-C, 128 + SIGINT as shells report it; the best valid map so far was written, if any
     terminated = 143      ///< SIGTERM, the same
 };
@@ -50,6 +51,8 @@ constexpr const char* describe(exit_code code)
         return "time limit reached, the best valid map was written";
     case exit_code::device_failure:
         return "the OpenCL device failed";
+    case exit_code::some_failed:
+        return "some jobs failed";
     case exit_code::interrupted:
         return "interrupted";
     case exit_code::terminated:

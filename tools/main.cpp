@@ -129,6 +129,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     program.formatter(std::make_shared<wrapped_help>());
     program.footer("exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                    "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure;\n"
+                   "  10 some jobs of a batch failed;\n"
                    "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one by then");
 
     const auto commands = add_commands(program, launch);

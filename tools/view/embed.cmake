@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# cmake "-DFILES=PAGE;SCRIPT;STYLE" -DOUTPUT=CPP -P embed.cmake: writes the definitions that page_files.hpp declares.
-set(names page_html page_script page_style)
-set(text "#include \"view/page_files.hpp\"\n\nnamespace taut::view\n{\n")
-foreach(name file IN ZIP_LISTS names FILES)
+# cmake "-DFILES=FILE;..." "-DNAMES=NAME;..." -DHEADER=HPP -DNAMESPACE=NAMESPACE -DOUTPUT=CPP -P embed.cmake: writes the
+# definitions of the std::string_views that a header declares.
+set(text "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE}\n{\n")
+foreach(name file IN ZIP_LISTS NAMES FILES)
     file(READ ${file} bytes HEX)
     string(REGEX REPLACE "(..)" "\\\\x\\1" bytes "${bytes}")
     string(LENGTH "${bytes}" length)
@@ -16,4 +16,4 @@ foreach(name file IN ZIP_LISTS names FILES)
     math(EXPR size "${length} / 4")
     string(APPEND text "extern const std::string_view ${name};\nconst std::string_view ${name}(${literal},\n    ${size});\n")
 endforeach()
-file(WRITE ${OUTPUT} "${text}} // namespace taut::view\n")
+file(WRITE ${OUTPUT} "${text}} // namespace ${NAMESPACE}\n")

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -128,4 +129,20 @@ TEST_CASE("parallel_for: a nested call stays on its thread, and all of it is don
         4, 1);
     CHECK(visits == 800);
     CHECK(elsewhere == 0);
+}
+
+TEST_CASE("parallel_for: the environment bounds the threads, unless it says nonsense")
+{
+    const auto with = [](const char* wish)
+    {
+        ::setenv("TAUT_THREADS", wish, 1);
+        const unsigned threads = taut::detail::threads_at_once();
+        ::unsetenv("TAUT_THREADS");
+        return threads;
+    };
+    const unsigned all = taut::detail::threads_at_once();
+    CHECK(all >= 1);
+    CHECK(with("3") == 3);
+    CHECK(with("1") == 1);
+    for (const char* nonsense : {"", "0", "many", "-2"}) CHECK(with(nonsense) == all);
 }

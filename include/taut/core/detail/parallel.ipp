@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cstddef>
+#include <cstdlib>
 #include <exception>
+#include <string_view>
 #include <thread>
 
 #include <taut/core/detail/crew.hpp>
@@ -13,11 +16,23 @@
 namespace taut::detail
 {
 
+/// As many as $TAUT_THREADS says, or as the machine runs at once.
+TAUT_INLINE unsigned threads_at_once()
+{
+    unsigned wished = 0;
+    if (const char* wish = std::getenv("TAUT_THREADS"))
+    {
+        const std::string_view digits(wish);
+        std::from_chars(digits.data(), digits.data() + digits.size(), wished);
+    }
+    return wished > 0 ? wished : std::max(1U, std::thread::hardware_concurrency());
+}
+
 TAUT_INLINE void run_pieces(std::size_t n, void* body, void (*call)(void* body, std::size_t begin, std::size_t end),
                             unsigned threads, std::size_t grain)
 {
     if (n == 0) return;
-    static const unsigned at_once = std::max(1U, std::thread::hardware_concurrency()); // the answer is in a file
+    static const unsigned at_once = threads_at_once(); // the answer is in a file
     if (threads == 0) threads = at_once;
     const std::size_t team = std::min<std::size_t>(threads, n / std::max<std::size_t>(grain, 1));
     if (team <= 1) return call(body, 0, n);

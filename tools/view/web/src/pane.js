@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One canvas with a mesh: flat, seen from above, or in space, seen from anywhere. Drawn only when something changed.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh as Drawn, OrthographicCamera,
-  Points, PointsMaterial, Scene, ShaderMaterial, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, LinearSRGBColorSpace, LineBasicMaterial, LineSegments, Mesh as Drawn, OrthographicCamera,
+  Points, PointsMaterial, Scene, ShaderMaterial, Spherical, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
@@ -10,32 +10,40 @@ const vertexShader = `
   attribute vec2 flatUv;
   attribute float value;
   attribute float chosen;
+  attribute float label;
   varying vec3 seen;
   varying vec2 st;
   varying float v;
   varying float c;
+  varying float l;
   void main() {
     vec4 p = modelViewMatrix * vec4(position, 1.0);
     seen = p.xyz;
     st = flatUv;
     v = value;
     c = chosen;
+    l = label;
     gl_Position = projectionMatrix * p;
   }`;
 
-// From the surface's own colour at 4, where shape is kept, over yellow to red.
+// From the surface's own colour at 4, where shape is kept, over yellow to red; or a colour for each label.
 const fragmentShader = `
   uniform vec3 base;
   uniform float checks;
   uniform float shade;
+  uniform float heat;
+  uniform float labels;
   varying vec3 seen;
   varying vec2 st;
   varying float v;
   varying float c;
+  varying float l;
   void main() {
     float t = clamp(log(max(v, 4.0) / 4.0) / log(5.0), 0.0, 1.0);
     vec3 warm = mix(vec3(0.96, 0.80, 0.35), vec3(0.80, 0.16, 0.18), smoothstep(0.35, 1.0, t));
-    vec3 colour = mix(base, warm, smoothstep(0.0, 0.35, t));
+    vec3 colour = mix(base, warm, heat * smoothstep(0.0, 0.35, t));
+    vec3 own = 0.66 + 0.24 * cos(6.2832 * (fract(0.618034 * l) + vec3(0.0, 0.67, 0.33)));
+    if (labels > 0.0 && l > -0.5) colour = own;
     vec2 square = floor(st * checks);
     if (checks > 0.0 && mod(square.x + square.y, 2.0) > 0.5) colour *= 0.80;
     colour = mix(colour, vec3(0.25, 0.48, 0.95), 0.55 * c);
@@ -45,6 +53,7 @@ const fragmentShader = `
   }`;
 
 export class Pane {
+  frame = []; // points that belong to all of it, beside the mesh
   #waiting = false;
 
   /** flat: seen from above, moved but not turned. afterDraw is called when a picture is done. */
@@ -69,11 +78,11 @@ export class Pane {
     this.mesh = mesh;
     const corners = 3 * mesh.faceCount;
     this.geometry = new BufferGeometry();
-    for (const [name, size] of [['position', 3], ['flatUv', 2], ['value', 1], ['chosen', 1]])
+    for (const [name, size] of [['position', 3], ['flatUv', 2], ['value', 1], ['chosen', 1], ['label', 1]])
       this.geometry.setAttribute(name, new BufferAttribute(new Float32Array(size * corners), size));
     this.material = new ShaderMaterial({
       vertexShader, fragmentShader, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-      uniforms: { base: { value: new Color() }, checks: { value: 0 }, shade: { value: this.flat ? 0 : 1 } },
+      uniforms: { base: { value: new Color() }, checks: { value: 0 }, shade: { value: this.flat ? 0 : 1 }, heat: { value: 1 }, labels: { value: 0 } },
     });
     const surface = new Drawn(this.geometry, this.material);
     this.vertices = new Float32Array(3 * mesh.vertexCount);
@@ -94,7 +103,7 @@ export class Pane {
   /** Colours of the page's style. */
   applyTheme() {
     const style = getComputedStyle(document.documentElement);
-    this.material?.uniforms.base.value.set(style.getPropertyValue('--surface').trim());
+    this.material?.uniforms.base.value.setStyle(style.getPropertyValue('--surface').trim(), LinearSRGBColorSpace); // as it stands
     this.wires?.material.color.set(style.getPropertyValue('--wire').trim());
     this.draw();
   }
@@ -109,10 +118,10 @@ export class Pane {
     this.draw();
   }
 
-  /** Flat coordinates for the checkerboard. */
-  setUv(x, checks) {
+  /** Flat coordinates for the checkerboard; faces: whose corners have them, if not those of the mesh. */
+  setUv(x, checks, faces = this.mesh.faces) {
     const uv = this.geometry.getAttribute('flatUv');
-    scatter(this.mesh.faces, x, 2, uv.array);
+    scatter(faces, x, 2, uv.array);
     uv.needsUpdate = true;
     this.material.uniforms.checks.value = checks;
     this.draw();
@@ -141,26 +150,61 @@ export class Pane {
     this.draw();
   }
 
-  /** Shows all of it. */
-  fit() {
+  /** Shows all of it, or some vertices alone, seen from a direction. */
+  fit(vertices = null, from = new Vector3(0, 0, 1)) {
     const low = new Vector3(Infinity, Infinity, Infinity), high = low.clone().negate(), p = new Vector3();
-    for (let v = 0; v < this.mesh.vertexCount; ++v) {
+    const take = (v) => {
       p.fromArray(this.vertices, 3 * v);
-      if (!Number.isFinite(p.x)) continue;
+      if (!Number.isFinite(p.x)) return;
       low.min(p);
       high.max(p);
+    };
+    if (vertices) for (const v of vertices) take(v);
+    else {
+      for (let v = 0; v < this.mesh.vertexCount; ++v) take(v);
+      for (const corner of this.frame) { low.min(corner); high.max(corner); }
     }
-    this.extent = Math.max(high.distanceTo(low), 1e-12);
-    this.size = this.flat ? [high.x - low.x, high.y - low.y] : [this.extent, this.extent];
+    if (!(low.x <= high.x)) return;
+    const extent = Math.max(high.distanceTo(low), 1e-12);
+    if (!vertices) this.extent = extent;
+    this.size = this.flat ? [high.x - low.x, high.y - low.y] : [extent, extent];
     const middle = low.add(high).multiplyScalar(0.5);
     this.controls.target.copy(middle);
-    this.camera.position.copy(middle).add(new Vector3(0, 0, this.extent));
+    this.camera.position.copy(middle).addScaledVector(from, this.extent);
     this.camera.near = -10 * this.extent;
     this.camera.far = 10 * this.extent;
     this.camera.zoom = 1;
     this.camera.up.set(0, 1, 0);
     this.#resize();
     this.controls.update();
+  }
+
+  /** Turns around what is seen, in radians. */
+  turn(azimuth, polar) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const at = new Spherical().setFromVector3(offset);
+    at.theta += azimuth;
+    at.phi += polar;
+    this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(at.makeSafe()));
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Moves by parts of what is seen. */
+  pan(x, y) {
+    const c = this.camera, step = new Vector3();
+    step.addScaledVector(new Vector3().setFromMatrixColumn(c.matrix, 0), (x * (c.right - c.left)) / c.zoom);
+    step.addScaledVector(new Vector3().setFromMatrixColumn(c.matrix, 1), (y * (c.top - c.bottom)) / c.zoom);
+    c.position.add(step);
+    this.controls.target.add(step);
+    this.controls.update();
+    this.draw();
+  }
+
+  zoom(factor) {
+    this.camera.zoom *= factor;
+    this.camera.updateProjectionMatrix();
+    this.draw();
   }
 
   /** Where a vertex is on the page, in pixels of the canvas. */

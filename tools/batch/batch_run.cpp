@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "batch_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <poll.h>
+#include <sched.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "../exit_codes.hpp"
+#include "../interrupt.hpp"
+#include "../outputs.hpp"
+#include "job_files.hpp"
+#include "kernel_cache.hpp"
+
+extern char** environ;
+
+namespace taut::tools::batch
+{
+
+namespace
+{
+
+/// Processors that this process may use.
+std::size_t processors()
+{
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    const int n = ::sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
+    return n > 0 ? static_cast<std::size_t>(n) : 1;
+}
+
+/// That of this process, with a cache of its own and its share of the processors, unless the user has said how many.
+std::vector<std::string> environment_of(const kernel_cache& cache, std::size_t threads)
+{
+    std::vector<std::string> all;
+    for (char** one = environ; *one; ++one) all.emplace_back(*one);
+    const auto has = [&](const std::string& name)
+    { return std::any_of(all.begin(), all.end(), [&](const auto& v) { return v.starts_with(name + '='); }); };
+    for (const std::string name : {"TAUT_THREADS", "POCL_MAX_PTHREAD_COUNT"})
+        if (!has(name)) all.push_back(name + '=' + std::to_string(threads));
+    std::erase_if(all, [](const auto& v) { return v.starts_with("POCL_CACHE_DIR="); });
+    all.push_back("POCL_CACHE_DIR=" + cache.folder().string());
+    return all;
+}
+
+/// By which it shows that a file was written since.
+struct file_state
+{
+    dev_t device = 0;
+    ino_t number = 0;
+    off_t size = -1; ///< there is no such file
+    timespec changed = {};
+
+    explicit file_state(const std::string& path)
+    {
+        struct stat s = {};
+        if (::stat(path.c_str(), &s) != 0) return;
+        device = s.st_dev, number = s.st_ino, size = s.st_size, changed = s.st_ctim;
+    }
+
+    bool operator==(const file_state& o) const
+    {
+        return device == o.device && number == o.number && size == o.size && changed.tv_sec == o.changed.tv_sec &&
+               changed.tv_nsec == o.changed.tv_nsec;
+    }
+};
+
+std::optional<nlohmann::ordered_json> parsed(std::istream&& in)
+{
+    auto json = nlohmann::ordered_json::parse(in, nullptr, false);
+    return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
+}
+
+/// A job at work.
+class running_job
+{
+public:
+    running_job(const job& j, job_files files, const std::vector<std::string>& environment, limits bounds)
+        : job_(j),
+          files_(std::move(files)),
+          inputs_(hashes_of(files_.inputs)),
+          before_(files_.outputs.begin(), files_.outputs.end())
+    {
+        bounds.seconds = j.time_limit.value_or(bounds.seconds);
+        bounds.memory = j.memory_limit.value_or(bounds.memory);
+        child_ = std::make_unique<child>(j.args, environment, bounds);
+    }
+
+    child& process() { return *child_; }
+
+    result result_of(const child_end& end) const
+    {
+        std::vector<std::string> written;
+        for (std::size_t k = 0; k < before_.size(); ++k)
+            if (const auto& path = files_.outputs[k]; !(file_state(path) == before_[k])) written.push_back(path);
+        std::optional<nlohmann::ordered_json> stats;
+        if (files_.stats == standard_output)
+            stats = parsed(std::istringstream(end.printed));
+        else if (std::find(written.begin(), written.end(), files_.stats) != written.end())
+            stats = parsed(std::ifstream(files_.stats));
+        return make_result(job_, end, inputs_, hashes_of(written), stats);
+    }
+
+private:
+    const job& job_;
+    job_files files_;
+    hashes inputs_;
+    std::vector<file_state> before_; ///< of the outputs
+    std::unique_ptr<child> child_;
+};
+
+/// Where a job can be at work.
+struct worker
+{
+    std::unique_ptr<kernel_cache> cache;
+    std::vector<std::string> environment;
+    std::unique_ptr<running_job> at_work;
+};
+
+class batch_run
+{
+public:
+    batch_run(const std::vector<job>& jobs, result_file& results, const run_options& options,
+              const std::function<void(const tally&)>& tell)
+        : jobs_(jobs), results_(results), options_(options), tell_(tell)
+    {
+        count_.jobs = jobs.size();
+        if (options.resume) before_ = results.read();
+    }
+
+    tally operator()()
+    {
+        while (next_ < jobs_.size() || count_.running > 0)
+        {
+            if (interrupted()) stop();
+            fill();
+            wait();
+            look();
+            tell_(count_);
+            if (interrupted() && count_.running == 0) break;
+        }
+        return count_;
+    }
+
+private:
+    static constexpr int pause = 20; ///< milliseconds between two looks at what jobs use
+
+    /// Gives work to those who have none.
+    void fill()
+    {
+        for (auto& w : workers_)
+            if (!w.at_work) start(w);
+        while (workers_.size() < options_.at_once && next_ < jobs_.size() && !interrupted())
+            start(workers_.emplace_back());
+    }
+
+    void start(worker& w)
+    {
+        while (next_ < jobs_.size() && !interrupted())
+        {
+            const job& j = jobs_[next_++];
+            auto files = arguments_.files(j.args);
+            if (skipped(j, files)) continue;
+            if (!w.cache)
+            {
+                w.cache = std::make_unique<kernel_cache>(options_.caches);
+                w.environment = environment_of(*w.cache, std::max<std::size_t>(1, processors() / options_.at_once));
+            }
+            w.at_work = std::make_unique<running_job>(j, std::move(files), w.environment, options_.bounds);
+            ++count_.running;
+            return;
+        }
+    }
+
+    bool skipped(const job& j, const job_files& files)
+    {
+        const auto found = before_.find(j.id);
+        if (found == before_.end()) return false;
+        const bool good = succeeded(found->second);
+        if ((options_.retry && !good) || !stands(found->second, j, files)) return false;
+        ++count_.skipped;
+        if (!good) ++count_.failed_before;
+        return true;
+    }
+
+    void wait() const
+    {
+        std::vector<pollfd> news;
+        for (const auto& w : workers_)
+            if (w.at_work)
+                for (const auto& one : w.at_work->process().news()) news.push_back(one);
+        if (!news.empty()) ::poll(news.data(), news.size(), pause);
+    }
+
+    void look()
+    {
+        for (auto& w : workers_)
+        {
+            if (!w.at_work) continue;
+            const auto end = w.at_work->process().look();
+            if (!end) continue;
+            const auto ended = std::exchange(w.at_work, nullptr);
+            --count_.running;
+            if (belongs_to_interruption(*end)) continue;
+            const auto r = ended->result_of(*end);
+            results_.append(r);
+            ++count_.done;
+            if (!succeeded(r)) ++count_.failed;
+        }
+    }
+
+    /// Who ends a whole group of processes, as schedulers do, may reach a job first.
+    static bool belongs_to_interruption(const child_end& end)
+    {
+        if (end.by == child_end::asked) return true;
+        const bool signalled = end.code == to_int(exit_code::interrupted) || end.code == to_int(exit_code::terminated);
+        if (!signalled || end.by != child_end::itself) return false;
+        for (int k = 0; k < 10 && !interrupted(); ++k) ::poll(nullptr, 0, 10);
+        return interrupted();
+    }
+
+    void stop()
+    {
+        for (auto& w : workers_)
+            if (w.at_work) w.at_work->process().stop(SIGINT);
+    }
+
+    const std::vector<job>& jobs_;
+    result_file& results_;
+    const run_options& options_;
+    const std::function<void(const tally&)>& tell_;
+    std::map<std::string, result> before_;
+    argument_reader arguments_;
+    std::vector<worker> workers_;
+    std::size_t next_ = 0;
+    tally count_;
+};
+
+} // namespace
+
+tally run_jobs(const std::vector<job>& jobs, result_file& results, const run_options& options,
+               const std::function<void(const tally&)>& tell)
+{
+    return batch_run(jobs, results, options, tell)();
+}
+
+} // namespace taut::tools::batch

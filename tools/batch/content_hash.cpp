@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "content_hash.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <openssl/evp.h>
+
+#include <taut/io/atomic_file.hpp>
+
+namespace taut::tools::batch
+{
+
+std::optional<std::string> content_hash(const std::string& path)
+{
+    const io::detail::descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+    struct stat status = {};
+    if (!file || ::fstat(*file, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+
+    const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+    if (!context || EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) != 1) return std::nullopt;
+    std::vector<char> piece(1 << 20);
+    for (;;)
+    {
+        const auto got = ::read(*file, piece.data(), piece.size());
+        if (got == 0) break;
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0 || EVP_DigestUpdate(context.get(), piece.data(), static_cast<std::size_t>(got)) != 1)
+            return std::nullopt;
+    }
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned length = 0;
+    if (EVP_DigestFinal_ex(context.get(), digest.data(), &length) != 1) return std::nullopt;
+    std::string text;
+    for (unsigned k = 0; k < length; ++k)
+        for (const int digit : {digest[k] >> 4, digest[k] & 15}) text += "0123456789abcdef"[digit];
+    return text;
+}
+
+} // namespace taut::tools::batch
