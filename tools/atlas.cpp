@@ -19,8 +19,11 @@
 #include <picture/layout_svg.hpp>
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
+#include <report/atlas_page.hpp>
 #include <taut/atlas/make_atlas.hpp>
+#include <taut/gltf/gltf.hpp>
 #include <taut/io/write_files.hpp>
+#include <taut/mesh/boundary.hpp>
 
 #include "commands.hpp"
 #include "failure.hpp"
@@ -55,8 +58,16 @@ public:
         if (!options_.quiet) place_of_report_ = outputs.place_of_report();
         limit_time(options_.time_limit - clock_.now());
         tell("read");
-        report_.read = clock_.timed([&] { read(); });
-        make();
+        try
+        {
+            report_.read = clock_.timed([&] { read(); });
+            make();
+        }
+        catch (const mesh_error& e)
+        {
+            if (options_.repair || e.fault() == mesh_fault::empty || e.fault() == mesh_fault::too_large) throw;
+            throw mesh_error(e.fault(), e.ids(), std::string(e.what()) + "; or let --repair mend it");
+        }
         write();
         return report_.code;
     }
@@ -76,8 +87,7 @@ private:
             told.vertices = s.file_vertices;
             told.triangles = s.file_triangles;
             told.mapped = s.surface().cell_count();
-            told.repairs = s.repairs;
-            told.repair_lines = s.repair_lines;
+            told.repairs.assign(s.repairs().begin(), s.repairs().end());
             report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());
         }
         joined_.emplace(join(sources_));
@@ -91,6 +101,9 @@ private:
         const auto seams = seams_of(sources_, *joined_, f, options_);
         params.charts.seams = seams;
         if (options_.keep_charts) params.initial = texcoords_of(sources_);
+        // The certificate is of what the files will have.
+        if (std::any_of(options_.outputs.begin(), options_.outputs.end(), io::is_gltf))
+            params.stored = io::texcoord_in_gltf;
         params.observer = [this](const atlas_progress& p)
         {
             keep(p.usable);
@@ -129,14 +142,16 @@ private:
                              [&](io::atomic_file& file) { write_joined(file, options_.inputs, *joined_, maps); }});
         else
             for (std::size_t i = 0; i < sources_.size(); ++i)
-                files.push_back({options_.outputs[i],
-                                 [this, i, &maps](io::atomic_file& file) { sources_[i]->write(file, maps.of(i)); }});
+                for (auto& file : sources_[i]->files(options_.outputs[i], maps.of(i))) files.push_back(std::move(file));
         if (drawn(options_.picture, report_.notes))
             files.push_back(
                 {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});
         if (drawn(options_.render, report_.notes))
             files.push_back(
                 {options_.render, [&](io::atomic_file& file) { file.write(timed([&] { return render(); })); }});
+        if (drawn(options_.report, report_.notes))
+            files.push_back(
+                {options_.report, [&](io::atomic_file& file) { file.write(timed([&] { return page(); })); }});
         write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
     }
 
@@ -178,6 +193,35 @@ private:
     {
         const auto& cut = atlas_->charts.surface;
         return encode_png(io::render_picture(cut.points(), cut.cells(), atlas_->uv, {.title = title()}));
+    }
+
+    std::string page() const
+    {
+        const auto& m = joined_->surface;
+        const auto corners = atlas_->corners();
+        std::vector<std::array<vec2, 3>> uv(corners.size());
+        for (std::size_t c = 0; c < uv.size(); ++c)
+            for (std::size_t k = 0; k < 3; ++k) uv[c][k] = atlas_->uv[static_cast<std::size_t>(corners[c][k])];
+        std::vector<idx> chart(corners.size());
+        for (std::size_t k = 0; k + 1 < atlas_->charts.first_cell.size(); ++k)
+            for (idx c = atlas_->charts.first_cell[k]; c < atlas_->charts.first_cell[k + 1]; ++c)
+                chart[static_cast<std::size_t>(atlas_->charts.cell_origins[static_cast<std::size_t>(c)])] =
+                    static_cast<idx>(k);
+        const auto energy = triangle_energies(*atlas_);
+        report::atlas_page page{.title = title(),
+                                .command = command_line(options_),
+                                .points = m.points(),
+                                .cells = m.cells(),
+                                .uv = uv,
+                                .chart = chart,
+                                .energy = energy,
+                                .columns = {},
+                                .repairs = {},
+                                .stages = stages(report_),
+                                .numbers = numbers(report_, options_)};
+        for (const auto& s : report_.surfaces)
+            for (const auto& finding : s.repairs) page.repairs.push_back(finding.message());
+        return atlas_report_html(page);
     }
 
     atlas_options options_;

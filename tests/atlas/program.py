@@ -173,7 +173,7 @@ def repairs():
     run("atlas", "broken.obj", "-o", "out.obj", "--repair", "--stats", "s.json")
     s = stats("s.json")
     assert s["surfaces"][0]["mapped"] == len(faces)
-    kinds = {r["kind"] for r in s["surfaces"][0]["repairs"]}
+    kinds = {r["fault"] for r in s["surfaces"][0]["repairs"]}
     assert {"duplicate_cell", "repeated_vertex", "inconsistent_orientation", "unreferenced_vertex"} <= kinds, kinds
     _, _, got_faces, texcoords = read("out.obj")
     assert got_faces == broken[1]

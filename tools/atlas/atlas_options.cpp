@@ -5,9 +5,12 @@
 #include <chrono>
 #include <cmath>
 
+#include <taut/gltf/gltf.hpp>
+
 #include "../choices.hpp"
 #include "../failure.hpp"
 #include "../shared_options.hpp"
+#include "../text_table.hpp"
 
 namespace taut::tools
 {
@@ -61,6 +64,8 @@ void declare_reports(CLI::App& app, atlas_options& o)
     add_path(app, "--picture", o.picture, standard_output, "Draw the atlas, coloured by distortion")
         ->type_name("FILE.png|.svg");
     add_path(app, "--render", o.render, standard_output, "Draw the surface with a checkerboard")->type_name("FILE.png");
+    app.add_option("--report", o.report, "Write a page with model and atlas side by side, for a browser")
+        ->type_name("FILE.html");
     add_progress(app, o.progress, o.quiet);
 }
 
@@ -68,14 +73,20 @@ void declare_reports(CLI::App& app, atlas_options& o)
 
 void declare(CLI::App& app, atlas_options& o)
 {
-    app.add_option("IN", o.inputs, "Surfaces that share the atlas: OBJ, OFF, PLY")->required()->type_name("FILE...");
+    app.add_option("IN", o.inputs, "Surfaces that share the atlas: OBJ, OFF, PLY, STL, glTF")
+        ->required()
+        ->type_name("FILE...");
     app.add_option("-o,--output", o.outputs,
                    "What to write, once for each surface: the file as it is, with new vt; one for several: all of them "
                    "as triangles, an object each")
         ->required()
         ->allow_extra_args(false)
-        ->type_name("OUT.obj");
+        ->type_name("OUT.obj|.glb");
     add_format(app, o.format);
+    app.add_option("--texcoord-set", o.texcoord_set, "The N of TEXCOORD_N, of glTF")
+        ->type_name("N")
+        ->check(CLI::Range(0, 7))
+        ->capture_default_str();
     declare_charts(app, o);
     declare_packing(app, o);
     declare_reports(app, o);
@@ -93,13 +104,64 @@ outputs check(const atlas_options& o)
     if (o.inputs.size() > 1 && !o.seams.empty())
         throw usage_error("--seams names vertices of one surface; map the surfaces one at a time, or use --keep-seams");
     outputs files;
-    for (const auto& path : o.outputs) files.add("-o", path, {".obj"});
+    const bool joined = o.outputs.size() < o.inputs.size();
+    for (const auto& path : o.outputs)
+        files.add("-o", path,
+                  joined ? std::vector<std::string>{".obj"} : std::vector<std::string>{".obj", ".glb", ".gltf"});
+    if (!joined)
+        for (std::size_t i = 0; i < o.inputs.size(); ++i)
+            if (io::is_gltf(o.inputs[i]) && !io::is_gltf(o.outputs[i]))
+                throw usage_error("-o " + o.outputs[i] + ": a model of glTF is written as .glb or .gltf");
     files.add("--stats", o.stats, {".json"});
     files.add("--picture", o.picture, {".png", ".svg"});
     files.add("--render", o.render, {".png"});
     files.add("--report", o.report, {".html"});
     if (!o.seams.empty()) files.protect("the file of seams", o.seams);
     return files;
+}
+
+std::string command_line(const atlas_options& o)
+{
+    std::string line = "taut atlas";
+    const auto word = [&](const std::string& text)
+    {
+        const bool plain =
+            !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                    "0123456789_-+=./,:%@") == text.npos;
+        line += ' ';
+        if (plain)
+        {
+            line += text;
+            return;
+        }
+        line += '\'';
+        for (const char c : text) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        line += '\'';
+    };
+    const auto option = [&](const char* name, const std::string& value)
+    {
+        if (value.empty()) return;
+        word(name);
+        word(value);
+    };
+    const auto flag = [&](const char* name, bool given)
+    {
+        if (given) word(name);
+    };
+    for (const auto& input : o.inputs) word(input);
+    for (const auto& output : o.outputs) option("-o", output);
+    flag("--repair", o.repair);
+    if (o.max_distortion) option("--max-distortion", number(*o.max_distortion, 9));
+    if (o.mean_distortion) option("--mean-distortion", number(*o.mean_distortion, 9));
+    if (o.keep_charts) option("--charts", "keep");
+    flag("--keep-seams", o.keep_seams);
+    option("--seams", o.seams);
+    option("--padding", number(o.padding, 9));
+    option("--resolution", std::to_string(o.resolution));
+    if (o.tiles > 1) option("--udim", std::to_string(o.tiles));
+    flag("--upright", o.upright);
+    if (o.texcoord_set > 0) option("--texcoord-set", std::to_string(o.texcoord_set));
+    return line;
 }
 
 source_options to_source_options(const atlas_options& o)

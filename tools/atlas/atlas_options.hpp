@@ -28,7 +28,6 @@ struct atlas_options
     double padding = pack_params{}.padding;
     int resolution = pack_params{}.resolution, tiles = 1, texcoord_set = 0;
     double time_limit = std::numeric_limits<double>::infinity();
-    std::string command; ///< to do it again
 };
 
 /// Declares the options; they are filled when the program's arguments are parsed.
@@ -36,6 +35,9 @@ void declare(CLI::App& app, atlas_options& options);
 
 /// Throws usage_error for options that do not fit together and for outputs that could not be written.
 outputs check(const atlas_options& options);
+
+/// What to type to have the same again.
+std::string command_line(const atlas_options& options);
 
 source_options to_source_options(const atlas_options& options);
 

@@ -4,7 +4,11 @@
 #include <iostream>
 #include <sstream>
 
+#include <taut/energy/isometric.hpp>
+#include <taut/mesh/ideal.hpp>
+
 #include "../assessment.hpp"
+#include "../repair_report.hpp"
 #include "../run_clock.hpp"
 #include "../text_table.hpp"
 
@@ -23,7 +27,7 @@ nlohmann::ordered_json to_json(const atlas_run_report& r, const atlas_options& o
                                     {"vertices", s.vertices},
                                     {"faces", s.triangles},
                                     {"mapped", s.mapped},
-                                    {"repairs", s.repairs}});
+                                    {"repairs", to_json(s.repairs)}});
     json["device"] = r.device;
     json["complete"] = a.complete;
     json["charts"] = a.charts.size();
@@ -69,7 +73,7 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
         lines.add("mesh", s.input + ": " + count(static_cast<std::uint64_t>(s.vertices), "vertex", "vertices") + ", " +
                               count(all, "triangle", "triangles") +
                               (mapped < all ? ", " + count(all - mapped) + " left out" : ""));
-        for (const auto& line : s.repair_lines) lines.add("repair", line);
+        describe(lines, s.repairs);
         if (files.empty() || s.output != r.surfaces.front().output) files += (files.empty() ? "" : ", ") + s.output;
     }
     lines.add("device", r.device_label);
@@ -92,6 +96,50 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
         if (!file.empty()) files += ", " + file;
     lines.add("wrote", files);
     return (std::ostringstream() << lines).str();
+}
+
+std::vector<report::stage> stages(const atlas_run_report& r)
+{
+    const auto& s = r.atlas.seconds;
+    std::vector<report::stage> result{{"read", r.read},
+                                      {"device", r.queue},
+                                      {"setup", s.setup},
+                                      {"charts", s.charts},
+                                      {"flatten", s.flatten, r.atlas.distortion},
+                                      {"pack", s.pack},
+                                      {"certify", s.certify}};
+    return result;
+}
+
+std::vector<std::pair<std::string, std::string>> numbers(const atlas_run_report& r, const atlas_options& o)
+{
+    const auto& a = r.atlas;
+    std::uint64_t triangles = 0;
+    for (const auto& s : r.surfaces) triangles += static_cast<std::uint64_t>(s.mapped);
+    return {{"triangles", count(triangles)},
+            {"charts", count(a.charts.size())},
+            {"distortion", number(a.distortion, 6)},
+            {"worst chart", number(a.worst, 4)},
+            {"used", number(100 * a.utilization, 3) + " %"},
+            {"flipped", count(a.flips.flipped)},
+            {"overlaps", count(a.overlaps)},
+            {"seams", number(a.seam_length)},
+            {"apart", number(a.least_distance, 3) + " texels of " + std::to_string(o.resolution)}};
+}
+
+std::vector<double> triangle_energies(const atlas& made)
+{
+    const auto& cut = made.charts.surface;
+    const ideal_elements<triangle> ideal(cut);
+    std::vector<double> energy(cut.cells().size());
+    for (std::size_t i = 0; i < energy.size(); ++i)
+    {
+        const mat2 S =
+            shape_matrix<2>(cut.cells()[i], std::span<const vec2>(made.uv), ideal.inverse[i]) / made.layout.scale;
+        energy[static_cast<std::size_t>(made.charts.cell_origins[i])] =
+            energy::isometric{}(element<double, 2>{S, glm::determinant(S), ideal.measure[i]});
+    }
+    return energy;
 }
 
 } // namespace taut::tools

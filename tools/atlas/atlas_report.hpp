@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include <report/atlas_page.hpp>
 #include <taut/atlas/make_atlas.hpp>
+#include <taut/repair/repair_finding.hpp>
 
 #include "../exit_codes.hpp"
 #include "atlas_options.hpp"
@@ -23,8 +26,7 @@ struct atlas_run_report
         std::string input, output;
         idx vertices = 0, triangles = 0; ///< of the file
         idx mapped = 0;                  ///< triangles that have a place in the atlas
-        nlohmann::ordered_json repairs = nlohmann::ordered_json::array();
-        std::vector<std::string> repair_lines;
+        std::vector<repair_finding> repairs;
     };
 
     std::vector<surface> surfaces;
@@ -37,5 +39,12 @@ struct atlas_run_report
 
 nlohmann::ordered_json to_json(const atlas_run_report& report, const atlas_options& options);
 std::string text_of(const atlas_run_report& report, const atlas_options& options);
+
+/// For the page of --report.
+std::vector<report::stage> stages(const atlas_run_report& report);
+std::vector<std::pair<std::string, std::string>> numbers(const atlas_run_report& report, const atlas_options& options);
+
+/// The isometric energy of each triangle of the surface that the atlas is of, at the scale of the atlas.
+std::vector<double> triangle_energies(const atlas& made);
 
 } // namespace taut::tools

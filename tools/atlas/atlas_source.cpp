@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "atlas_source.hpp"
 
-#include <numeric>
-#include <optional>
-#include <utility>
+#include <limits>
 
+#include <taut/gltf/gltf.hpp>
 #include <taut/io/write_obj.hpp>
-#include <taut/repair/repair_surface.hpp>
+
+#include "../repair_report.hpp"
 
 namespace taut::tools
 {
@@ -14,44 +14,26 @@ namespace taut::tools
 namespace
 {
 
-/// OBJ, OFF, PLY or STL; written as OBJ.
+/// OBJ, OFF, PLY or STL; written as OBJ, or as a new glTF document.
 class surface_source : public atlas_source
 {
 public:
-    surface_source(io::surface_soup file, mesh<triangle> surface) : file_(std::move(file)), whole_(std::move(surface))
+    surface_source(io::surface_soup file, bool repair) : file_(std::move(file))
     {
-        describe();
-    }
-    surface_source(io::surface_soup file, repaired_surface repaired)
-        : file_(std::move(file)), repaired_(std::move(repaired))
-    {
-        describe();
-    }
-
-    const mesh<triangle>& surface() const override { return repaired_ ? repaired_->surface : *whole_; }
-
-    idx vertex_origin(idx v) const override
-    {
-        return repaired_ ? repaired_->vertex_origins[static_cast<std::size_t>(v)] : v;
+        file_vertices = static_cast<idx>(file_.points.size());
+        file_triangles = static_cast<idx>(file_.triangles.size());
+        notes = file_.notes;
+        if (file_.fault && !repair) throw mesh_error(*file_.fault);
+        if (repair)
+            take(tools::repair(file_));
+        else
+            take(mesh<triangle>(file_.points, file_.triangles));
     }
 
-    std::vector<std::array<vec2, 3>> texcoords() const override
+    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map) const override
     {
-        if (file_.texcoords.empty()) return {};
-        std::vector<std::array<vec2, 3>> result(surface().cells().size());
-        for (std::size_t c = 0; c < result.size(); ++c)
-            for (std::size_t k = 0; k < 3; ++k)
-            {
-                const auto [cell, corner] = origin(c, k);
-                const idx t = file_.texcoord_cells[cell][corner];
-                if (t < 0) return {};
-                result[c][k] = file_.texcoords[static_cast<std::size_t>(t)];
-            }
-        return result;
-    }
-
-    void write(io::atomic_file& out, const corner_map& map) const override
-    {
+        if (io::is_gltf(path))
+            return io::gltf_files(path, io::gltf_of(file_.points, file_.triangles), by_file_corner(map));
         std::vector<idx> texcoords(file_.faces.corners.size(), -1);
         for (std::size_t c = 0; c < map.cells.size(); ++c)
             for (std::size_t k = 0; k < 3; ++k)
@@ -59,42 +41,95 @@ public:
                 const auto [cell, corner] = origin(c, k);
                 texcoords[file_.faces.corner(cell, corner)] = map.cells[c][k];
             }
-        io::write_obj(out, file_, texcoords, map.uv);
+        return {{path, [this, texcoords = std::move(texcoords), map](io::atomic_file& out)
+                 { io::write_obj(out, file_, texcoords, map.uv); }}};
     }
 
 private:
-    void describe()
+    std::optional<vec2> texcoord(std::size_t cell, std::size_t corner) const override
     {
-        file_vertices = static_cast<idx>(file_.points.size());
-        file_triangles = static_cast<idx>(file_.triangles.size());
-        notes = file_.notes;
-    }
-
-    /// The triangle of the file and the corner of it.
-    std::pair<std::size_t, std::size_t> origin(std::size_t c, std::size_t k) const
-    {
-        if (!repaired_) return {c, k};
-        return {static_cast<std::size_t>(repaired_->cell_origins[c]), repaired_->corner_origin(c, k)};
+        const idx t = file_.texcoord_cells.empty() ? -1 : file_.texcoord_cells[cell][corner];
+        if (t < 0) return std::nullopt;
+        return file_.texcoords[static_cast<std::size_t>(t)];
     }
 
     io::surface_soup file_;
-    std::optional<mesh<triangle>> whole_;      // of the file as it is,
-    std::optional<repaired_surface> repaired_; // or this
+};
+
+/// glTF, of which all stays but texture coordinates.
+class gltf_source : public atlas_source
+{
+public:
+    gltf_source(io::gltf_model model, bool repair, int set) : model_(std::move(model)), set_(set)
+    {
+        file_vertices = static_cast<idx>(model_.points.size());
+        file_triangles = static_cast<idx>(model_.triangles.size());
+        notes = model_.notes;
+        if (repair)
+            take(repair_surface(model_.points, model_.triangles));
+        else
+            take(mesh<triangle>(model_.points, model_.triangles));
+    }
+
+    std::vector<idx> parts() const override
+    {
+        std::vector<idx> result(surface().cells().size());
+        for (std::size_t c = 0; c < result.size(); ++c) result[c] = model_.materials[origin(c, 0).first];
+        return result;
+    }
+
+    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map) const override
+    {
+        return io::gltf_files(path, model_, by_file_corner(map), set_);
+    }
+
+private:
+    std::optional<vec2> texcoord(std::size_t cell, std::size_t corner) const override
+    {
+        const idx t = model_.texcoord_cells.empty() ? -1 : model_.texcoord_cells[cell][corner];
+        if (t < 0) return std::nullopt;
+        return model_.texcoords[static_cast<std::size_t>(t)];
+    }
+
+    io::gltf_model model_;
+    int set_;
 };
 
 } // namespace
 
+std::vector<std::array<vec2, 3>> atlas_source::texcoords() const
+{
+    std::vector<std::array<vec2, 3>> result(surface().cells().size());
+    for (std::size_t c = 0; c < result.size(); ++c)
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const auto [cell, corner] = origin(c, k);
+            const auto uv = texcoord(cell, corner);
+            if (!uv) return {};
+            result[c][k] = *uv;
+        }
+    return result;
+}
+
+std::vector<std::array<vec2, 3>> atlas_source::by_file_corner(const corner_map& map) const
+{
+    const vec2 none(std::numeric_limits<double>::quiet_NaN());
+    std::vector<std::array<vec2, 3>> result(static_cast<std::size_t>(file_triangles), {none, none, none});
+    for (std::size_t c = 0; c < map.cells.size(); ++c)
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const auto [cell, corner] = origin(c, k);
+            result[cell][corner] = map.uv[static_cast<std::size_t>(map.cells[c][k])];
+        }
+    return result;
+}
+
 std::unique_ptr<atlas_source> open_atlas_source(const std::string& path, const source_options& options)
 {
-    auto soup = io::read_surface_soup(path, options.format);
-    if (options.repair)
-    {
-        auto repaired = repair_surface(soup.points, soup.triangles);
-        return std::make_unique<surface_source>(std::move(soup), std::move(repaired));
-    }
-    if (soup.fault) throw mesh_error(*soup.fault);
-    mesh<triangle> surface(soup.points, soup.triangles);
-    return std::make_unique<surface_source>(std::move(soup), std::move(surface));
+    if (io::is_gltf(path))
+        return std::make_unique<gltf_source>(io::read_gltf(path, options.texcoord_set), options.repair,
+                                             options.texcoord_set);
+    return std::make_unique<surface_source>(io::read_surface_soup(path, options.format), options.repair);
 }
 
 } // namespace taut::tools

@@ -2,16 +2,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include <taut/io/atomic_file.hpp>
 #include <taut/io/read_surface.hpp>
-#include <taut/mesh/mesh.hpp>
+#include <taut/io/write_files.hpp>
+#include <taut/repair/repair_surface.hpp>
 
 namespace taut::tools
 {
@@ -29,25 +30,50 @@ class atlas_source
 public:
     virtual ~atlas_source() = default;
 
-    /// What is mapped.
-    virtual const mesh<triangle>& surface() const = 0;
+    /// What is mapped: the triangles of the file, or what repair has made of them.
+    const mesh<triangle>& surface() const { return repaired_ ? repaired_->surface : *whole_; }
 
     /// The vertex of the file that a vertex of the surface is.
-    virtual idx vertex_origin(idx v) const { return v; }
+    idx vertex_origin(idx v) const { return repaired_ ? repaired_->vertex_origins[static_cast<std::size_t>(v)] : v; }
+
+    /// What was mended.
+    std::span<const repair_finding> repairs() const
+    {
+        return repaired_ ? std::span<const repair_finding>(repaired_->findings) : std::span<const repair_finding>();
+    }
 
     /// The texture coordinates that the file has, one a corner of the surface; empty if one is missing.
-    virtual std::vector<std::array<vec2, 3>> texcoords() const = 0;
+    std::vector<std::array<vec2, 3>> texcoords() const;
 
     /// A label a triangle where the file parts the surface, as by materials; or empty.
     virtual std::vector<idx> parts() const { return {}; }
 
-    /// Writes the file with this map of the surface. What was left out of the surface gets no coordinates.
-    virtual void write(io::atomic_file& out, const corner_map& map) const = 0;
+    /// The files to be written for this map of the surface. What was left out of the surface gets no coordinates.
+    virtual std::vector<io::file_to_write> files(const std::string& path, const corner_map& map) const = 0;
 
     idx file_vertices = 0, file_triangles = 0;
     std::vector<std::string> notes; ///< what was changed in reading, in sentences
-    nlohmann::ordered_json repairs = nlohmann::ordered_json::array();
-    std::vector<std::string> repair_lines;
+
+protected:
+    void take(mesh<triangle> whole) { whole_.emplace(std::move(whole)); }
+    void take(repaired_surface repaired) { repaired_.emplace(std::move(repaired)); }
+
+    /// The triangle of the file and the corner of it that are corner k of triangle c of the surface.
+    std::pair<std::size_t, std::size_t> origin(std::size_t c, std::size_t k) const
+    {
+        if (!repaired_) return {c, k};
+        return {static_cast<std::size_t>(repaired_->cell_origins[c]), repaired_->corner_origin(c, k)};
+    }
+
+    /// The texture coordinate of a corner of a triangle of the file; nothing if it has none.
+    virtual std::optional<vec2> texcoord(std::size_t cell, std::size_t corner) const = 0;
+
+    /// The map by the triangles of the file; not a number where there is none.
+    std::vector<std::array<vec2, 3>> by_file_corner(const corner_map& map) const;
+
+private:
+    std::optional<mesh<triangle>> whole_;      // of the file as it is,
+    std::optional<repaired_surface> repaired_; // or this
 };
 
 struct source_options
@@ -57,7 +83,7 @@ struct source_options
     int texcoord_set = 0; ///< of glTF
 };
 
-/// Throws io_error, mesh_error; and what repair throws.
+/// Throws io_error, mesh_error; repair_error if no triangle is left.
 std::unique_ptr<atlas_source> open_atlas_source(const std::string& path, const source_options& options);
 
 } // namespace taut::tools

@@ -39,6 +39,9 @@ struct atlas_params
     flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
     pack_params packing = {};       ///< the same
 
+    /// What a file makes of a coordinate, as by rounding to floats: the certificate is of these. Null: nothing.
+    vec2 (*stored)(vec2) = nullptr;
+
     /// Wall-clock limit of the whole call. What is not flattened by then is as it began.
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 

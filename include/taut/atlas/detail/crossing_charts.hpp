@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -14,45 +14,45 @@
 namespace taut::detail
 {
 
-/// The boundary edges of charts, those of a chart in one piece.
-struct chart_borders
+/// Whether the image of a loop that does not meet itself has its inside to its left; exact.
+inline bool turns_left(std::span<const idx> loop, std::span<const vec2> uv)
 {
-    std::vector<std::array<idx, 2>> edges;
-    std::vector<idx> first; ///< #charts + 1
+    const auto at = [&](std::size_t k) { return uv[static_cast<std::size_t>(loop[k % loop.size()])]; };
+    std::size_t first = 0; // leftmost, then lowest: a convex corner
+    for (std::size_t k = 1; k < loop.size(); ++k)
+        if (at(k).x < at(first).x || (at(k).x == at(first).x && at(k).y < at(first).y)) first = k;
+    return orient2d(at(first + loop.size() - 1), at(first), at(first + 1)) > 0;
+}
 
-    explicit chart_borders(const chart_mesh& charts) : chart_borders(charts, facets(charts.surface)) {}
+/// Whether the borders of a chart show that its map, free of flips, covers something twice. How often a point is
+/// covered is the sum of how often the borders wind around it: at most once if they are simple, apart from each other,
+/// and all but one run around holes.
+inline bool overlaps_itself(std::span<const std::vector<idx>> loops, std::span<const vec2> uv)
+{
+    const auto left = [&](const std::vector<idx>& loop) { return turns_left(loop, uv); };
+    return !for_each_meeting(edges_of(loops), uv, [](std::size_t, std::size_t) { return false; }) ||
+           std::count_if(loops.begin(), loops.end(), left) != 1;
+}
 
-    chart_borders(const chart_mesh& charts, const facet_table& f) : first{0}
-    {
-        for (std::size_t k = 0; k + 1 < charts.first_cell.size(); ++k)
-        {
-            for (idx s = 3 * charts.first_cell[k]; s < 3 * charts.first_cell[k + 1]; ++s)
-                if (f.twin[static_cast<std::size_t>(s)] < 0) edges.push_back(side_vertices(charts.surface, s));
-            first.push_back(static_cast<idx>(edges.size()));
-        }
-    }
-
-    std::span<const std::array<idx, 2>> of(std::size_t chart) const
-    {
-        const auto begin = static_cast<std::size_t>(first[chart]);
-        return std::span(edges).subspan(begin, static_cast<std::size_t>(first[chart + 1]) - begin);
-    }
-};
-
-/// One flag a chart: 1 where its border meets itself. A chart without flips and branch points whose border does not is
-/// covered once: the loops of a chart of genus 0 cannot be simple, disjoint and yet lie otherwise than around it and
-/// its holes, as the turns of their tangents sum up to its Euler characteristic.
+/// One flag a chart, without flips, of genus 0: 1 where it overlaps itself.
 /// uv: one a vertex of charts.surface, finite
 inline std::vector<char> crossing_charts(const chart_mesh& charts, std::span<const vec2> uv)
 {
-    const chart_borders borders(charts);
-    std::vector<char> crossing(static_cast<std::size_t>(charts.charts()), 0);
+    const auto loops = boundary_loops(charts.surface); // in the order of their first vertices, so chart by chart
+    std::vector<std::size_t> first{0};
+    for (std::size_t k = 0; k + 1 < charts.first_vertex.size(); ++k)
+    {
+        std::size_t end = first.back();
+        while (end < loops.size() && loops[end][0] < charts.first_vertex[k + 1]) ++end;
+        first.push_back(end);
+    }
+    std::vector<char> crossing(first.size() - 1, 0);
     parallel_for(
         crossing.size(),
         [&](std::size_t begin, std::size_t end)
         {
             for (std::size_t k = begin; k < end; ++k)
-                crossing[k] = !for_each_meeting(borders.of(k), uv, [](std::size_t, std::size_t) { return false; });
+                crossing[k] = overlaps_itself(std::span(loops).subspan(first[k], first[k + 1] - first[k]), uv);
         },
         0, 8);
     return crossing;

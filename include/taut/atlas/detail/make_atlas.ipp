@@ -190,6 +190,8 @@ private:
             for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
                 uv_[v] += vec2(-10 * row, row);
         }
+        if (params_.stored != nullptr)
+            for (vec2& x : uv_) x = params_.stored(x);
         report_.seconds.pack = budget_.lap();
     }
 

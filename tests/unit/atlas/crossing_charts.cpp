@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <support/meshes.hpp>
+#include <taut/atlas/detail/crossing_charts.hpp>
+#include <taut/exact/certify.hpp>
+
+using namespace taut;
+
+namespace
+{
+
+/// A strip of n squares, whose middle line is laid at the angles 0 .. turn of circles about the origin.
+std::vector<vec2> arc_of(int n, double turn, double radius, double growth)
+{
+    std::vector<vec2> uv;
+    for (int i = 0; i <= n; ++i)
+        for (const double side : {0.5, -0.5})
+        {
+            const double a = turn * i / n, r = radius + growth * a + side;
+            uv.push_back({r * std::cos(a), r * std::sin(a)});
+        }
+    return uv;
+}
+
+mesh<triangle> strip(int n)
+{
+    std::vector<vec3> points;
+    std::vector<std::array<idx, 3>> cells;
+    for (int i = 0; i <= n; ++i)
+        for (const double y : {0.0, 1.0}) points.push_back({double(i), y, 0.0});
+    for (idx i = 0; i < n; ++i)
+    {
+        cells.push_back({2 * i, 2 * i + 2, 2 * i + 3});
+        cells.push_back({2 * i, 2 * i + 3, 2 * i + 1});
+    }
+    return {points, cells};
+}
+
+bool crosses(const mesh<triangle>& m, const std::vector<vec2>& uv)
+{
+    const auto f = facets(m);
+    const auto charts = cut_charts(m, f, std::vector<char>(f.twin.size(), 0));
+    REQUIRE(certify<2>(m.cells(), std::span<const vec2>(uv)));
+    return detail::crossing_charts(charts, uv)[0] != 0;
+}
+
+} // namespace
+
+TEST_CASE("crossing charts: a strip that runs over itself, and spirals that do not")
+{
+    constexpr double turn = 2.5 * std::numbers::pi;
+    const auto m = strip(40);
+    CHECK(crosses(m, arc_of(40, turn, 3, 0)));
+    CHECK_FALSE(crosses(m, arc_of(40, turn, 3, 0.5)));
+    CHECK_FALSE(crosses(m, arc_of(40, 1, 3, 0)));
+}
+
+TEST_CASE(
+    "crossing charts: an annulus around its hole, and one whose loops do not meet though it covers its middle twice")
+{
+    const auto m = test::annulus(12);
+    std::vector<vec2> uv;
+    for (const vec3& p : m.points()) uv.push_back(vec2(p));
+    CHECK_FALSE(crosses(m, uv));
+
+    const std::vector<std::vector<idx>> loops{{0, 1, 2}, {3, 4, 5}}, hole{{0, 1, 2}, {5, 4, 3}};
+    const std::vector<vec2> nested{{-3, -3}, {3, -3}, {0, 4}, {-1, -1}, {1, -1}, {0, 1}};
+    CHECK(detail::overlaps_itself(loops, nested));
+    CHECK_FALSE(detail::overlaps_itself(hole, nested));
+}
