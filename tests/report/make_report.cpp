@@ -34,7 +34,7 @@ struct sphere
         return (glm::dot(s, s) + glm::dot(t, t)) * (1 + 1 / (det * det));
     }
 
-    explicit sphere(int n)
+    sphere(int n, int alone)
     {
         std::map<std::array<int, 3>, idx> number; // corners of faces of a cube of side 2 n
         for (int side = 0; side < 6; ++side)
@@ -63,11 +63,20 @@ struct sphere
                         {place(i, j), place(i + 1, j + 1), place(i, j + 1)}, side);
                 }
         }
-        for (const vec3& p : {vec3(1.2, 0, 0), vec3(1.4, 0, 0), vec3(1.2, 0.2, 0)}) points.push_back(p);
-        const auto last = static_cast<idx>(points.size());
-        add({last - 3, last - 2, last - 1}, {vec2(0.1, 0.8), vec2(0.2, 0.8), vec2(0.1, 0.9)}, 6);
-        points.push_back({1.4, 0.2, 0});
-        cells.push_back({last - 2, last, last - 1});
+        const auto apart = [&](double height)
+        {
+            for (const vec3& p : {vec3(1.2, 0, height), vec3(1.4, 0, height), vec3(1.2, 0.2, height)})
+                points.push_back(p);
+            const auto end = static_cast<idx>(points.size());
+            return std::array<idx, 3>{end - 3, end - 2, end - 1};
+        };
+        for (int k = 0; k < alone; ++k)
+        {
+            const double size = 0.1 / alone;
+            const vec2 at(0.1 + k * size, 0.8);
+            add(apart(2.0 * k / alone), {at, at + vec2(size, 0), at + vec2(0, size)}, 6 + k);
+        }
+        cells.push_back(apart(-0.2));
         uv.push_back({vec2(NAN), vec2(NAN), vec2(NAN)});
         chart.push_back(-1);
         energy.push_back(std::numeric_limits<double>::quiet_NaN());
@@ -88,8 +97,9 @@ struct sphere
 
 int main(int argc, char** argv)
 {
-    if (argc != 3) return 2;
-    const sphere s(std::atoi(argv[1]));
+    if (argc != 4) return 2;
+    const int alone = std::atoi(argv[3]);
+    const sphere s(std::atoi(argv[1]), alone);
     report::atlas_page page;
     page.title = "sphere </script><script>alert(1)</script>.obj";
     page.command = "taut atlas sphere.obj -o 'out <b>.obj' --report sphere.html";
@@ -98,10 +108,12 @@ int main(int argc, char** argv)
     page.uv = s.uv;
     page.chart = s.chart;
     page.energy = s.energy;
-    page.columns = {{"iterations", {3, 4, 5, 6, 7, 8, std::numeric_limits<double>::quiet_NaN()}}};
+    page.columns = {{"iterations", {3, 4, 5, 6, 7, 8}}};
+    page.columns[0].values.resize(static_cast<std::size_t>(6 + alone), std::numeric_limits<double>::quiet_NaN());
     page.repairs = {"1 triangle (12) had no area and was dropped"};
     page.stages = {{"read", 0.1}, {"charts", 0.4, 5.5}, {"flatten", 1.2, 4.3}, {"pack", 0.3, 4.3}};
-    page.numbers = {{"charts", "7"}, {"use of the square", "0.62"}, {"flipped", "0"}, {"overlaps", "0"}};
+    page.numbers = {
+        {"charts", std::to_string(6 + alone)}, {"use of the square", "0.62"}, {"flipped", "0"}, {"overlaps", "0"}};
     page.most_triangles = static_cast<idx>(std::atoi(argv[2]));
     std::cout << report::atlas_report_html(page);
 }

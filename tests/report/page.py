@@ -48,12 +48,12 @@ def chosen(b):
 
 def visit(dark):
     n = 12
-    path = page("sphere", n, 60000)
+    path = page("sphere", n, 60000, 1)
     with Browser(chromium, size=(1280, 1000), dark=dark) as b:
         ready(b, path)
         faces = 12 * n * n
         assert b.evaluate("[report.chart.length, report.model.vertexCount, report.atlas.vertexCount]") == \
-            [faces + 2, 6 * n * n + 2 + 4, 6 * (n + 1) ** 2 + 6]
+            [faces + 2, 6 * n * n + 2 + 6, 6 * (n + 1) ** 2 + 6]
         assert b.evaluate("document.title").startswith("sphere </script>") and b.evaluate("document.getElementById('simplified').hidden")
         assert "out <b>.obj" in b.evaluate("document.querySelector('#command pre').textContent")
         assert b.evaluate("document.querySelector('#repairs li').textContent").startswith("1 triangle (12)")
@@ -142,21 +142,31 @@ def visit(dark):
 
 
 def large():
-    """A model beyond what is drawn: the views are simpler, the numbers are not."""
+    """A model and a table beyond what is drawn: the views are simpler, the numbers are not."""
     n = 130
-    path = page("large", n, 20000)
+    path = page("large", n, 20000, 1200)
     assert os.path.getsize(path) < 4_000_000
     with Browser(chromium, size=(1280, 1000)) as b:
         ready(b, path)
         shown = b.evaluate("report.chart.length")
         assert 10000 < shown <= 20000
         note = b.evaluate("document.getElementById('simplified').textContent")
-        assert f"{shown:,} of {12 * n * n + 2:,}" in note, note
-        assert b.evaluate("report.data.columns[0].values") == [2 * n * n] * 6 + [1]
+        assert f"{shown:,} of {12 * n * n + 1201:,}" in note, note
+        assert b.evaluate("report.data.columns[0].values") == [2 * n * n] * 6 + [1] * 1200
+        # The table lists what comes first, more on demand, and what is selected.
+        rows = "document.querySelectorAll('#charts tbody tr').length"
+        assert b.evaluate(rows) == 500 and "500 of 1,206" in b.evaluate("document.querySelector('.more').textContent")
+        b.evaluate("report.select(1205, true)")
+        assert b.evaluate("document.querySelector('#charts [aria-selected=\"true\"]').dataset.chart") == "1205" and b.evaluate(rows) == 501
+        for many in (1000, 1206):
+            b.evaluate("document.querySelector('.more').click()")
+            assert b.evaluate(rows) == many
+        assert b.evaluate("document.querySelector('.more').hidden")
+        b.evaluate("report.showAll()")
         b.key("c")
         b.screenshot(f"{folder}/large.png")
         assert not b.errors(), b.errors()
-    with open(path, "rb") as f, open(page("again", n, 20000), "rb") as again:
+    with open(path, "rb") as f, open(page("again", n, 20000, 1200), "rb") as again:
         assert f.read() == again.read()
 
 

@@ -14,9 +14,14 @@ const colourOf = (c) => {
   return `rgb(${part(0)} ${part(0.67)} ${part(0.33)})`;
 };
 
+const most = 500; // rows at first, and more each time that more are asked for
+
 export class ChartTable {
-  #rows = []; // by chart
+  #rows = new Map(); // by chart, as they are needed
+  #order = []; // charts
+  #shown = most;
   #body;
+  #more;
   #columns;
   #pick;
 
@@ -33,22 +38,9 @@ export class ChartTable {
       button.textContent = column.name === 'area' ? 'area %' : column.name;
       button.onclick = () => this.sort(k, cell.getAttribute('aria-sort') === 'descending' ? 1 : -1);
     });
-    for (const c of this.#columns[0].values) {
-      const row = document.createElement('tr');
-      row.dataset.chart = c;
-      this.#columns.forEach((column, k) => {
-        const cell = row.appendChild(document.createElement('td'));
-        if (k === 0) {
-          const swatch = cell.appendChild(document.createElement('span'));
-          swatch.className = 'swatch';
-          swatch.style.background = colourOf(c);
-        }
-        cell.append(plain(column.values[c]));
-      });
-      row.tabIndex = -1;
-      row.setAttribute('aria-selected', 'false');
-      this.#rows.push(row);
-    }
+    this.#more = section.appendChild(document.createElement('button'));
+    this.#more.className = 'more';
+    this.#more.onclick = () => { this.#shown += most; this.#fill(); };
     this.#body.onclick = (e) => this.#take(e.target.closest('tr'));
     this.#body.onkeydown = (e) => this.#move(e);
     this.sort(Math.max(0, this.#columns.findIndex((column) => column.name === 'area')), -1);
@@ -57,34 +49,61 @@ export class ChartTable {
   /** By a column; 1: the smallest first, -1: the largest. What is not known comes last. */
   sort(k, direction) {
     const { values } = this.#columns[k];
-    const order = Array.from(this.#rows.keys()).sort((a, b) => {
+    this.#order = Array.from(values.keys()).sort((a, b) => {
       if (values[a] === values[b]) return a - b;
       if (values[a] === null) return 1;
       if (values[b] === null) return -1;
       return direction * (values[a] - values[b]);
     });
-    this.#body.replaceChildren(...order.map((c) => this.#rows[c]));
     this.#body.parentElement.querySelectorAll('th').forEach((cell, i) => {
       if (i === k) cell.setAttribute('aria-sort', direction > 0 ? 'ascending' : 'descending');
       else cell.removeAttribute('aria-sort');
     });
-    for (const row of this.#rows) row.tabIndex = -1;
-    const reached = this.#body.querySelector('[aria-selected="true"]') ?? this.#body.firstElementChild;
-    if (reached) reached.tabIndex = 0;
+    this.#shown = most;
+    this.#fill();
   }
 
   /** Marks the row of a chart, or none for -1. */
   mark(c, scrolled) {
     const before = this.#body.querySelector('[aria-selected="true"]');
     before?.setAttribute('aria-selected', 'false');
-    const row = this.#rows[c];
-    if (!row) return;
+    if (c < 0) return;
+    const row = this.#row(c);
+    if (!row.isConnected) this.#body.prepend(row);
     for (const other of this.#body.querySelectorAll('[tabindex="0"]')) other.tabIndex = -1;
     row.tabIndex = 0;
     row.setAttribute('aria-selected', 'true');
     if (!scrolled) return;
     const box = this.#body.closest('.scroll'); // not the page
     box.scrollTop = row.offsetTop - box.clientHeight / 2;
+  }
+
+  #fill() {
+    this.#body.replaceChildren(...this.#order.slice(0, this.#shown).map((c) => this.#row(c)));
+    for (const row of this.#rows.values()) row.tabIndex = -1;
+    const reached = this.#body.querySelector('[aria-selected="true"]') ?? this.#body.firstElementChild;
+    if (reached) reached.tabIndex = 0;
+    this.#more.hidden = this.#order.length <= this.#shown;
+    this.#more.textContent = `More (${plain(Math.min(this.#shown, this.#order.length))} of ${plain(this.#order.length)} are listed)`;
+  }
+
+  #row(c) {
+    if (this.#rows.has(c)) return this.#rows.get(c);
+    const row = document.createElement('tr');
+    row.dataset.chart = c;
+    this.#columns.forEach((column, k) => {
+      const cell = row.appendChild(document.createElement('td'));
+      if (k === 0) {
+        const swatch = cell.appendChild(document.createElement('span'));
+        swatch.className = 'swatch';
+        swatch.style.background = colourOf(c);
+      }
+      cell.append(plain(column.values[c]));
+    });
+    row.tabIndex = -1;
+    row.setAttribute('aria-selected', 'false');
+    this.#rows.set(c, row);
+    return row;
   }
 
   describe(c) {
