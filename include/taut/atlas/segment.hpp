@@ -27,8 +27,11 @@ struct segment_params
     /// Edges that are to be seams in any case: one flag a side, the same on both sides of an edge; or empty.
     std::span<const char> seams = {};
 
-    /// At most so many times charts are cut further, and as often united, 0 to 100.
-    int rounds = 8;
+    /// At most so many times charts are cut further, 0 to 100. Each time those that were cut are flattened.
+    int cut_rounds = 8;
+
+    /// At most so many times neighbours are united, 0 to 100. Each time, most of the surface is flattened anew.
+    int unite_rounds = 1;
 
     /// Time limit of the whole call: no round begins afterwards.
     budget::seconds time_limit = budget::unlimited;
@@ -41,7 +44,8 @@ struct segment_params
     {
         if (!(max_distortion > 4)) throw parameter_error("max_distortion", "must be above 4, that of no distortion");
         if (!(mean_distortion > 4)) throw parameter_error("mean_distortion", "must be above 4, that of no distortion");
-        if (rounds < 0 || rounds > 100) throw parameter_error("rounds", "must be 0 to 100");
+        if (cut_rounds < 0 || cut_rounds > 100) throw parameter_error("cut_rounds", "must be 0 to 100");
+        if (unite_rounds < 0 || unite_rounds > 100) throw parameter_error("unite_rounds", "must be 0 to 100");
     }
 };
 
@@ -52,6 +56,7 @@ struct segment_report
     double largest_distortion = 4; ///< of a chart that has a map
     idx unmapped = 0;              ///< charts without a valid map
     idx above = 0;                 ///< charts above max_distortion: of single triangles, or for want of rounds or time
+    idx crossing = 0;              ///< charts whose boundary meets itself in the plane
     idx cut = 0, united = 0;       ///< charts cut further, pairs united
     double seam_length = 0;        ///< in units of the surface
     double tree_seconds = 0;       ///< pieces united to a tree

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <taut/atlas/cluster_tree.hpp>
+#include <taut/atlas/detail/laid_shape.hpp>
 #include <taut/atlas/detail/seam_arcs.hpp>
 #include <taut/atlas/detail/straighten.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
@@ -54,10 +55,10 @@ public:
         std::vector<idx> all(chart_.size());
         std::iota(all.begin(), all.end(), idx(0));
         renew(all);
-        for (int round = 0; round < params_.rounds && proceed(round) && cut_round(); ++round)
+        for (int round = 0; round < params_.cut_rounds && proceed(round) && cut_round(); ++round)
         {
         }
-        for (int round = 0; round < params_.rounds && proceed(round) && unite_round(); ++round)
+        for (int round = 0; round < params_.unite_rounds && proceed(round) && unite_round(); ++round)
         {
         }
         return result();
@@ -69,6 +70,7 @@ private:
     struct record
     {
         double area = 0, energy = 4;
+        laid_shape shape;
         std::vector<idx> triangles; // ascending; none: there is no such chart any more
 
         double excess() const { return area * (energy - 4); }
@@ -125,16 +127,23 @@ private:
         for (const idx c : triangles)
             if (!charts_.empty()) charts_[u(chart_[u(c)])].triangles.clear();
         const surface_part part = part_of(mesh_, triangles, seam_, number_);
+        const auto [maps, shapes] = flatten(part);
+        for (idx k = 0; k < part.charts.charts(); ++k) take(part, maps, shapes[u(k)], k);
+    }
+
+    std::pair<chart_maps, std::vector<laid_shape>> flatten(const surface_part& part)
+    {
         budget_.lap();
-        const chart_maps maps = flatten_(part.charts);
+        chart_maps maps = flatten_(part.charts);
         report_.flatten_seconds += budget_.lap();
-        for (idx k = 0; k < part.charts.charts(); ++k) take(part, maps, k);
+        auto shapes = laid_shapes(part.charts, maps.uv, maps.energy);
+        return {std::move(maps), std::move(shapes)};
     }
 
     /// Takes over chart k of a part, with its map.
-    void take(const surface_part& part, const chart_maps& maps, idx k)
+    void take(const surface_part& part, const chart_maps& maps, const laid_shape& shape, idx k)
     {
-        record r{.area = 0, .energy = maps.energy[u(k)], .triangles = {}};
+        record r{.area = 0, .energy = maps.energy[u(k)], .shape = shape, .triangles = {}};
         for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
         {
             const idx c = part.triangles[i];
@@ -173,7 +182,7 @@ private:
         for (const idx k : order)
         {
             const record& r = charts_[u(k)];
-            if (r.energy <= params_.max_distortion && excess <= allowed()) continue;
+            if (r.energy <= params_.max_distortion && !r.shape.crosses && excess <= allowed()) continue;
             chosen.push_back(k);
             if (r.energy < infinite) excess -= 0.6 * r.excess(); // what two halves have less, about
         }
@@ -310,9 +319,7 @@ private:
         }
         const auto triangles = triangles_of(involved);
         const surface_part part = part_of(mesh_, triangles, seam, number_);
-        budget_.lap();
-        const chart_maps maps = flatten_(part.charts);
-        report_.flatten_seconds += budget_.lap();
+        const auto [maps, shapes] = flatten(part);
 
         struct trial
         {
@@ -323,13 +330,17 @@ private:
         std::vector<std::size_t> pair_of(charts_.size(), 0);
         for (std::size_t i = 0; i < tried.size(); ++i)
             for (const idx k : tried[i].charts) pair_of[u(k)] = i;
+        constexpr double slimmest = 0.6; // slim charts do not pack well
         std::vector<trial> trials;
         for (idx k = 0; k < part.charts.charts(); ++k)
         {
             const std::size_t i = pair_of[u(chart_[u(part.triangles[u(part.charts.first_cell[u(k)])])])];
             const record &a = charts_[u(tried[i].charts[0])], &b = charts_[u(tried[i].charts[1])];
             const double more = (maps.energy[u(k)] - 4) * (a.area + b.area) - a.excess() - b.excess();
-            trials.push_back({maps.energy[u(k)] <= params_.max_distortion ? more : infinite, i, k});
+            const laid_shape& shape = shapes[u(k)];
+            const bool bulky = shape.fill >= std::min({slimmest, a.shape.fill, b.shape.fill});
+            const bool good = maps.energy[u(k)] <= params_.max_distortion && !shape.crosses && bulky;
+            trials.push_back({good ? more : infinite, i, k});
         }
         std::stable_sort(trials.begin(), trials.end(), [](const trial& x, const trial& y) { return x.more < y.more; });
         for (const trial& t : trials)
@@ -341,19 +352,19 @@ private:
                 continue;
             }
             room -= t.more;
-            accept(arcs.row(pair.arc), pair.charts, part, maps, t.chart);
+            accept(arcs.row(pair.arc), pair.charts, part, maps, shapes[u(t.chart)], t.chart);
         }
         std::sort(refused_.begin(), refused_.end());
     }
 
     /// Makes two charts one, which is chart k of a part.
     void accept(std::span<const idx> arc, const std::array<idx, 2>& charts, const surface_part& part,
-                const chart_maps& maps, idx k)
+                const chart_maps& maps, const laid_shape& shape, idx k)
     {
         ++report_.united;
         for (const idx s : arc) seam_[u(s)] = seam_[u(facets_.twin[u(s)])] = 0;
         for (const idx old : charts) charts_[u(old)].triangles.clear();
-        take(part, maps, k);
+        take(part, maps, shape, k);
     }
 
     double length(std::size_t side) const
@@ -377,6 +388,7 @@ private:
             r.energy.push_back(one.energy);
             report_.unmapped += !(one.energy < infinite);
             report_.above += one.energy > params_.max_distortion;
+            report_.crossing += one.shape.crosses;
             if (!(one.energy < infinite)) continue;
             area += one.area;
             report_.largest_distortion = std::max(report_.largest_distortion, one.energy);

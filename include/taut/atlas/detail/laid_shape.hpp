@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <taut/atlas/chart_mesh.hpp>
+#include <taut/exact/crossings.hpp>
+#include <taut/mesh/boundary.hpp>
+
+namespace taut::detail
+{
+
+/// What a chart is like in the plane.
+struct laid_shape
+{
+    bool crosses = false; ///< its boundary meets itself
+    double fill = 1;      ///< its area by that of its convex hull
+};
+
+inline double cross(const vec2& a, const vec2& b, const vec2& c)
+{
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// The area of the convex hull of points, which are sorted (Andrew 1979).
+inline double hull_area(std::vector<vec2> points)
+{
+    std::sort(points.begin(), points.end(),
+              [](const vec2& a, const vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    double twice = 0;
+    for (const double turn : {1.0, -1.0}) // below, above
+    {
+        std::vector<vec2> chain;
+        for (const vec2& p : points)
+        {
+            while (chain.size() > 1 && turn * cross(chain[chain.size() - 2], chain.back(), p) <= 0) chain.pop_back();
+            chain.push_back(p);
+        }
+        for (std::size_t i = 1; i < chain.size(); ++i) twice += turn * cross(points.front(), chain[i - 1], chain[i]);
+    }
+    return twice / 2;
+}
+
+/// The shapes of charts, one each. mapped: charts that have a map, one flag each
+inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<const vec2> uv,
+                                           std::span<const double> energy)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    std::vector<std::vector<std::vector<idx>>> loops(u(charts.charts()));
+    std::size_t k = 0;
+    for (auto& loop : boundary_loops(charts.surface)) // in the order of their vertices, and so of the charts
+    {
+        while (loop[0] >= charts.first_vertex[k + 1]) ++k;
+        loops[k].push_back(std::move(loop));
+    }
+    std::vector<laid_shape> shapes(loops.size());
+    parallel_for(
+        loops.size(),
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t i = begin; i < end; ++i)
+            {
+                if (!(energy[i] < std::numeric_limits<double>::infinity())) continue;
+                shapes[i].crosses = count_boundary_crossings(loops[i], uv, 1).pairs > 0;
+                std::vector<vec2> rim;
+                for (const auto& loop : loops[i])
+                    for (const idx v : loop) rim.push_back(uv[u(v)]);
+                double area = 0;
+                for (auto c = u(charts.first_cell[i]); c < u(charts.first_cell[i + 1]); ++c)
+                {
+                    const auto& t = charts.surface.cells()[c];
+                    area += cross(uv[u(t[0])], uv[u(t[1])], uv[u(t[2])]) / 2;
+                }
+                shapes[i].fill = area / hull_area(std::move(rim));
+            }
+        },
+        0, 2);
+    return shapes;
+}
+
+} // namespace taut::detail
