@@ -1087,7 +1087,7 @@ test_check()
     says out '^input .*surface, 6 vertices, 6 triangles' \
         '^error +raw.obj, line 3: vertex 2 .*; in all 2 vertices \(2, 4\).*; --repair: left out' \
         '^error +1 triangle \(2\) naming a vertex twice; --repair: left out' '^error +1 triangle \(3\) naming' \
-        '^error +1 pair \(1-4\) of triangles' '^error +1 triangle \(5\) oriented' \
+        '^error +1 pair \(1-4\) of triangles' '^error +1 triangle \(1\) oriented' \
         '^warning +1 vertex \(4\) without' '^result +5 errors'
     expect 3 check raw.obj --json
     cp out check.json

@@ -20,7 +20,7 @@ namespace detail
 class off_reader
 {
 public:
-    off_reader(std::string_view text, const std::string& path, bool strict) : in_(text, path)
+    off_reader(std::string_view text, const std::string& path, bool strict) : in_(text, path, true)
     {
         in_.require_text();
         soup_.strict = strict;

@@ -70,6 +70,14 @@ TEST_CASE("off: polygons are split, with a note")
     CHECK(f.notes.size() == 1);
 }
 
+TEST_CASE("off: a comment may follow a number at once")
+{
+    const auto f = parse_off("OFF#a\n3 1 0#b\n0 0 0#c\n1 0 0 #d\n0 1 0\n3 0 1 2#e\n");
+    CHECK(f.surface.cell_count() == 1);
+    CHECK(f.vertices.positions[0] == "0 0 0");
+    CHECK(f.vertices.comments[2] == "c");
+}
+
 TEST_CASE("off: malformed files are refused with the line")
 {
     CHECK(line_of_error("ply\n") == 1);

@@ -398,18 +398,26 @@ TEST_CASE("repair: bodies that touch along an edge or in a vertex part, whole")
 
 TEST_CASE("repair: a surface that touches itself along an edge, and hangs together around both its ends, is parted")
 {
-    // A ring of quads around a square hole whose two sides are pinched together in one edge.
     const auto m = test::torus(6, false);
     for (std::size_t k = 0; k < 30; ++k)
     {
-        // Vertices a, b of one edge become those of another: four triangles on an edge, one component.
+        // The ends of one edge become those of another: four triangles on an edge of one part.
         auto s = raw(m);
         const auto &from = m.cells()[(7 * k + 31) % m.cells().size()], &to = m.cells()[k];
         for (auto& t : s.cells)
             for (idx& v : t) v = v == from[0] ? to[1] : v == from[1] ? to[0] : v;
         const auto r = repair(s);
-        CHECK(r.surface.cell_count() > 0);
+        CHECK(find(r.findings, repair_kind::non_manifold_facet) != nullptr);
     }
+}
+
+TEST_CASE("repair: where three open edges are at one place, two are sewn, and that one is open is said")
+{
+    const auto r = repair(apart(test::three_on_an_edge()));
+    const ids pairs = only(r, repair_kind::coincident_vertex);
+    CHECK(pairs.size() == 4);
+    CHECK(r.findings[0].action == "welded; 1 edge left open where three or more triangles would meet");
+    CHECK(r.surface.vertex_count() == 7);
 }
 
 TEST_CASE("repair: a book of triangles falls apart into pages")
@@ -531,4 +539,21 @@ TEST_CASE("repair: small damage costs few triangles, and the rest hangs together
     for (const auto& t : r.surface.cells()) sets.join(t[0], t[1]), sets.join(t[0], t[2]);
     for (const auto& t : r.surface.cells()) ++size[std::size_t(sets.find(t[0]))];
     CHECK(*std::max_element(size.begin(), size.end()) > m.cell_count() * 95 / 100);
+}
+
+TEST_CASE("repair: a large mesh of loose triangles ends the same every time, sewn")
+{
+    const auto m = test::sphere(6);
+    auto s = apart(m);
+    for (std::size_t c = 0; c < s.cells.size(); c += 3) turn(s.cells[c]);
+    std::mt19937 random(3);
+    std::shuffle(s.cells.begin(), s.cells.end(), random);
+    const auto r = repair(s), again = repair(s);
+    CHECK(closed(r.surface));
+    CHECK(parts(r.surface) == 1);
+    CHECK(volume(r.surface) == doctest::Approx(volume(m)));
+    CHECK(r.surface.points() == again.surface.points());
+    CHECK(r.surface.cells() == again.surface.cells());
+    CHECK(r.vertex_origins == again.vertex_origins);
+    CHECK(r.turned == again.turned);
 }

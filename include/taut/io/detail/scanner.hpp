@@ -22,8 +22,9 @@ namespace taut::io::detail
 class scanner
 {
 public:
-    scanner(std::string_view text, std::string path)
-        : begin_(text.data()), at_(begin_), end_(begin_ + text.size()), path_(std::move(path))
+    /// comments: whether # ends a word, too, as in OFF; names in OBJ may contain it
+    scanner(std::string_view text, std::string path, bool comments = false)
+        : begin_(text.data()), at_(begin_), end_(begin_ + text.size()), comments_(comments), path_(std::move(path))
     {
         if (text.starts_with("\xef\xbb\xbf")) at_ += 3; // byte order mark of UTF-8
     }
@@ -222,10 +223,11 @@ private:
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-    /// Whether p is the end, a blank, a line end, or the backslash of one.
+    /// Whether p is the end, a blank, a line end, or the backslash of one, or starts a comment.
     bool ends_word(const char* p) const
     {
-        return p == end_ || is_blank(*p) || is_line_end(*p) || (*p == '\\' && p + 1 != end_ && is_line_end(p[1]));
+        return p == end_ || is_blank(*p) || is_line_end(*p) || (*p == '\\' && p + 1 != end_ && is_line_end(p[1])) ||
+               (comments_ && *p == '#');
     }
 
     /// Where the digits start: behind a plus sign that no minus sign follows.
@@ -291,6 +293,7 @@ private:
     }
 
     const char *begin_, *at_, *end_;
+    bool comments_;
     std::string path_;
 };
 

@@ -46,7 +46,7 @@ inline repair_finding describe_finding(repair_kind kind, std::vector<idx> ids)
         case repair_kind::non_manifold_vertex:
             return {list("vertex", "vertices", "where parts touch that share no edge"), "one made for each part"};
         case repair_kind::contradicting_normal:
-            return {list("triangle", "triangles", "that face away from the normals at all their corners"),
+            return {list("triangle", "triangles", "facing away from the normals at all corners"),
                     "left as they are; turn them over, or the normals"};
         }
         return {};
