@@ -270,6 +270,24 @@ TEST_CASE("gltf: indices grow wider where new vertices need it, and only there")
     CHECK(type_after(16, 10000) == io::detail::gltf_u8); // 256 vertices, as they were
 }
 
+TEST_CASE("gltf: the largest number of a type is no index, as it would end a strip")
+{
+    const auto type_with = [](std::size_t added)
+    {
+        const auto model = io::parse_gltf(test::morphing_model(15).glb());
+        auto uv = chart_uv(model, 1000000);
+        for (std::size_t t = 0; t < added; ++t) uv[t][0] = {static_cast<double>(t), 7};
+        const test::temporary_folder folder;
+        io::write_gltf(folder / "out.glb", model, uv);
+        const auto back = io::read_gltf(folder / "out.glb");
+        const auto p = io::detail::primitives_of(back.source).all[0];
+        CHECK(p.vertices == 225 + added);
+        return io::detail::accessor_of(back.source, *p.indices).component;
+    };
+    CHECK(type_with(30) == io::detail::gltf_u8);
+    CHECK(type_with(31) == io::detail::gltf_u16);
+}
+
 TEST_CASE("gltf: the v of glTF runs downwards, and what is read back is what was said")
 {
     const auto model = io::parse_gltf(test::textured_model(4).glb());
