@@ -27,7 +27,8 @@ exit_code run(const shape_options& options, std::chrono::steady_clock::time_poin
     progress progress(progress_of(options.progress, options.quiet), std::cerr);
     if (!options.smoothing && names_surface(options.input))
         return shell_run(options, clock, progress, place_of_report)();
-    if (options.thickness) throw usage_error("--thickness is of surfaces in space (.obj, .off, .ply, .stl); leave it out");
+    if (options.thickness)
+        throw usage_error("--thickness is of surfaces in space (.obj, .off, .ply, .stl); leave it out");
     progress.update({.phase = "read", .seconds = clock.now()});
     auto file = read_volume_at_rest(options.input, options.rest);
     if (options.smoothing) file.rest.clear();

@@ -722,6 +722,14 @@ test_unwrap()
         same_vertices in.obj from_$kind.obj
         valid_map from_$kind.obj
     done
+    awk 'BEGIN { print "solid sheet" }
+         $1 == "v" { p[++n] = "vertex " $2 " " $3 " " $4 }
+         $1 == "f" { print "facet normal 0 0 0\nouter loop"; for (k = 2; k <= 4; ++k) print p[$k + 0]; print "endloop\nendfacet" }
+         END { print "endsolid" }' in.obj >in.stl
+    expect 0 unwrap in.stl -o from_stl.obj
+    says err '^taut: note: 864 corners of triangles were welded by position to 169 vertices'
+    [ "$(lines_of v from_stl.obj)" = 169 ] || fail "not one v a vertex of the STL file"
+    valid_map from_stl.obj
     grid 6 quads >quads.obj
     expect 0 unwrap quads.obj -o out.obj
     says err '^taut: note: 36 polygons were split into triangles'

@@ -25,8 +25,7 @@ namespace taut::io
 /// points and lines are left out, and so are primitives that draw the same triangles as an earlier one.
 struct gltf_model
 {
-    std::vector<vec3>
-        points; ///< those that triangles name, in the order of first appearance; as in the file, perhaps not finite
+    std::vector<vec3> points; ///< those that triangles name, in the order of first appearance; may be not finite
     std::vector<std::array<idx, 3>> triangles; ///< of points; may name one twice, or have none of area
     std::vector<std::array<idx, 3>> vertices;  ///< the vertex of glTF at each corner: those that share attributes are
                                                ///< numbered one after the other

@@ -270,6 +270,24 @@ TEST_CASE("gltf: indices grow wider where new vertices need it, and only there")
     CHECK(type_after(16, 10000) == io::detail::gltf_u8); // 256 vertices, as they were
 }
 
+TEST_CASE("gltf: the largest number of a type is no index, as it would end a strip")
+{
+    const auto type_with = [](std::size_t added)
+    {
+        const auto model = io::parse_gltf(test::morphing_model(15).glb());
+        auto uv = chart_uv(model, 1000000);
+        for (std::size_t t = 0; t < added; ++t) uv[t][0] = {static_cast<double>(t), 7};
+        const test::temporary_folder folder;
+        io::write_gltf(folder / "out.glb", model, uv);
+        const auto back = io::read_gltf(folder / "out.glb");
+        const auto p = io::detail::primitives_of(back.source).all[0];
+        CHECK(p.vertices == 225 + added);
+        return io::detail::accessor_of(back.source, *p.indices).component;
+    };
+    CHECK(type_with(30) == io::detail::gltf_u8);
+    CHECK(type_with(31) == io::detail::gltf_u16);
+}
+
 TEST_CASE("gltf: the v of glTF runs downwards, and what is read back is what was said")
 {
     const auto model = io::parse_gltf(test::textured_model(4).glb());
@@ -413,6 +431,30 @@ TEST_CASE("gltf: several meshes and buffers become one buffer; accessors that ot
     const auto back = io::read_gltf(folder / "out.gltf");
     CHECK(back.source.buffers.size() == 1);
     CHECK(require_kept(model, uv, back, 0) == vertices_wanted(model, uv));
+}
+
+TEST_CASE("gltf: bytes that two bufferViews name stay for the one that needs no change")
+{
+    const test::torus_arrays torus(6);
+    gltf_builder b;
+    std::array<std::size_t, 2> positions{}, indices{};
+    for (std::size_t& p : positions) p = b.array(torus.positions, 5126, "VEC3", torus.bounds());
+    indices[0] = b.array(torus.indices, 5125, "SCALAR");
+    b.document["bufferViews"].push_back(gltf_json(b.document["bufferViews"].back()));
+    indices[1] = b.accessor(3, 5125, "SCALAR", torus.indices.size());
+    for (const std::size_t m : {0u, 1u})
+        b.document["meshes"].push_back({{"primitives", gltf_json::array({{{"attributes", {{"POSITION", positions[m]}}},
+                                                                          {"indices", indices[m]}}})}});
+    const auto model = io::parse_gltf(b.glb());
+    auto uv = chart_uv(model, 1);
+    const auto whole = chart_uv(model, 1000000);
+    for (std::size_t t = 0; t < uv.size(); ++t)
+        if (model.meshes[t] == 1) uv[t] = whole[t];
+    const test::temporary_folder folder;
+    io::write_gltf(folder / "out.glb", model, uv);
+    const auto back = io::read_gltf(folder / "out.glb");
+    CHECK(require_kept(model, uv, back, 0) == vertices_wanted(model, uv));
+    CHECK(io::detail::view_bytes(back.source, 3) == io::detail::view_bytes(model.source, 3));
 }
 
 TEST_CASE("gltf: names of images are those from the folder of the new file; other names stay")
