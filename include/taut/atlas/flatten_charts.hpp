@@ -62,8 +62,8 @@ struct chart_report
     double energy = std::numeric_limits<double>::infinity();
     double start_energy = std::numeric_limits<double>::infinity(); ///< of the map that it began with
     int iterations = 0;                                            ///< Newton steps
-    bool valid = false;      ///< no triangle is flipped, and there is no branch point; in exact arithmetic
-    bool multigrid = false;  ///< it went to `parameterize`
+    bool valid = false;     ///< no triangle is flipped, and there is no branch point; in exact arithmetic
+    bool multigrid = false; ///< it went to `parameterize`
     chart_outcome outcome = chart_outcome::stopped;
     std::string reason = {}; ///< why there is no valid map
 };
