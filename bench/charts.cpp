@@ -58,7 +58,8 @@ struct chart_set
 chart_set bumpy_charts(std::size_t count, int n)
 {
     chart_set set{"bumpy", {}};
-    for (std::size_t k = 0; k < count; ++k) set.parts.push_back(test::bumpy(n, 0.15, static_cast<std::uint32_t>(k) + 1));
+    for (std::size_t k = 0; k < count; ++k)
+        set.parts.push_back(test::bumpy(n, 0.15, static_cast<std::uint32_t>(k) + 1));
     return set;
 }
 

@@ -2,8 +2,8 @@
 // Newton's method for many small maps at once, one group of TEAM work-items a chart: TEAM = 1 on CPUs.
 //
 // What belongs to a chart lies in one piece of each array, and its triangles and vertices are numbered from 0 there.
-// layout: 4 numbers a chart: first triangle and vertex of its pieces, number of triangles, number of vertices; an odd number
-// of vertices is followed by an idle one.
+// layout: 4 numbers a chart: first triangle and vertex of its pieces, number of triangles, number of vertices; an odd
+// number of vertices is followed by an idle one.
 // Arrays of triangles are structures of arrays, STRIDE(triangles) apart.
 //
 // The Hessian is banded after reordering, and stored by panels of two vertices, that is four columns: panel p of a
@@ -231,16 +231,18 @@ static void substitute(const int panels, __global const int* offsets, __global c
 }
 
 /// One step of each active chart. values: 4 a chart: the energy before the step, the decrease that Newton's model
-/// predicts, the length of the step, steps to wait before the Hessian itself is tried again. states: GOING, or why the chart is done. `before` is the last map.
+/// predicts, the length of the step, steps to wait before the Hessian itself is tried again. states: GOING, or why the
+/// chart is done. before: the last map. one: the number 1.
 #define GOING 0
 #define CONVERGED 1
 #define STUCK 2
 __kernel void chart_newton(__global const int* active, __global const int* layout, __global const int* corners,
                            __global const REAL* inverse, __global const REAL* measure, __global const REAL* weight,
                            __global const int* fan_starts, __global const int* fans, __global const int* offsets,
-                           __global const int* heights, const REAL tolerance, __global const REAL* one, __global REAL* x, __global REAL* before,
-                           __global REAL* d, __global REAL* rhs, __global REAL* energies, __global REAL* gradient,
-                           __global REAL* hessian, __global REAL* A, __global REAL* values, __global int* states)
+                           __global const int* heights, const REAL tolerance, __global const REAL* one,
+                           __global REAL* x, __global REAL* before, __global REAL* d, __global REAL* rhs,
+                           __global REAL* energies, __global REAL* gradient, __global REAL* hessian, __global REAL* A,
+                           __global REAL* values, __global int* states)
 {
     __local REAL4 parts[TEAM];
     const int chart = active[get_group_id(0)];
@@ -286,9 +288,9 @@ __kernel void chart_newton(__global const int* active, __global const int* layou
     }
     BARRIER;
 
-    // The best of four lengths, up to 0.9 of the way to the first flip, or of shorter and shorter ones. Near the barrier
-    // Newton's step only multiplies the distance to it by 4/3, and a projected Hessian is too stiff: longer ones are
-    // tried there.
+    // The best of four lengths, up to 0.9 of the way to the first flip, or of shorter and shorter ones. Near the
+    // barrier Newton's step only multiplies the distance to it by 4/3, and a projected Hessian is too stiff: longer
+    // ones are tried there.
     element_first_flip(ELEMENTS, d, energies, CELLS);
     BARRIER;
     REAL flip = INFINITY;

@@ -55,8 +55,8 @@ inline std::string prologue(kernel_form form, const kernel_needs& needs)
         // Work-items are independent, so the indices are. Without this loop PoCL packs x and y of a point into pairs
         // first, and then no longer vectorises over work-items. Only innermost loops vectorise.
         if (!needs.loops) text += "    #pragma clang loop vectorize(assume_safety) vectorize_width(8)\n";
-        text += concat("    for (int i0 = taut_first; i0 < taut_last; ", form == kernel_form::run ? "++i0" : "i0 += taut_step",
-                       ")\n    {\n");
+        text += concat("    for (int i0 = taut_first; i0 < taut_last; ",
+                       form == kernel_form::run ? "++i0" : "i0 += taut_step", ")\n    {\n");
     }
     else if (needs.dimensions[0] || form == kernel_form::guarded)
         text += "    const int i0 = get_global_id(0);\n";
@@ -91,8 +91,9 @@ inline kernel_text emit(const tape& t, std::string name, std::vector<kernel_argu
     const detail::schedule plan(t, t.stores());
     const detail::statement_writer body(t, arguments, plan, is_loop ? "        " : "    ");
     const detail::kernel_needs& needs = body.needs();
-    const auto add_int = [&](const char* argument)
-    { arguments.push_back({argument, argument_kind::scalar, scalar_type::i32}); };
+    const auto add_int = [&](const char* argument) {
+        arguments.push_back({argument, argument_kind::scalar, scalar_type::i32});
+    };
     if (is_part)
         for (const char* argument : {"taut_first", "taut_last", "taut_step"}) add_int(argument);
     else if (form != kernel_form::item)

@@ -43,7 +43,8 @@ enum class kernel_form : std::uint8_t
 /// Indices per work-item of kernel_form::run: long enough to hide the cost of starting one.
 inline constexpr idx run_length = 256;
 
-/// A complete OpenCL C 1.2 program with one kernel, or the function of kernel_form::part. Equal recordings give equal text, so the text is its own cache key.
+/// A complete OpenCL C 1.2 program with one kernel, or the function of kernel_form::part. Equal recordings give equal
+/// text, so the text is its own cache key.
 struct kernel_text
 {
     std::string name;

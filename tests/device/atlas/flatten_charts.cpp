@@ -89,18 +89,9 @@ mesh<triangle> needle()
 surfaces kinds()
 {
     const int n = test::sized(8, 3);
-    return {test::single_triangle(),
-            test::fan(7, true),
-            test::grid(n, 2),
-            test::cap(n),
-            test::cap(n, 2.6),
-            test::bumpy(n),
-            test::bumpy(2 * n, 0.1, 3),
-            test::annulus(2 * n),
-            test::tube(2 * n, 2),
-            spiral(4 * n, 2, 1.6),
-            slit_cylinder(2 * n, 3),
-            needle()};
+    return {test::single_triangle(), test::fan(7, true),    test::grid(n, 2),           test::cap(n),
+            test::cap(n, 2.6),       test::bumpy(n),        test::bumpy(2 * n, 0.1, 3), test::annulus(2 * n),
+            test::tube(2 * n, 2),    spiral(4 * n, 2, 1.6), slit_cylinder(2 * n, 3),    needle()};
 }
 
 std::vector<vec2> map_of(const chart_mesh& charts, const flattened_charts& flat, idx k)
@@ -212,8 +203,9 @@ TEST_CASE("flatten_charts: size and place in space change nothing")
     }
     // In units of the surface: areas are kept but for the distortion.
     const auto uv = map_of(charts, flat, 1);
-    const double width = glm::distance(*std::min_element(uv.begin(), uv.end(), [](auto a, auto b) { return a.x < b.x; }),
-                                       *std::max_element(uv.begin(), uv.end(), [](auto a, auto b) { return a.x < b.x; }));
+    const double width =
+        glm::distance(*std::min_element(uv.begin(), uv.end(), [](auto a, auto b) { return a.x < b.x; }),
+                      *std::max_element(uv.begin(), uv.end(), [](auto a, auto b) { return a.x < b.x; }));
     CHECK(width > 2e-7);
     CHECK(width < 4e-7);
 }
@@ -222,7 +214,8 @@ TEST_CASE("flatten_charts: charts without a map say why, and the others stay")
 {
     queue q;
     const mesh<triangle> flat_triangle({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{{0, 1, 2}}});
-    const auto charts = charts_of({test::cap(3), test::octahedron(), test::torus(5, true), flat_triangle, test::grid(2, 2)});
+    const auto charts =
+        charts_of({test::cap(3), test::octahedron(), test::torus(5, true), flat_triangle, test::grid(2, 2)});
     const auto flat = flatten_charts(q, charts);
     for (const std::size_t k : {0u, 4u}) CHECK(flat.charts[k].valid);
     const char* words[] = {"no boundary", "handles", "flat"};
@@ -276,8 +269,8 @@ TEST_CASE("flatten_charts: whoever stops it gets valid maps for what has begun")
     const surfaces parts = kinds();
     const auto charts = charts_of(parts);
     int asked = 0;
-    const auto some = flatten_charts(q, charts,
-                                     {.observer = [&](const progress& p) { return !(p.value > 0) || ++asked < 3; }});
+    const auto some =
+        flatten_charts(q, charts, {.observer = [&](const progress& p) { return !(p.value > 0) || ++asked < 3; }});
     int stopped = 0;
     for (const auto& report : some.charts)
     {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -14,7 +15,7 @@
 #include <taut/compute/detail/kernels/charts.hpp>
 #include <taut/compute/kernel.hpp>
 #include <taut/compute/quirks.hpp>
-#include <taut/mesh/incidence.hpp>
+#include <taut/core/counting_sort.hpp>
 #include <taut/objective/element_hessian.hpp>
 #include <taut/objective/element_kernels.hpp>
 
@@ -24,23 +25,30 @@ namespace taut::detail
 /// What the device gets of one chart: triangles, vertices in band order, profile of its Hessian, and its map.
 struct chart_problem
 {
-    mesh<triangle> surface; ///< renumbered
-    std::vector<idx> order; ///< the vertex of the chart, one a vertex here
-    csr fans;               ///< corners of each vertex
-    std::vector<idx> heights;
-    std::vector<vec2> uv; ///< in this order
+    const ideal_elements<triangle>* ideal = nullptr;
+    std::vector<std::array<idx, 3>> cells; ///< renumbered
+    std::vector<idx> order;                ///< the vertex of the chart, one a vertex here
+    csr fans;                              ///< corners of each vertex
+    std::vector<idx> heights;              ///< of panels
+    std::vector<vec2> uv;                  ///< in this order
 
-    static chart_problem of(const mesh<triangle>& m, panel_profile profile, const std::vector<vec2>& start)
+    /// ideal: of m, referred to.
+    static chart_problem of(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, panel_profile profile,
+                            const std::vector<vec2>& start)
     {
-        const auto& order = profile.order;
-        auto cells = m.cells();
-        for (auto& t : cells)
-            for (idx& v : t) v = order.old_to_new[static_cast<std::size_t>(v)];
-        mesh<triangle> surface(order.apply(m.points()), std::move(cells));
-        csr fans = vertex_corners(surface);
-        std::vector<vec2> uv = order.apply(start);
-        return {std::move(surface), std::move(profile.order.new_to_old), std::move(fans), std::move(profile.heights),
-                std::move(uv)};
+        chart_problem p;
+        p.ideal = &ideal;
+        p.cells = m.cells();
+        p.uv = profile.order.apply(start);
+        for (auto& t : p.cells)
+            for (idx& v : t) v = profile.order.old_to_new[static_cast<std::size_t>(v)];
+        p.order = std::move(profile.order.new_to_old);
+        p.heights = std::move(profile.heights);
+        p.fans.items.resize(3 * p.cells.size());
+        p.fans.offsets = counting_sort(
+            p.fans.items.size(), p.order.size(), [&](std::size_t corner) { return p.cells[corner / 3][corner % 3]; },
+            [&](std::size_t corner, std::size_t at) { p.fans.items[at] = static_cast<idx>(corner); });
+        return p;
     }
 };
 
@@ -93,8 +101,13 @@ public:
     };
 
     chart_batch(queue& q, const chart_kernel& program, std::span<const chart_problem> problems)
-        : program_(program), problems_(problems), lists_(problems, program.team), arrays_(q, program.type, lists_),
-          active_(q, lists_.dealt), states_(problems.size(), going), numbers_(4 * problems.size()),
+        : program_(program),
+          problems_(problems),
+          lists_(problems, program.team),
+          arrays_(q, program.type, lists_),
+          active_(q, lists_.dealt),
+          states_(problems.size(), going),
+          numbers_(4 * problems.size()),
           remaining_(lists_.dealt)
     {
     }
@@ -173,21 +186,22 @@ private:
     private:
         void add(const chart_problem& p)
         {
-            const auto n = static_cast<std::size_t>(p.surface.cell_count()), stride = stride_of(n);
+            const std::size_t n = p.cells.size(), stride = stride_of(n);
             const std::size_t vertices = padded(p.order.size(), 2), base = x.size() / 2;
-            for (const std::size_t number : {cells, base, n, p.order.size()}) layout.push_back(static_cast<idx>(number));
+            for (const std::size_t number : {cells, base, n, p.order.size()})
+                layout.push_back(static_cast<idx>(number));
 
             corners.resize(3 * (cells + stride));
             inverse.resize(3 * (cells + stride));
             measure.resize(cells + stride);
             weight.resize(cells + stride);
-            const ideal_elements<triangle> ideal(p.surface);
+            const auto& ideal = *p.ideal;
             double total = 0;
             for (const double a : ideal.measure) total += a;
             for (std::size_t c = 0; c < n; ++c)
             {
                 const std::size_t at = 3 * cells + c;
-                for (std::size_t k = 0; k < 3; ++k) corners[at + k * stride] = p.surface.cells()[c][k];
+                for (std::size_t k = 0; k < 3; ++k) corners[at + k * stride] = p.cells[c][k];
                 const mat2& W = ideal.inverse[c];
                 inverse[at] = W[0][0];
                 inverse[at + stride] = W[1][0];
@@ -223,10 +237,9 @@ private:
             std::vector<idx> by_work(problems.size());
             for (std::size_t k = 0; k < by_work.size(); ++k) by_work[k] = static_cast<idx>(k);
             std::stable_sort(by_work.begin(), by_work.end(),
-                             [&](idx a, idx b)
-                             {
-                                 return problems[static_cast<std::size_t>(a)].surface.cell_count() >
-                                        problems[static_cast<std::size_t>(b)].surface.cell_count();
+                             [&](idx a, idx b) {
+                                 return problems[static_cast<std::size_t>(a)].cells.size() >
+                                        problems[static_cast<std::size_t>(b)].cells.size();
                              });
             const std::size_t piles = team == 1 ? 64 : 1;
             for (std::size_t pile = 0; pile < piles; ++pile)
@@ -240,12 +253,26 @@ private:
         real_buffer inverse, measure, weight, one, x, before, d, rhs, energies, gradient, hessian, A, values;
 
         device_arrays(queue& q, scalar_type type, const host_lists& l)
-            : layout(q, l.layout), corners(q, l.corners), fan_starts(q, l.fan_starts), fans(q, l.fans),
-              offsets(q, l.offsets), heights(q, l.heights), states(q, l.layout.size() / 4),
-              inverse(q, type, l.inverse), measure(q, type, l.measure), weight(q, type, l.weight), one(q, type, 1), x(q, type, l.x),
-              before(q, type, l.x), d(q, type, l.x.size()), rhs(q, type, l.x.size()), energies(q, type, 4 * l.cells),
-              gradient(q, type, 6 * l.cells), hessian(q, type, hessian_slots<2>::count * l.cells),
-              A(q, type, l.entries), values(q, type, l.layout.size())
+            : layout(q, l.layout),
+              corners(q, l.corners),
+              fan_starts(q, l.fan_starts),
+              fans(q, l.fans),
+              offsets(q, l.offsets),
+              heights(q, l.heights),
+              states(q, l.layout.size() / 4),
+              inverse(q, type, l.inverse),
+              measure(q, type, l.measure),
+              weight(q, type, l.weight),
+              one(q, type, 1),
+              x(q, type, l.x),
+              before(q, type, l.x),
+              d(q, type, l.x.size()),
+              rhs(q, type, l.x.size()),
+              energies(q, type, 4 * l.cells),
+              gradient(q, type, 6 * l.cells),
+              hessian(q, type, hessian_slots<2>::count * l.cells),
+              A(q, type, l.entries),
+              values(q, type, l.layout.size())
         {
             states.fill(going);
             one.fill(1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -64,12 +65,11 @@ inline std::vector<vec2> projected(const mesh<triangle>& m)
     return uv;
 }
 
-/// A first map of a chart, or why there is none.
+/// A first map of a chart.
 struct chart_start
 {
     std::vector<vec2> uv;
-    double energy = std::numeric_limits<double>::infinity(); ///< area mean; infinity: there is none
-    std::string reason = {};
+    double energy = std::numeric_limits<double>::infinity(); ///< area mean
 
     /// Takes a map, or none, if it is valid and better.
     void consider(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::vector<vec2> other)
@@ -83,36 +83,29 @@ struct chart_start
         uv = std::move(map.uv);
     }
 
-    /// given: one point a vertex, or empty. In units of the chart.
-    static chart_start of(const mesh<triangle>& m, std::vector<vec2> given)
+    /// The given map, if it is valid; else the chart as seen along its mean normal, or a barycentric map where that is
+    /// folded or bad. given: one point a vertex, or empty; in units of the chart.
+    /// Throws mesh_error where the chart is closed or has handles, `error` where no map without flips was found.
+    static chart_start of(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::vector<vec2> given)
     {
         chart_start start;
+        start.consider(m, ideal, std::move(given));
+        if (!start.uv.empty()) return start;
+        start.consider(m, ideal, projected(m));
+        constexpr double good = 6; // what Newton's method lowers in a few steps
+        if (start.energy < good) return start;
         try
         {
-            const ideal_elements<triangle> ideal(m);
-            if (!given.empty()) start.consider(m, ideal, std::move(given));
-            if (start.uv.empty())
-            {
-                start.consider(m, ideal, projected(m));
-                constexpr double good = 6; // what Newton's method lowers in a few steps
-                if (!(start.energy < good)) start.consider_barycentric(m, ideal);
-            }
+            const auto f = facets(m);
+            validate(m, f, {.referenced = false, .one_boundary = false});
+            start.consider(m, ideal, barycentric_map(m, f, {.stretch_rounds = 1}).uv);
         }
-        catch (const error& e)
+        catch (const error&)
         {
-            if (start.uv.empty()) start.reason = e.what();
+            if (start.uv.empty()) throw;
         }
+        if (start.uv.empty()) throw error("no map without flipped triangles was found to begin with");
         return start;
-    }
-
-private:
-    void consider_barycentric(const mesh<triangle>& m, const ideal_elements<triangle>& ideal)
-    {
-        const auto f = facets(m);
-        validate(m, f, {.referenced = false, .one_boundary = false});
-        start_map map = barycentric_map(m, f, {.stretch_rounds = 3});
-        consider(m, ideal, std::move(map.uv));
-        if (uv.empty()) reason = "no start without flipped triangles was found";
     }
 };
 

@@ -13,6 +13,7 @@
 #include <taut/atlas/flatten_charts.hpp>
 #include <taut/core/budget.hpp>
 #include <taut/map/parameterize.hpp>
+#include <taut/mesh/incidence.hpp>
 
 namespace taut
 {
@@ -33,7 +34,10 @@ class flattening
 {
 public:
     flattening(queue& q, const chart_mesh& charts, const flatten_params& params)
-        : queue_(q), charts_(charts), params_(params), clock_(params.time_limit, params.observer),
+        : queue_(q),
+          charts_(charts),
+          params_(params),
+          clock_(params.time_limit, params.observer),
           work_(u(charts.charts()))
     {
         result_.charts.resize(work_.size());
@@ -57,7 +61,8 @@ private:
     {
         std::optional<single_chart> chart;
         std::optional<panel_profile> profile;
-        std::vector<vec2> uv; ///< in units of the chart; empty: it has no map
+        std::optional<ideal_elements<triangle>> ideal; ///< none: the chart has a flat triangle, or is large
+        std::vector<vec2> uv;                          ///< in units of the chart; empty: it has no map
         double energy = 0;
     };
 
@@ -101,11 +106,18 @@ private:
                      w.profile.emplace(vertex_neighbours(w.chart->surface));
                      report.multigrid = w.profile->work > 1e6 * params_.largest;
                      if (report.multigrid) return;
-                     auto start = chart_start::of(w.chart->surface, given(k));
-                     report.start_energy = w.energy = start.energy;
-                     report.reason = std::move(start.reason);
-                     if (!report.reason.empty()) report.outcome = chart_outcome::no_map;
-                     w.uv = std::move(start.uv);
+                     try
+                     {
+                         w.ideal.emplace(w.chart->surface);
+                         auto start = chart_start::of(w.chart->surface, *w.ideal, given(k));
+                         report.start_energy = w.energy = start.energy;
+                         w.uv = std::move(start.uv);
+                     }
+                     catch (const error& e)
+                     {
+                         report.outcome = chart_outcome::no_map;
+                         report.reason = e.what();
+                     }
                  });
         result_.seconds.start = clock_.lap();
     }
@@ -135,7 +147,7 @@ private:
 
         const chart_kernel program(queue_);
         result_.seconds.device = clock_.lap();
-        const std::size_t most = program.team == 1 ? std::size_t{1} << 16 : std::size_t{1} << 20;
+        const std::size_t most = program.team == 1 ? std::size_t{1} << 16 : std::size_t{1} << 18;
         for (std::size_t first = 0, last = 0; first < by_size.size() && !clock_.over(); first = last)
         {
             std::size_t count = 0;
@@ -152,7 +164,7 @@ private:
                  [&](std::size_t j)
                  {
                      chart_work& w = work_[some[j]];
-                     made[j] = chart_problem::of(w.chart->surface, std::move(*w.profile), w.uv);
+                     made[j] = chart_problem::of(w.chart->surface, *w.ideal, std::move(*w.profile), w.uv);
                  });
         if (clock_.over()) return;
         std::vector<chart_problem> problems;
@@ -238,9 +250,11 @@ private:
     {
         chart_report& report = result_.charts[k];
         const auto& [surface, unit] = *work_[k].chart;
+        auto& ideal = work_[k].ideal;
+        if (!ideal) ideal.emplace(surface);
         start_map map;
         map.uv = std::move(work_[k].uv);
-        map.assess(surface, ideal_elements<triangle>(surface));
+        map.assess(surface, *ideal);
         report.valid = bool(map.flips);
         if (!report.valid)
         {
