@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,7 +34,7 @@ struct layout
     bool complete = false;        ///< false: a piece is wider than a tile, or the budget is over
 
     /// Lengths from the extents of the pieces as they lie.
-    void measure(std::span<const std::vector<pose>> poses, double scale = 1)
+    void measure(std::span<const std::vector<pose>> poses)
     {
         width = height = 0;
         tiles = 1;
@@ -40,7 +42,7 @@ struct layout
         for (std::size_t c = 0; c < spots.size(); ++c)
         {
             const spot& s = spots[c];
-            const vec2 size = scale * poses[c][static_cast<std::size_t>(s.pose)].size;
+            const vec2 size = poses[c][static_cast<std::size_t>(s.pose)].size;
             width = std::max(width, s.x + size.x + inset);
             if (s.tile + 1 == tiles)
                 height = std::max(height, s.y + size.y + inset);
@@ -72,23 +74,23 @@ inline layout lay_out(std::span<const piece> pieces, std::span<const std::vector
         idx lowest = 0; // top of the best
         for (std::size_t k = 0; k < poses[c].size(); ++k)
         {
-            const probe_list& mask = poses[c][k].probes;
-            if (mask.width > side || (tiles > 1 && mask.height > side)) continue;
+            const room_mask& mask = poses[c][k].mask;
+            const idx height = mask.cells.height;
+            if (mask.cells.width > side || (tiles > 1 && height > side)) continue;
             const auto size = [](idx n) { return static_cast<int>(4 * std::log2(n)); };
-            idx* const start = quick ? &starts[{size(mask.width), size(mask.height)}] : nullptr;
-            for (idx y = start ? *start : 0;; ++y)
+            idx* const start = quick ? &starts[{size(mask.cells.width), size(height)}] : nullptr;
+            const idx highest = best.pose < 0 ? std::numeric_limits<idx>::max() / 2 : lowest - height;
+            idx x = -1, y = start ? *start : 0;
+            for (idx tile = tile_of(y); tile < tiles && x < 0; ++tile)
             {
-                if (const idx tile = tile_of(y); tile < tiles - 1 && y - tile * (side + 1) + mask.height > side)
-                    y = (tile + 1) * (side + 1);
-                const idx top = y + mask.height;
-                if (best.pose >= 0 && top > lowest) break;
-                const idx x = taken.find(mask, y);
-                if (x < 0) continue;
-                if (start) *start = y;
-                if (best.pose < 0 || top < lowest || x < best.x) best = {static_cast<idx>(k), tile_of(y), x, y};
-                lowest = top;
-                break;
+                y = std::max(y, tile * (side + 1));
+                const idx top = tile == tiles - 1 ? highest : tile * (side + 1) + side - height;
+                std::tie(y, x) = taken.find(mask, y, std::min(highest, top));
             }
+            if (x < 0) continue;
+            if (start) *start = y;
+            if (best.pose < 0 || y + height < lowest || x < best.x) best = {static_cast<idx>(k), tile_of(y), x, y};
+            lowest = y + height;
         }
         if (best.pose < 0) return out;
         const pose& at = poses[c][static_cast<std::size_t>(best.pose)];

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -13,7 +14,6 @@
 
 #include <taut/core/budget.hpp>
 #include <taut/core/parallel.hpp>
-#include <taut/packing/detail/compact.hpp>
 #include <taut/packing/detail/layout.hpp>
 #include <taut/packing/detail/outlines.hpp>
 #include <taut/packing/detail/pieces.hpp>
@@ -47,42 +47,13 @@ public:
     packing run()
     {
         on_shelves();
-        const auto n = pieces_.size();
-        const idx grid = std::clamp(static_cast<idx>(40 * std::sqrt(static_cast<double>(n))), idx{256}, idx{1024});
-        draw(grid);
-        const bool quick = n > 1000;
-        const int layouts = n > 1000 ? 3 : n > 200 ? 4 : 6;
-        auto side = grid;
-        layout best;
-        double best_side = 0;
-        for (int k = 0; k < layouts && !limits_.over(); ++k)
-        {
-            // Room for the padding of a side that turns out a little larger.
-            layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(1.02 * side + 1),
-                               cells_per_length_, quick, limits_);
-            ++packed_.layouts;
-            const double used = std::max(l.width, l.height), full = params_.tiles == l.tiles ? used : l.width;
-            if (!l.complete)
-            {
-                side += side / 4;
-                continue;
-            }
-            if (full <= 1.02 * side + 1 && (best_side == 0 || used < best_side))
-            {
-                best_side = used;
-                best = l;
-            }
-            const double filled = (l.tiles - 1 + std::min(1.0, 1.0 * l.height / side)) / params_.tiles;
-            const double over = l.height > side ? (l.tiles - 1 + l.height / side) / params_.tiles : filled;
-            side = std::max<idx>(8, static_cast<idx>(std::lround(side * std::sqrt(over))));
-        }
-        if (best_side > 0)
-        {
-            const idx finer = 4;
-            const layout fine =
-                compact(pieces_, poses_, best, finer, finer * gap_in_cells(best_side), cells_per_length_, limits_);
-            keep(fine, finer);
-        }
+        // Quarter turns pack best, but for few pieces, or one that is longer than a tile could be.
+        double longest = 0;
+        for (const piece& p : pieces_) longest = std::max({longest, p.box.x, p.box.y});
+        const double side = estimated_side();
+        search(std::max(side, longest), params_.rotate ? 4 : 1);
+        if (params_.rotate && (pieces_.size() <= 16 || longest > 0.8 * side))
+            search(std::max(side, longest / std::numbers::sqrt2), 16);
         packed_.complete = !limits_.over();
         return std::move(packed_);
     }
@@ -101,33 +72,67 @@ private:
         scaled(shelves.scale);
     }
 
-    /// Draws all pieces in their poses, for tiles of about so many cells.
-    void draw(idx grid)
+    /// Of a tile, in lengths of the pieces: side^2 = (area + gaps around) / density, where a gap is a share of the
+    /// side.
+    double estimated_side() const
     {
-        // side^2 = (area + gaps around) / density, where the gaps are a share of the side.
         const double density = 0.75 * params_.tiles, share = gap_ / (1 - 2 * border_);
         const double half = share * length_ / (4 * density);
-        double side = half + std::sqrt(half * half + area_ / density);
-        for (const piece& p : pieces_) side = std::max(side, p.box.y);
-        cells_per_length_ = grid / side;
-        const auto u = pieces_.size();
-        poses_.resize(u);
+        return half + std::sqrt(half * half + area_ / density);
+    }
+
+    /// Tries some layouts, each in tiles of the side that the one before makes likely. What has more pieces has finer
+    /// cells; of very many each gets less time.
+    void search(double length, int turns)
+    {
+        const std::size_t n = pieces_.size();
+        const bool quick = n > 1500;
+        const idx cells =
+            quick ? 1024 : std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(n))), 512, 2048);
+        draw(cells / length, turns);
+        idx side = cells;
+        layout best;
+        double least = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < (quick ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
+        {
+            const double most = 1.02 * side + 1; // has its padding, too, if the layout is a little larger
+            layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(most), cells_per_length_,
+                               quick, limits_);
+            ++packed_.layouts;
+            if (!l.complete)
+            {
+                side += side / 4;
+                continue;
+            }
+            const double used = std::max(l.width, l.height), filled = (l.tiles - 1 + l.height / side) / params_.tiles;
+            if (used <= most && used < least)
+            {
+                least = used;
+                best = std::move(l);
+            }
+            side = std::max<idx>(8, static_cast<idx>(std::lround(side * std::sqrt(filled))));
+        }
+        if (best.complete) keep(best, least);
+    }
+
+    /// Draws all pieces in their poses; large ones will be laid first.
+    void draw(double cells_per_length, int turns)
+    {
+        cells_per_length_ = cells_per_length;
+        const std::size_t n = pieces_.size();
         doubt_ = 0;
         for (const piece& p : pieces_) doubt_ = std::max(doubt_, p.doubt * cells_per_length_);
-        const int turns = !params_.rotate ? 1 : u <= 1000 ? 8 : 4;
+        poses_.assign(n, {});
         parallel_for(
-            u,
+            n,
             [&](std::size_t begin, std::size_t end)
             {
                 for (std::size_t c = begin; c < end; ++c)
-                {
-                    poses_[c].clear();
                     for (int k = 0; k < turns; ++k)
                         poses_[c].push_back(make_pose(pieces_[c], 2 * std::numbers::pi * k / turns, cells_per_length_));
-                }
             },
             0, 1);
-        order_.resize(u);
+        order_.resize(n);
         std::iota(order_.begin(), order_.end(), idx{0});
         const auto size = [&](idx c)
         {
@@ -137,17 +142,17 @@ private:
         std::stable_sort(order_.begin(), order_.end(), [&](idx a, idx b) { return size(a) > size(b); });
     }
 
-    void keep(const layout& l, idx finer)
+    /// Takes a layout in tiles of this side, if it is better.
+    void keep(const layout& l, double side)
     {
-        const double side = l.tiles > 1 ? std::max(l.width, l.height) : std::max(l.width, l.height);
-        const double cell = (1 - 2 * border_) / side, scale = cell * finer * cells_per_length_;
+        const double cell = (1 - 2 * border_) / side, scale = cell * cells_per_length_;
         if (scale <= packed_.scale) return;
         for (std::size_t c = 0; c < pieces_.size(); ++c)
         {
             const spot& s = l.spots[c];
             const pose& p = poses_[c][static_cast<std::size_t>(s.pose)];
             const vec2 corner(s.x + inset, s.y + inset);
-            place(c, p.axis, scale, vec2(border_) + cell * (corner - static_cast<double>(finer) * p.corner), s.tile);
+            place(c, p.axis, scale, vec2(border_) + cell * (corner - p.corner), s.tile);
         }
         scaled(scale);
     }

@@ -136,7 +136,7 @@ struct pose
     vec2 axis;   ///< of the chart that lies along x
     vec2 corner; ///< of the turned chart's box, in cells; it is laid on `inset` within the mask
     vec2 size;   ///< of that box, in cells
-    probe_list probes;
+    room_mask mask;
 };
 
 /// How far charts stay away from the borders of their masks, in cells: rounding never carries them across.
@@ -163,7 +163,7 @@ inline pose make_pose(const piece& p, double turn, double cells_per_length)
     const auto [low, high] = box_in(p.hull, made.axis);
     made.corner = cells_per_length * low;
     made.size = cells_per_length * (high - low);
-    made.probes = probe_list(rasterize(posed_edges(p, made, cells_per_length), 0));
+    made.mask = room_mask(rasterize(posed_edges(p, made, cells_per_length), 0));
     return made;
 }
 
