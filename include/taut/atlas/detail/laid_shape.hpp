@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <taut/atlas/chart_mesh.hpp>
@@ -44,7 +46,7 @@ inline double hull_area(std::vector<vec2> points)
     return twice / 2;
 }
 
-/// The shapes of charts, one each. mapped: charts that have a map, one flag each
+/// The shapes of charts, one each; of those without a map, whose energy is infinite, nothing is known.
 inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<const vec2> uv,
                                            std::span<const double> energy)
 {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <taut/core/csr.hpp>
+#include <taut/mesh/facets.hpp>
 #include <taut/mesh/incidence.hpp>
 
 namespace taut::detail

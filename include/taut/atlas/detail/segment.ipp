@@ -55,10 +55,12 @@ public:
         std::vector<idx> all(chart_.size());
         std::iota(all.begin(), all.end(), idx(0));
         renew(all);
-        for (int round = 0; round < params_.cut_rounds && proceed(round) && cut_round(); ++round)
+        for (int round = 0; round < params_.cut_rounds && proceed(round); ++round)
         {
+            const bool sewn = unite_round(true);
+            if (!cut_round() && !sewn) break;
         }
-        for (int round = 0; round < params_.unite_rounds && proceed(round) && unite_round(); ++round)
+        for (int round = 0; round < params_.unite_rounds && proceed(round) && unite_round(false); ++round)
         {
         }
         return result();
@@ -247,7 +249,8 @@ private:
     }
 
     /// Flattens pairs of neighbouring charts as one, and keeps those that the bounds allow. False if no pair is left.
-    bool unite_round()
+    /// slits: instead of pairs, charts that cross themselves without a slit that may be why
+    bool unite_round(bool slits)
     {
         struct pair
         {
@@ -271,7 +274,8 @@ private:
         {
             const idx side = arcs.row(a)[0];
             const idx p = chart_[u(side) / 3], q = chart_[u(facets_.twin[u(side)]) / 3];
-            if (p == q || !(charts_[u(p)].energy < infinite) || !(charts_[u(q)].energy < infinite)) continue;
+            if ((p == q) != slits || (slits && !charts_[u(p)].shape.crosses)) continue;
+            if (!(charts_[u(p)].energy < infinite) || !(charts_[u(q)].energy < infinite)) continue;
             double shared = 0;
             bool kept = false;
             for (const idx s : arcs.row(a))
@@ -282,12 +286,12 @@ private:
             const std::array<idx, 2> both{std::min(p, q), std::max(p, q)};
             if (kept || std::binary_search(refused_.begin(), refused_.end(), both)) continue;
             chart_moments sum = moments[u(p)];
-            sum += moments[u(q)];
+            if (p != q) sum += moments[u(q)];
             sum.perimeter -= 2 * shared;
             const double strain = sum.strain();
             // An estimate that is far above the bound is seldom wrong.
             if (strain / sum.area > 4 * (params_.max_distortion - 4)) continue;
-            const double more = strain / 2 - charts_[u(p)].excess() - charts_[u(q)].excess();
+            const double more = strain / 2 - before(both).excess();
             if (more < 2 * room) pairs.push_back({more, a, both});
         }
         std::stable_sort(pairs.begin(), pairs.end(), [](const pair& x, const pair& y) { return x.price < y.price; });
@@ -302,23 +306,70 @@ private:
             planned += std::max(0.0, p.price);
             tried.push_back(p);
         }
-        if (tried.empty()) return false;
-        try_pairs(arcs, tried, room);
-        return true;
+        return !tried.empty() && try_pairs(arcs, tried, room);
     }
 
+    /// Two charts, or one that is named twice, as they are.
+    record before(const std::array<idx, 2>& charts) const
+    {
+        const record &a = charts_[u(charts[0])], &b = charts_[u(charts[1])];
+        if (charts[0] == charts[1]) return {a.area, a.energy, a.shape, {}};
+        const double area = a.area + b.area;
+        return {area, 4 + (a.excess() + b.excess()) / area, {false, std::min(a.shape.fill, b.shape.fill)}, {}};
+    }
+
+    /// Whether a chart is a disk, or one with holes: by Euler, V - E + F = 2 - loops.
+    static std::vector<char> planar(const chart_mesh& charts)
+    {
+        std::vector<idx> twice(u(charts.charts()), 0), loops(twice.size(), 0); // twice V - E + F
+        std::size_t k = 0;
+        for (const auto& loop : boundary_loops(charts.surface))
+        {
+            while (loop[0] >= charts.first_vertex[k + 1]) ++k;
+            ++loops[k];
+            twice[k] -= static_cast<idx>(loop.size());
+        }
+        std::vector<char> result(twice.size());
+        for (k = 0; k < twice.size(); ++k)
+        {
+            twice[k] += 2 * (charts.first_vertex[k + 1] - charts.first_vertex[k]) -
+                        (charts.first_cell[k + 1] - charts.first_cell[k]);
+            result[k] = loops[k] > 0 && twice[k] == 2 * (2 - loops[k]);
+        }
+        return result;
+    }
+
+    /// True if one was kept.
     template <class Pairs>
-    void try_pairs(const csr& arcs, const Pairs& tried, double room)
+    bool try_pairs(const csr& arcs, const Pairs& tried, double room)
     {
         auto seam = seam_;
         std::vector<idx> involved;
-        for (const auto& p : tried)
+        std::vector<std::size_t> pair_of(charts_.size(), 0);
+        for (std::size_t i = 0; i < tried.size(); ++i)
         {
-            for (const idx s : arcs.row(p.arc)) seam[u(s)] = seam[u(facets_.twin[u(s)])] = 0;
-            involved.insert(involved.end(), p.charts.begin(), p.charts.end());
+            for (const idx s : arcs.row(tried[i].arc)) seam[u(s)] = seam[u(facets_.twin[u(s)])] = 0;
+            for (const idx k : tried[i].charts) pair_of[u(k)] = i;
+            involved.push_back(tried[i].charts[0]);
+            if (tried[i].charts[1] != tried[i].charts[0]) involved.push_back(tried[i].charts[1]);
         }
-        const auto triangles = triangles_of(involved);
-        const surface_part part = part_of(mesh_, triangles, seam, number_);
+        const auto pair_at = [&](const surface_part& part, idx k)
+        { return pair_of[u(chart_[u(part.triangles[u(part.charts.first_cell[u(k)])])])]; };
+        surface_part part = part_of(mesh_, triangles_of(involved), seam, number_);
+        // A slit around a handle, or the only one of a closed surface, must stay.
+        const auto open = planar(part.charts);
+        involved.clear();
+        for (idx k = 0; k < part.charts.charts(); ++k)
+        {
+            const auto& charts = tried[pair_at(part, k)].charts;
+            if (!open[u(k)])
+                refused_.push_back(charts);
+            else
+                for (std::size_t i = 0; i < (charts[0] == charts[1] ? 1U : 2U); ++i) involved.push_back(charts[i]);
+        }
+        std::sort(refused_.begin(), refused_.end());
+        if (involved.empty()) return false;
+        if (std::count(open.begin(), open.end(), 0) > 0) part = part_of(mesh_, triangles_of(involved), seam, number_);
         const auto [maps, shapes] = flatten(part);
 
         struct trial
@@ -327,22 +378,21 @@ private:
             std::size_t pair = 0;
             idx chart = 0; // of the part
         };
-        std::vector<std::size_t> pair_of(charts_.size(), 0);
-        for (std::size_t i = 0; i < tried.size(); ++i)
-            for (const idx k : tried[i].charts) pair_of[u(k)] = i;
         constexpr double slimmest = 0.6; // slim charts do not pack well
         std::vector<trial> trials;
         for (idx k = 0; k < part.charts.charts(); ++k)
         {
-            const std::size_t i = pair_of[u(chart_[u(part.triangles[u(part.charts.first_cell[u(k)])])])];
-            const record &a = charts_[u(tried[i].charts[0])], &b = charts_[u(tried[i].charts[1])];
-            const double more = (maps.energy[u(k)] - 4) * (a.area + b.area) - a.excess() - b.excess();
+            const std::size_t i = pair_at(part, k);
+            const record was = before(tried[i].charts);
+            const double more = (maps.energy[u(k)] - 4) * was.area - was.excess();
             const laid_shape& shape = shapes[u(k)];
-            const bool bulky = shape.fill >= std::min({slimmest, a.shape.fill, b.shape.fill});
-            const bool good = maps.energy[u(k)] <= params_.max_distortion && !shape.crosses && bulky;
+            const bool slit = tried[i].charts[0] == tried[i].charts[1]; // there may be others
+            const bool lies_well = !shape.crosses && shape.fill >= std::min(slimmest, was.shape.fill);
+            const bool good = maps.energy[u(k)] <= params_.max_distortion && (slit || lies_well);
             trials.push_back({good ? more : infinite, i, k});
         }
         std::stable_sort(trials.begin(), trials.end(), [](const trial& x, const trial& y) { return x.more < y.more; });
+        const idx united = report_.united;
         for (const trial& t : trials)
         {
             const auto& pair = tried[t.pair];
@@ -355,6 +405,7 @@ private:
             accept(arcs.row(pair.arc), pair.charts, part, maps, shapes[u(t.chart)], t.chart);
         }
         std::sort(refused_.begin(), refused_.end());
+        return report_.united > united;
     }
 
     /// Makes two charts one, which is chart k of a part.

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include <support/closed_meshes.hpp>
+#include <support/host_flatten.hpp>
+#include <support/meshes.hpp>
+#include <taut/atlas/segment.hpp>
+#include <taut/exact/crossings.hpp>
+
+using namespace taut;
+
+namespace
+{
+
+segmentation segment_on_host(const mesh<triangle>& m, const segment_params& params = {})
+{
+    return segment(
+        m, facets(m), [](const chart_mesh& charts) { return test::flatten_on_host(charts); }, params);
+}
+
+/// Charts must be flattenable, each with the map that its energy says, and within the bounds.
+segmentation check_segmentation(const mesh<triangle>& m, const segment_params& params = {})
+{
+    auto result = segment_on_host(m, params);
+    const auto f = facets(m);
+    CHECK(test::check_flattenable(m, f, result.seam) == result.charts.charts());
+    REQUIRE(result.energy.size() == static_cast<std::size_t>(result.charts.charts()));
+    CHECK(result.report.unmapped == 0);
+    CHECK(result.report.above == 0);
+    CHECK(result.report.crossing == 0);
+    double sum = 0, total = 0;
+    for (idx k = 0; k < result.charts.charts(); ++k)
+    {
+        const auto one = test::chart(result.charts, k);
+        const auto uv = std::span<const vec2>(result.uv).subspan(
+            static_cast<std::size_t>(result.charts.first_vertex[static_cast<std::size_t>(k)]), one.points().size());
+        CHECK(bool(certify<2>(one.cells(), uv)));
+        CHECK(boundary_crossings(boundary_loops(one), uv) == 0);
+        const std::vector<char> fixed(uv.size(), 0);
+        const double energy = detail::isometric_newton(one.points(), one.cells(), fixed).value(uv);
+        CHECK(energy == doctest::Approx(result.energy[static_cast<std::size_t>(k)]).epsilon(1e-9));
+        CHECK(energy <= params.max_distortion);
+        double area = 0;
+        for (idx c = 0; c < one.cell_count(); ++c)
+        {
+            const auto x = one.rest(c);
+            area += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
+        }
+        sum += area * energy;
+        total += area;
+    }
+    CHECK(sum / total == doctest::Approx(result.report.distortion).epsilon(1e-9));
+    CHECK(sum / total <= params.mean_distortion);
+    return result;
+}
+
+double size_of(const mesh<triangle>& m)
+{
+    double area = 0;
+    for (idx c = 0; c < m.cell_count(); ++c)
+    {
+        const auto x = m.rest(c);
+        area += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
+    }
+    return std::sqrt(area);
+}
+
+} // namespace
+
+TEST_CASE("segment: a sphere becomes a few charts within the bounds")
+{
+    const auto ball = test::ball(12);
+    const auto few = check_segmentation(ball);
+    CHECK(few.charts.charts() > 1);
+    CHECK(few.charts.charts() <= 8);
+    CHECK(few.report.seam_length < 5 * size_of(ball));
+    const auto many = check_segmentation(ball, {.max_distortion = 4.01, .mean_distortion = 4.002});
+    CHECK(many.charts.charts() > few.charts.charts());
+}
+
+TEST_CASE("segment: surfaces with handles, holes and several components")
+{
+    check_segmentation(test::pierced_plate(2, 4));
+    check_segmentation(test::torus(24, false));
+    check_segmentation(test::torus(24, true));
+    check_segmentation(test::tube(24, 4));
+    check_segmentation(test::both(test::ball(6), test::pierced_plate(1, 3)));
+    check_segmentation(test::without(test::ball(10), [](idx c) { return c % 97 == 5; }));
+    check_segmentation(test::noisy(test::ball(10), 0.01));
+}
+
+TEST_CASE("segment: what can be unrolled has no distortion, and a disk without any is left whole")
+{
+    const auto box = check_segmentation(test::box(6));
+    CHECK(box.report.distortion < 4.03);
+    CHECK(box.charts.charts() <= 6);
+    CHECK(check_segmentation(test::flat_disk(10)).charts.charts() == 1);
+    CHECK(check_segmentation(test::single_triangle()).charts.charts() == 1);
+}
+
+TEST_CASE("segment: seams of a pierced plate lie along its creases")
+{
+    const auto plate = test::pierced_plate(1, 4);
+    const auto f = facets(plate);
+    const auto result = check_segmentation(plate);
+    double flat = 0;
+    for (std::size_t s = 0; s < f.twin.size(); ++s)
+    {
+        const auto normal = [&](std::size_t c)
+        {
+            const auto x = plate.rest(static_cast<idx>(c));
+            return glm::normalize(glm::cross(x[1] - x[0], x[2] - x[0]));
+        };
+        const auto t = static_cast<std::size_t>(f.twin[s]);
+        if (!result.seam[s] || t < s || glm::dot(normal(s / 3), normal(t / 3)) < 0.5) continue;
+        const auto [a, b] = side_vertices(plate, static_cast<idx>(s));
+        flat += glm::distance(plate.points()[static_cast<std::size_t>(a)], plate.points()[static_cast<std::size_t>(b)]);
+    }
+    CHECK(flat < 0.25 * result.report.seam_length);
+}
+
+TEST_CASE("segment: given seams stay")
+{
+    const auto m = test::ball(6);
+    const auto f = facets(m);
+    std::vector<char> equator(f.twin.size(), 0);
+    for (std::size_t s = 0; s < equator.size(); ++s)
+    {
+        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
+        equator[s] = std::abs(m.points()[static_cast<std::size_t>(a)].z) < 1e-9 &&
+                     std::abs(m.points()[static_cast<std::size_t>(b)].z) < 1e-9;
+    }
+    const auto result = check_segmentation(m, {.seams = equator});
+    for (std::size_t s = 0; s < equator.size(); ++s)
+        if (equator[s]) CHECK(result.seam[s]);
+}
+
+TEST_CASE("segment: the same twice, and an observer ends it with what there is")
+{
+    const auto m = test::noisy(test::ball(8), 0.01);
+    const auto one = segment_on_host(m), other = segment_on_host(m);
+    CHECK(one.seam == other.seam);
+    CHECK(one.uv == other.uv);
+    const auto ended = segment_on_host(m, {.observer = [](const progress&) { return false; }});
+    CHECK(test::check_flattenable(m, facets(m), ended.seam) == ended.charts.charts());
+    CHECK(ended.report.cut + ended.report.united == 0);
+}
+
+TEST_CASE("segment: a parameter outside its domain is named")
+{
+    const auto m = test::octahedron();
+    const auto field = [&](const segment_params& p)
+    {
+        try
+        {
+            segment_on_host(m, p);
+        }
+        catch (const parameter_error& e)
+        {
+            return e.field();
+        }
+        return std::string();
+    };
+    CHECK(field({.max_distortion = 4}) == "max_distortion");
+    CHECK(field({.mean_distortion = 3}) == "mean_distortion");
+    CHECK(field({.cut_rounds = -1}) == "cut_rounds");
+    CHECK(field({.unite_rounds = 101}) == "unite_rounds");
+}
