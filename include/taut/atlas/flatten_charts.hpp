@@ -27,8 +27,7 @@ struct flatten_params
     int max_iterations = 100;
 
     /// Millions of multiplications that the factorization of a chart may take; above, the chart goes to `parameterize`
-    /// by itself. At the default that is one of about 5,000 triangles, where both take as
-    /// long.
+    /// by itself. The default stands for about 5,000 triangles, where both take as long.
     double largest = 30;
 
     /// A map to begin with, one point a vertex of the chart mesh in any place and in units of the surface, or nothing.
