@@ -59,7 +59,8 @@ struct probe_list
         for (idx k = 0, row = widest_row; k < height; ++k, row = (row + step) % height)
             for (const cell_run& run : cells.row(row))
             {
-                const idx length = run.end - run.begin, level = std::bit_width(static_cast<unsigned>(length)) - 1;
+                const idx length = run.end - run.begin,
+                          level = static_cast<idx>(std::bit_width(static_cast<unsigned>(length))) - 1;
                 probes.push_back({row, level, run.begin});
                 if (length != idx{1} << level) probes.push_back({row, level, run.end - (idx{1} << level)});
             }
