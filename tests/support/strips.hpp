@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -98,6 +98,34 @@ inline mesh<triangle> comb(int teeth, int wide, int across, double opening)
             return vec3(r * std::cos(a), r * std::sin(a), 2 * t);
         },
         [=](int i, int j) { return j < across / 5 || i / wide % 2 == 0; });
+}
+
+/// A flat ring with teeth that stand on its inner rim, which has two boundaries: flat, the teeth meet in the middle.
+inline mesh<triangle> crown(int teeth, int wide, int across)
+{
+    constexpr double rim = 0.6; // of the rows
+    const auto open = sheet(
+        2 * teeth * wide, across,
+        [=](double s, double t)
+        {
+            const double a = 2 * std::numbers::pi * s, r = 2 - 1.3 * std::min(t / rim, 1.0);
+            return vec3(r * std::cos(a), r * std::sin(a), std::max(t - rim, 0.0) / (1 - rim));
+        },
+        [=](int i, int j) { return j < rim * across || i / wide % 2 == 0; });
+    // The vertices of the first and of the last column are one.
+    std::vector<vec3> points;
+    std::vector<idx> number;
+    for (const vec3& p : open.points())
+    {
+        const auto near = [&p](const vec3& q) { return glm::distance(p, q) < 1e-9; };
+        const auto found = std::find_if(points.begin(), points.end(), near);
+        number.push_back(static_cast<idx>(found - points.begin()));
+        if (found == points.end()) points.push_back(p);
+    }
+    triangles cells = open.cells();
+    for (auto& c : cells)
+        for (idx& v : c) v = number[static_cast<std::size_t>(v)];
+    return {std::move(points), std::move(cells)};
 }
 
 } // namespace taut::test

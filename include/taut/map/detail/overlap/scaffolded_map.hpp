@@ -89,7 +89,9 @@ public:
     shape around(const map& x) const
     {
         map all = x;
-        all.insert(all.end(), places_.begin(), places_.end());
+        const auto& marks = run_.held.marks();
+        for (std::size_t v = 0; v < marks.size(); ++v)
+            if (marks.any(v)) all.push_back(places_[v]);
         const bounding_square box(all);
         const vec2 room(1.5 * box.size);
         const scaffold s = make_scaffold(loops_, x, box.centre - room, box.centre + room);
