@@ -147,6 +147,8 @@ map_result kept_apart(const map_run<Element>& run, map_result r)
     const auto loops = boundary_loops(run.in.surface, run.in.sides);
     overlap_report& told = r.report.overlap.emplace();
     told.before = count_boundary_crossings(loops, r.uv);
+    run.clock.spent(&map_seconds::overlap);
+    r.report.seconds = run.clock.seconds;
     if (told.before.pairs == 0) return r;
     told.energy_before = r.report.solve.value;
     if (auto ends = held_across(run, loops, r.uv); !ends.empty())
