@@ -12,6 +12,7 @@
 
 #include <taut/energy/shape.hpp>
 #include <taut/map/detail/overlap/scaffold.hpp>
+#include <taut/map/detail/overlap/start_apart.hpp>
 #include <taut/map/parameterize.hpp>
 
 namespace
@@ -204,6 +205,21 @@ TEST_CASE("no_overlap: other energies, weights and directions of cells are minim
     const auto shape = parameterize(q, m, {.energy = energy::shape{}, .no_overlap = true});
     check_apart(m, shape);
     CHECK(shape.report.solve.value < 1.2);
+}
+
+TEST_CASE("no_overlap: a tube too long for a map on a polygon gets one that was made on coarser levels")
+{
+    queue q;
+    const auto m = test::tube(12, 60);
+    const parameterize_params params;
+    detail::run_clock clock(budget::unlimited, {});
+    const detail::run_surface in(m, params);
+    const detail::map_run<triangle> run(q, in, params, clock);
+    CHECK(barycentric_map(m, params.barycentric).distortion.measure > 1e8);
+    const auto start = detail::start_apart(run, boundary_loops(m));
+    CHECK(start.flips);
+    CHECK(start.distortion.measure < 1e4);
+    CHECK(crossings_of(m, start.uv) == 0);
 }
 
 TEST_CASE("scaffold: it fills the square around a map with holes, each of whose edges has a triangle beyond")

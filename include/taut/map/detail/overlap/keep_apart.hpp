@@ -65,9 +65,21 @@ private:
         how.solve.stopping.max_iterations = std::min(most_steps, left_);
         how.time_limit = run_.clock.left();
         how.observer = observer();
-        auto moved = shape_session<Element>(run_.queue, plane, how).solve({});
+        session_result<Element> moved;
+        try
+        {
+            moved = shape_session<Element>(run_.queue, plane, how).solve({});
+        }
+        catch (const mesh_error&)
+        {
+            // Triangles of the map are flat to the precision of numbers.
+        }
         const session_report& r = moved.report;
-        if (!moved) return false;
+        if (!moved)
+        {
+            stop_ = solve::stop::line_search;
+            return false;
+        }
         ++rounds_;
         left_ -= std::min(left_, r.steps);
         moved.x.resize(x_.size());
@@ -179,7 +191,7 @@ map_result kept_apart(const map_run<Element>& run, map_result r)
     if (rounds.rounds() == 0 && !run.held.marks().empty())
         return refused(
             std::move(r),
-            {outcome::gave_up, "the limits left no time for a map whose boundary does not cross itself", {}});
+            {outcome::gave_up, "no way was found from a map whose boundary does not cross itself to what is held", {}});
     if (!rounds.places_held())
         return refused(std::move(r), {outcome::gave_up,
                                       "without crossings of the boundary vertex " + std::to_string(rounds.farthest()) +
