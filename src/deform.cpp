@@ -2,7 +2,7 @@
 // Sessions of shapes for the compiled form.
 #include <taut/map/session.hpp>
 
-#include <taut/map/detail/session/shape_session.hpp>
+#include <taut/map/detail/session/open_shape.hpp>
 #include <taut/map/detail/session/shell_session.hpp>
 
 template taut::session<taut::tetrahedron>::session(queue&, const mesh<tetrahedron>&, const deform_params<tetrahedron>&);

@@ -56,6 +56,8 @@ void declare_map(CLI::App& app, unwrap_options& o)
              "file; without a weight exactly, with one as a spring; an empty u or v is free")
         ->type_name("FILE.csv");
     app.add_flag("--holes", o.holes, "Take surfaces with holes; the longest boundary is the outer one");
+    app.add_flag("--no-overlap", o.no_overlap,
+                 "Keep the boundary from crossing itself, so that no two triangles of the map overlap");
 }
 
 void declare_solver(CLI::App& app, unwrap_options& o)
@@ -178,6 +180,7 @@ parameterize_params to_params(const unwrap_options& o)
                                                  : start_method::barycentric;
     p.placement = o.placement;
     p.holes = o.holes;
+    p.no_overlap = o.no_overlap;
     p.precision = o.precision;
     p.multigrid = o.solver == solver_kind::multigrid_lbfgs;
     p.solve.method = o.solver == solver_kind::newton               ? solve::method::newton

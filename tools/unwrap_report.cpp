@@ -129,6 +129,12 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
                                       {"inverted", stage.inverted},
                                       {"branch_points", stage.branched},
                                       {"seconds", stage.seconds}});
+    if (const auto& overlap = r.map.overlap)
+        json["overlap"] = {{"crossings_before", overlap->before.pairs},
+                           {"all_crossings_counted", overlap->before.all},
+                           {"energy_before", finite(overlap->energy_before)},
+                           {"rounds", overlap->rounds},
+                           {"crossings", overlap->crossings}};
     json["stop"] = identifier(r.map.solve.stop);
     json["iterations"] = r.map.solve.iterations;
     json["hessian_products"] = r.map.solve.products;
@@ -144,9 +150,9 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["seconds"] = {{"read", r.seconds.read},       {"device", r.seconds.queue + r.map.seconds.device},
                        {"setup", r.map.seconds.setup}, {"hierarchy", r.map.seconds.hierarchy},
                        {"start", r.map.seconds.start}, {"untangle", r.map.seconds.untangle},
-                       {"solve", r.map.seconds.solve}, {"quality", r.seconds.quality},
-                       {"draw", r.seconds.draw},       {"write", r.seconds.write},
-                       {"total", r.seconds.total}};
+                       {"solve", r.map.seconds.solve}, {"overlap", r.map.seconds.overlap},
+                       {"quality", r.seconds.quality}, {"draw", r.seconds.draw},
+                       {"write", r.seconds.write},     {"total", r.seconds.total}};
     json["levels"] = nlohmann::ordered_json::array();
     for (const auto& l : r.map.levels)
         json["levels"].push_back({{"level", l.level},
@@ -188,18 +194,24 @@ std::string text_of(const unwrap_report& r, const unwrap_options& o)
     lines.add("energy", to_string(o.energy) + ' ' + number(r.energy_before) + " -> " + number(r.energy, 6) +
                             (by_area ? " by area" : " mean") +
                             (r.after.measured ? (by_area ? ", mean " : ", by area ") + number(other, 6) : ""));
+    if (const auto& overlap = r.map.overlap; overlap && overlap->before.pairs > 0)
+        lines.add("overlap", count(overlap->before.pairs, "crossing", "crossings") + " of the boundary at E " +
+                                 number(overlap->energy_before, 6) + ", none after " +
+                                 count(static_cast<std::uint64_t>(overlap->rounds), "round", "rounds"));
     lines.add("stop", describe(s, o));
     lines.add("steps", count(static_cast<std::uint64_t>(s.iterations), "iteration", "iterations") + ", " +
                            count(static_cast<std::uint64_t>(s.evaluations), "evaluation", "evaluations") + ", " +
                            count(static_cast<std::uint64_t>(s.gradients), "gradient", "gradients"));
     describe_validity(lines, r.after);
-    lines.add("time",
-              duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
-                  duration(r.seconds.queue + r.map.seconds.device) + ", setup " + duration(r.map.seconds.setup) +
-                  ", hierarchy " + duration(r.map.seconds.hierarchy) + ", start " + duration(r.map.seconds.start) +
-                  (r.map.untangling.empty() ? "" : ", untangle " + duration(r.map.seconds.untangle)) + ", solve " +
-                  duration(r.map.seconds.solve) + (r.seconds.draw > 0 ? ", draw " + duration(r.seconds.draw) : "") +
-                  ", write " + duration(r.seconds.write));
+    lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
+                          duration(r.seconds.queue + r.map.seconds.device) + ", setup " +
+                          duration(r.map.seconds.setup) + ", hierarchy " + duration(r.map.seconds.hierarchy) +
+                          ", start " + duration(r.map.seconds.start) +
+                          (r.map.untangling.empty() ? "" : ", untangle " + duration(r.map.seconds.untangle)) +
+                          ", solve " + duration(r.map.seconds.solve) +
+                          (r.map.seconds.overlap > 0 ? ", overlap " + duration(r.map.seconds.overlap) : "") +
+                          (r.seconds.draw > 0 ? ", draw " + duration(r.seconds.draw) : "") + ", write " +
+                          duration(r.seconds.write));
     lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
     std::string files = o.output;
     for (const auto& file : {o.picture, o.render, o.stats})

@@ -71,6 +71,11 @@ struct parameterize_params
     /// Whether a surface with holes (more than one boundary loop) is taken. Its map is locally injective.
     bool holes = false;
 
+    /// Whether the boundary of the map must not cross or touch itself, so that no two triangles overlap. Where it
+    /// would, the energy is minimised once more, through maps in which it does not (docs/overlap.md); others stay as
+    /// they are.
+    bool no_overlap = false;
+
     taut::precision precision = precision::automatic;
 
     /// Whether lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.

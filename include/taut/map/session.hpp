@@ -138,6 +138,6 @@ private:
 
 #ifndef TAUT_COMPILED
 #include <taut/map/detail/session/map_session.hpp>
-#include <taut/map/detail/session/shape_session.hpp>
+#include <taut/map/detail/session/open_shape.hpp>
 #include <taut/map/detail/session/shell_session.hpp>
 #endif

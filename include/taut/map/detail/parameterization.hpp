@@ -8,6 +8,7 @@
 
 #include <taut/map/detail/attempt_in_turns.hpp>
 #include <taut/map/detail/choose_start.hpp>
+#include <taut/map/detail/overlap/keep_apart.hpp>
 #include <taut/map/detail/returned_map.hpp>
 
 namespace taut
@@ -74,7 +75,10 @@ template <class Element>
 map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock)
 {
     const map_run<Element> run(q, surface, params, clock);
-    map_result result = in_user_units(run, placed(run, solved(run)));
+    map_result found = solved(run);
+    if (params.no_overlap) found = kept_apart(run, std::move(found));
+    map_result result = in_user_units(run, placed(run, std::move(found)));
+    if (params.no_overlap) result = certified_apart(run, std::move(result));
     clock.stages.add({.stage = "certify", .vertices = run.vertices()});
     result.report.stages = clock.stages.stages();
     return result;

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <numeric>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include <taut/energy/distortion.hpp>
+#include <taut/map/deform_params.hpp>
 #include <taut/map/detail/session/session_steps.hpp>
 #include <taut/mesh/validate.hpp>
 
@@ -30,8 +30,6 @@ deform_params<Element> validated(deform_params<Element> p)
     return p;
 }
 
-/// What session.hpp declares; include that one.
-///
 /// A session of a shape: it begins with the shape that is given, untangled if need be.
 template <class Element>
 class shape_session : public session_steps<Element>
@@ -263,20 +261,5 @@ private:
 };
 
 } // namespace detail
-
-template <class Element>
-session<Element>::session(queue& q, const mesh<Element>& m,
-                          const deform_params<Element>& params) requires std::same_as<Element, tetrahedron>
-    : body_(std::make_unique<detail::shape_session<Element>>(q, m, params))
-{
-}
-
-template <class Element>
-template <std::same_as<deform_params<Element>> Params>
-session<Element>::session(queue& q, const mesh<Element>& m,
-                          const Params& params) requires std::same_as<Element, triangle>
-    : body_(std::make_unique<detail::shape_session<Element>>(q, m, params))
-{
-}
 
 } // namespace taut
