@@ -1468,8 +1468,8 @@ test_paste()
         '^result .*manifold, 120 boundary edges' '^seam +angle' '^wrote +out.obj, out.png, stats.json$'
     silent err
     [ "$(od -An -tx1 -N8 out.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "out.png is no PNG"
-    keys stats.json schema manifold boundary_edges degenerate_triangles correspondence triangles seconds.map seconds.transform
-    says values '^schema=taut.paste/1$' '^boundary_edges=120$' '^degenerate_triangles=0$'
+    keys stats.json schema manifold boundary_edges degenerate_triangles folded_edges self_intersections correspondence triangles seconds.map seconds.transform
+    says values '^schema=taut.paste/1$' '^boundary_edges=120$' '^degenerate_triangles=0$' '^folded_edges=0$' '^self_intersections=0$'
     expect 0 check out.obj
 
     # Far from the feature all is as it was, in its order: the first row of the target.

@@ -188,8 +188,10 @@ def pasting(n):
 
         def middle():
             """Of the feature."""
+            b.wait("taut.state")  # a new model comes with none
             return b.evaluate("""(() => {
               const s = [0, 0];
+              if (!taut.state) return [9, 9];
               let n = 0;
               for (let c = 3 * taut.model.feature; c < taut.mesh.faces.length; ++c, ++n)
                 for (let k = 0; k < 2; ++k) s[k] += taut.state.positions[3 * taut.mesh.faces[c] + k];

@@ -105,7 +105,7 @@ TEST_CASE("tessellate: a feature of about as many triangles as wanted, on the ma
     mapped_mushroom m;
     REQUIRE(m.map);
     const auto& part = m.pasted.part();
-    const auto map = make_feature_map(m.q, part, m.map.uv, {.resolution = 512});
+    const auto map = make_feature_map(m.q, part, m.map.uv, {.resolution = 128});
     double before = 1e9;
     for (const int wanted : {600, 2400, 9600})
     {
