@@ -1176,6 +1176,17 @@ test_shells()
     silent out
     [ "$(grep -c '^f' moved.obj)" = 200 ] || fail "triangles are missing"
 
+    # At rest it was flat: without pins it becomes so again.
+    expect 0 deform moved.obj -o flat.obj --rest sheet.off --picture both.png --stats stats.json --quiet
+    [ "$(od -An -tx1 -N8 both.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "both.png is no PNG"
+    keys stats.json edge_change.max
+    awk -F= '/^edge_change.max=/ { flat = $2 < 1e-3 && $2 > -1e-3 } END { exit !flat }' values || fail "not as at rest"
+    grid 9 off >other.off
+    expect 4 deform moved.obj -o late.obj --rest other.off
+    error_says 'other triangles'
+    expect 2 deform moved.obj -o late.obj --picture both.svg
+    error_says '.png'
+
     # Wrong use.
     expect 2 deform in.obj -o late.obj --thickness 0
     expect 2 deform in.obj -o late.off --pins pins.csv
