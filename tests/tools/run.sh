@@ -1176,7 +1176,7 @@ test_shells()
     silent out
     [ "$(grep -c '^f' moved.obj)" = 200 ] || fail "triangles are missing"
 
-    # At rest it was flat: without pins it becomes so again.
+    # Without pins it goes back to its shape at rest.
     expect 0 deform moved.obj -o flat.obj --rest sheet.off --picture both.png --stats stats.json --quiet
     [ "$(od -An -tx1 -N8 both.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "both.png is no PNG"
     keys stats.json edge_change.max

@@ -175,6 +175,7 @@ def pasting(n):
 
         def near(x, y):
             """A vertex of the surface near a place, and where it is on the page."""
+            b.wait("taut.state")
             return b.evaluate(f"""(() => {{
               const p = taut.state.positions, r = taut.right.canvas.getBoundingClientRect();
               let best = 0, least = Infinity;
@@ -234,12 +235,13 @@ def pasting(n):
         assert open(saved).read().count("\nf ") == b.evaluate("taut.mesh.faceCount")
         os.remove(saved)
         for _ in range(20):
+            b.wait("taut.state")
             if not b.evaluate("taut.state.canUndo"):
                 break
             b.evaluate("taut.frames.length = 0")
             click(b, "undo")
             b.wait("taut.state && taut.frames.length > 0")
-        b.wait("!taut.state.canUndo")
+        b.wait("taut.state && !taut.state.canUndo")
         assert b.evaluate(positions) == first
         assert not b.errors(), b.errors()
 
