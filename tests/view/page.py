@@ -228,6 +228,7 @@ def pasting(n):
             for kind in ("mousePressed", "mouseReleased"):
                 b.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=count)
         b.wait(f"taut.model.feature < taut.mesh.faceCount && taut.mesh.faceCount > {faces}")
+        b.wait("taut.state")
         click(b, "save")
         saved, end = f"{folder}/dome-pasted.obj", time.monotonic() + 20
         while not os.path.exists(saved) and time.monotonic() < end:
