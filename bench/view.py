@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""view.py TAUT MESH [PINS [FRAMES]]: times of `taut view` as its page sees them.
+"""view.py TAUT MESH [PINS [FRAMES [SECONDS]]]: times of `taut view` as its page sees them.
 
 One vertex, then PINS of them (300) at once, are led along a circle of a twentieth of the map, one message a frame; milliseconds from a message to the
-state that has granted it, all of them, and memory before and after."""
+state that has granted it, all of them, and memory before and after. Then, for SECONDS, one vertex after another, each a gesture of its own: memory
+once a minute."""
 import math
 import pathlib
 import random
@@ -45,6 +46,7 @@ def main():
     program, mesh = sys.argv[1:3]
     pins = int(sys.argv[3]) if len(sys.argv) > 3 else 300
     frames = int(sys.argv[4]) if len(sys.argv) > 4 else 120
+    seconds = float(sys.argv[5]) if len(sys.argv) > 5 else 0
     with Program(program, mesh) as p:
         s = p.socket()
         model = s.message("model")
@@ -59,6 +61,15 @@ def main():
             ordered = sorted(times)
             print(f"{name}: median {statistics.median(times):.1f}, 95 % {ordered[int(0.95 * len(ordered))]:.1f}, most {ordered[-1]:.1f} ms; "
                   f"energy {state['energy']:.6g}, pins {'hold' if state['held'] else 'ahead'}, {memory(p.process.pid):.0f} MB", flush=True)
+        start = minute = time.monotonic()
+        gesture = messages = 100
+        while time.monotonic() < start + seconds:
+            gesture += 1
+            times, state = drag(s, state, [random.choice(many)], gesture, frames)
+            messages += len(times)
+            if time.monotonic() > minute:
+                minute += 60
+                print(f"{time.monotonic() - start:.0f} s: {messages - 100} messages, {memory(p.process.pid):.0f} MB", flush=True)
 
 
 main()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -126,12 +127,18 @@ private:
         distance_ = std::max(largest_distance(before, after), largest_distance(after, before));
     }
 
-    /// Of the vertices of one surface from another one.
+    /// Of corners, middles of edges and centroids of one surface from another one.
     static double largest_distance(const mesh<triangle>& from, const mesh<triangle>& to)
     {
         const taut::detail::surface_tree tree(to.points(), to.cells());
         double largest = 0;
-        for (const vec3& p : from.points()) largest = std::max(largest, tree.nearest(p).distance);
+        for (idx f = 0; f < from.cell_count(); ++f)
+        {
+            const auto x = from.rest(f);
+            for (const vec3& p : {x[0], x[1], x[2], (x[0] + x[1]) / 2.0, (x[1] + x[2]) / 2.0, (x[2] + x[0]) / 2.0,
+                                  (x[0] + x[1] + x[2]) / 3.0})
+                largest = std::max(largest, tree.nearest(p).distance);
+        }
         return largest;
     }
 
@@ -168,6 +175,7 @@ private:
         if (!quality_.manifold || quality_.boundary_edges != edges_before.boundary_edges)
             throw no_valid_map("the pasted surface is not manifold, or has another boundary than the target; choose "
                                "another vertex, radius or scale");
+        meeting_ = paste_->self_intersections();
     }
 
     void write()
@@ -232,6 +240,11 @@ private:
         json["manifold"] = quality_.manifold;
         json["boundary_edges"] = quality_.boundary_edges;
         json["degenerate_triangles"] = quality_.degenerate;
+        json["folded_edges"] = quality_.folded;
+        json["self_intersections"] = meeting_.size();
+        const auto listed = std::min<std::size_t>(meeting_.size(), 100);
+        json["self_intersecting_triangles"] =
+            std::vector(meeting_.begin(), meeting_.begin() + static_cast<std::ptrdiff_t>(listed));
         json["smallest_gap_angle"] = quality_.smallest_angle;
         json["rim_angle_median"] = quality_.median_angle;
         json["rim_angle_largest"] = quality_.largest_angle;
@@ -260,6 +273,11 @@ private:
                       count(static_cast<std::uint64_t>(quality_.boundary_edges), "boundary edge", "boundary edges"));
         lines.add("seam", "angle " + number(quality_.median_angle, 3) + " degrees (median), " +
                               number(quality_.largest_angle, 3) + " at most");
+        if (!meeting_.empty())
+            lines.add("note", count(meeting_.size(), "pair of triangles meets", "pairs of triangles meet") +
+                                  ", as of " + std::to_string(meeting_[0][0]) + " and " +
+                                  std::to_string(meeting_[0][1]) +
+                                  ", which did not before: another pose, scale or softness may help");
         lines.add("time", duration(clock_.now()) + ": read " + duration(read_seconds_) + ", device " +
                               duration(device_seconds_) + ", paste " + duration(paste_seconds_));
         lines.add("wrote", options_.output + (options_.picture.empty() ? "" : ", " + options_.picture) +
@@ -274,6 +292,7 @@ private:
     std::optional<paste> paste_;
     std::optional<feature_map> map_;
     seam_quality quality_;
+    std::vector<std::array<idx, 2>> meeting_; ///< triangles of the result, which did not in what it is made of
     std::string device_;
     double distance_ = 0; ///< of the tessellation from the feature, in units of the source
     double read_seconds_ = 0, device_seconds_ = 0, paste_seconds_ = 0, map_seconds_ = 0;

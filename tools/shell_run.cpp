@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -14,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <picture/render_picture.hpp>
 #include <taut/exact/collapses.hpp>
 #include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/pins.hpp>
@@ -51,19 +53,20 @@ shell_run::shell_run(const shape_options& options, run_clock clock, progress& pr
             throw usage_error(std::string(option) +
                               " is of volumes and meshes of the plane, not of a surface in space");
     };
-    refuse(!options.picture.empty(), "--picture");
     refuse(!options.cut.empty(), "--cut");
-    refuse(!options.rest.empty(), "--rest");
     refuse(!options.moves.empty(), "--move");
     refuse(!options.fixed.empty(), "--fix");
     refuse(options.energy != shape_energy::isometric, "--energy");
     if (extension(options.output) != ".obj") throw usage_error("-o: a surface is written as .obj");
+    if (!options.picture.empty() && extension(options.picture) != ".png")
+        throw usage_error("--picture: a surface is drawn as .png");
 }
 
 exit_code shell_run::operator()()
 {
     const auto file = io::read_surface_file(options_.input);
-    const thin_shell shell(file.surface);
+    const auto rest = options_.rest.empty() ? file.surface : shape_at_rest(file.surface);
+    const thin_shell shell(rest);
     auto pins = taut::constraints(shell.hinges());
     if (!options_.pins.empty()) add_pins(pins, io::read_pins<3>(options_.pins, file.surface.vertex_count()));
     vertices_ = file.surface.points().size();
@@ -76,11 +79,22 @@ exit_code shell_run::operator()()
     device_ = q.device().name();
     tell("deform");
     std::optional<session_result<hinge>> found;
-    solve_ = clock_.timed([&] { found = deform(q, shell, params(shell, pins)); });
-    take(*found, file.surface, pins);
+    auto wanted = params(shell, pins);
+    if (!options_.rest.empty()) wanted.initial = file.surface.points();
+    solve_ = clock_.timed([&] { found = deform(q, shell, wanted); });
+    take(*found, rest, pins);
     if (points_.empty()) refuse();
-    write(file);
+    write(file, rest);
     return code_;
+}
+
+mesh<triangle> shell_run::shape_at_rest(const mesh<triangle>& surface) const
+{
+    auto rest = io::read_surface_file(options_.rest).surface;
+    if (rest.cells() != surface.cells() || rest.vertex_count() != surface.vertex_count())
+        throw unsuitable_input(options_.rest + " has other triangles or vertices than " + options_.input +
+                               "; the shape at rest differs in coordinates alone");
+    return rest;
 }
 
 shell_params shell_run::params(const thin_shell& shell, const constraints<hinge>& pins)
@@ -137,12 +151,14 @@ void shell_run::refuse() const
     throw no_valid_map(run_.reason.empty() ? "nothing was written" : run_.reason);
 }
 
-void shell_run::write(const io::surface_file& file)
+void shell_run::write(const io::surface_file& file, const mesh<triangle>& rest)
 {
     tell("write");
     std::vector<io::file_to_write> files{
         {options_.output, [&](io::atomic_file& out) { io::write_moved(out, file, points_); }}};
     if (!options_.stats.empty()) files.push_back({options_.stats, [&](io::atomic_file& out) { out.write(json()); }});
+    if (!options_.picture.empty())
+        files.push_back({options_.picture, [&](io::atomic_file& out) { out.write(picture(rest)); }});
     total_ = clock_.now();
     if (place_of_report_ && has_reader(place_of_report_))
         files.push_back({place_of_report_, [&](io::atomic_file& out)
@@ -152,6 +168,21 @@ void shell_run::write(const io::surface_file& file)
                          }});
     writing([&] { io::write_files(files); });
     progress_.finish();
+}
+
+/// The surface at rest, and below as it is now, both seen from the same sides.
+std::string shell_run::picture(const mesh<triangle>& rest) const
+{
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<vec2> no_map(points_.size(), vec2(none));
+    const auto seen = io::guess_orientation(rest.points(), rest.cells());
+    const auto draw = [&](const std::vector<vec3>& points, const std::string& title)
+    { return io::render_picture(points, rest.cells(), no_map, {.title = title, .up = seen.up, .front = seen.front}); };
+    const auto before = draw(rest.points(), options_.input + " at rest"), after = draw(points_, "deformed");
+    io::image both(before.width(), 2 * before.height());
+    const auto middle = std::copy(before.pixels().begin(), before.pixels().end(), both.pixels().begin());
+    std::copy(after.pixels().begin(), after.pixels().end(), middle);
+    return encode_png(both);
 }
 
 shell_run::edge_changes shell_run::changes(const mesh<triangle>& surface) const
@@ -221,7 +252,8 @@ std::string shell_run::text() const
                            number(100 * edges_.largest) + " %");
     lines.add("areas", number(run_.flips.min_det) + " .. " + number(run_.flips.max_det) + " of those at rest");
     lines.add("time", duration(total_) + ": read " + duration(read_) + ", solve " + duration(solve_));
-    lines.add("wrote", options_.output + (options_.stats.empty() ? "" : ", " + options_.stats));
+    lines.add("wrote", options_.output + (options_.picture.empty() ? "" : ", " + options_.picture) +
+                           (options_.stats.empty() ? "" : ", " + options_.stats));
     return (std::ostringstream() << lines).str();
 }
 

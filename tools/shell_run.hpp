@@ -42,7 +42,10 @@ private:
     shell_params params(const thin_shell& shell, const constraints<hinge>& pins);
     void take(const session_result<hinge>& found, const mesh<triangle>& surface, const constraints<hinge>& pins);
     [[noreturn]] void refuse() const;
-    void write(const io::surface_file& file);
+    /// What --rest names. Throws unsuitable_input for another mesh.
+    mesh<triangle> shape_at_rest(const mesh<triangle>& surface) const;
+    void write(const io::surface_file& file, const mesh<triangle>& rest);
+    std::string picture(const mesh<triangle>& rest) const;
     edge_changes changes(const mesh<triangle>& surface) const;
     std::string json() const;
     std::string text() const;

@@ -1254,6 +1254,17 @@ test_shells()
     silent out
     [ "$(grep -c '^f' moved.obj)" = 200 ] || fail "triangles are missing"
 
+    # Without pins it goes back to its shape at rest.
+    expect 0 deform moved.obj -o flat.obj --rest sheet.off --picture both.png --stats stats.json --quiet
+    [ "$(od -An -tx1 -N8 both.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "both.png is no PNG"
+    keys stats.json edge_change.max
+    awk -F= '/^edge_change.max=/ { flat = $2 < 1e-3 && $2 > -1e-3 } END { exit !flat }' values || fail "not as at rest"
+    grid 9 off >other.off
+    expect 4 deform moved.obj -o late.obj --rest other.off
+    error_says 'other triangles'
+    expect 2 deform moved.obj -o late.obj --picture both.svg
+    error_says '.png'
+
     # Wrong use.
     expect 2 deform in.obj -o late.obj --thickness 0
     expect 2 deform in.obj -o late.off --pins pins.csv
@@ -1546,8 +1557,8 @@ test_paste()
         '^result .*manifold, 120 boundary edges' '^seam +angle' '^wrote +out.obj, out.png, stats.json$'
     silent err
     [ "$(od -An -tx1 -N8 out.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "out.png is no PNG"
-    keys stats.json schema manifold boundary_edges degenerate_triangles correspondence triangles seconds.map seconds.transform
-    says values '^schema=taut.paste/1$' '^boundary_edges=120$' '^degenerate_triangles=0$'
+    keys stats.json schema manifold boundary_edges degenerate_triangles folded_edges self_intersections correspondence triangles seconds.map seconds.transform
+    says values '^schema=taut.paste/1$' '^boundary_edges=120$' '^degenerate_triangles=0$' '^folded_edges=0$' '^self_intersections=0$'
     expect 0 check out.obj
 
     # Far from the feature all is as it was, in its order: the first row of the target.

@@ -106,6 +106,19 @@ class Browser:
             time.sleep(pause)
         self.pointer("mouseReleased", *end, modifiers, pen)
 
+    def touch(self, kind, *points):
+        """touchStart, touchMove or touchEnd with the fingers that are there then."""
+        self.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(points)])
+
+    def two_fingers(self, starts, ends, steps=8):
+        """One after the other they come down, move, and go."""
+        self.touch("touchStart", starts[0])
+        self.touch("touchStart", *starts)
+        for k in range(1, steps + 1):
+            self.touch("touchMove", *[tuple(a + (b - a) * k / steps for a, b in zip(s, e)) for s, e in zip(starts, ends)])
+            time.sleep(0.02)
+        self.touch("touchEnd")
+
     def key(self, key, modifiers=0):
         code = {"z": 90, " ": 32}.get(key, 0)
         for kind in ("keyDown", "keyUp"):

@@ -128,7 +128,128 @@ def visit(dark):
         b.wait("document.getElementById('note')?.textContent.includes('not connected')")
 
 
-dome(f"{folder}/dome.obj")
+def fingers():
+    """One moves a vertex; two zoom and turn the view, also where the first one has hit a vertex."""
+    with Program(program, f"{folder}/dome.obj") as p, Browser(chromium) as b:
+        b.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        b.open(p.url)
+        b.wait("window.taut && taut.state && taut.frames.length > 0")
+        at_rest(b)
+        v, at = pick(b, 0.5, 0.5)
+        b.touch("touchStart", at)
+        for k in range(1, 9):
+            b.touch("touchMove", (at[0] + 4 * k, at[1]))
+            time.sleep(0.02)
+        b.touch("touchEnd")
+        b.wait(f"taut.state.pins.size === 1 && taut.state.pins.has({v}) && taut.state.held && !taut.state.working")
+        assert shown(b)[1] == 0
+
+        def view(pane):
+            return b.evaluate(f"[taut.{pane}.camera.zoom, ...taut.{pane}.camera.position.toArray()]")
+
+        before, held = view("right"), shown(b)[2:]
+        _, on = pick(b, 0.4, 0.6)
+        b.two_fingers([on, (on[0] + 60, on[1])], [(on[0] - 40, on[1]), (on[0] + 120, on[1])])
+        b.wait(f"taut.right.camera.zoom > {1.3 * before[0]}")
+        at_rest(b)
+        assert shown(b)[2:] == held  # no vertex went along
+        x, y = b.evaluate("(() => { const r = taut.left.canvas.getBoundingClientRect(); return [r.left + r.width / 2, r.top + r.height / 2]; })()")
+        before = view("left")
+        b.two_fingers([(x - 30, y), (x + 30, y)], [(x - 20, y + 80), (x + 120, y + 80)])
+        b.wait(f"taut.left.camera.zoom > {1.2 * before[0]}")
+        after = view("left")
+        assert max(abs(p - q) for p, q in zip(before[1:], after[1:])) > 0.1, "not turned"
+        assert not b.errors(), b.errors()
+
+
+def pasting(n):
+    """A feature is placed, moved, turned, scaled, kept, put again, undone and saved."""
+    file, onto = f"{folder}/dome.obj", (n // 2) * (n + 1) + n // 2
+    options = ("--source", file, "--at", str(onto), "--radius", "0.3", "--onto", str(onto), "--scale", "0.5")
+    with Program(program, file, *options) as p, Browser(chromium) as b:
+        b.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+        b.open(p.url)
+        b.wait("window.taut && taut.state && taut.frames.length > 0")
+        positions = "Array.from(taut.state.positions)"
+        first = b.evaluate(positions)
+
+        def near(x, y):
+            """A vertex of the surface near a place, and where it is on the page."""
+            b.wait("taut.state")
+            return b.evaluate(f"""(() => {{
+              const p = taut.state.positions, r = taut.right.canvas.getBoundingClientRect();
+              let best = 0, least = Infinity;
+              for (let v = 0; 3 * v < p.length; ++v) {{
+                const d = Math.hypot(p[3 * v] - {x}, p[3 * v + 1] - {y});
+                if (d < least) {{ least = d; best = v; }}
+              }}
+              const s = taut.right.toScreen(best);
+              return [s[0] + r.left, s[1] + r.top];
+            }})()""")
+
+        def middle():
+            """Of the feature."""
+            b.wait("taut.state")  # a new model comes with none
+            return b.evaluate("""(() => {
+              const s = [0, 0];
+              if (!taut.state) return [9, 9];
+              let n = 0;
+              for (let c = 3 * taut.model.feature; c < taut.mesh.faces.length; ++c, ++n)
+                for (let k = 0; k < 2; ++k) s[k] += taut.state.positions[3 * taut.mesh.faces[c] + k];
+              return [s[0] / n, s[1] / n];
+            })()""")
+
+        def grows(ids, check):
+            for i in ids:
+                b.evaluate("taut.frames.length = 0")
+                click(b, i)
+                b.wait("taut.frames.length > 0")
+            assert b.evaluate(check), check
+
+        grows(["turn-left", "turn-left"], "taut.state.pose.turn > 0.17")
+        grows(["larger"], "taut.state.pose.scale > 0.52")
+        b.evaluate("(() => { const s = document.getElementById('softness'); s.value = 1; s.oninput(); })()")
+        b.wait("taut.state.pose.softness === 1")
+        assert b.evaluate(positions) != first
+
+        start, goal = middle(), (0.32, 0.32)
+        b.drag(near(*start), near(*goal))
+        end = time.monotonic() + 60
+        while sum((p - q) ** 2 for p, q in zip(middle(), goal)) > 0.01 and time.monotonic() < end:
+            time.sleep(0.05)
+        assert sum((p - q) ** 2 for p, q in zip(middle(), goal)) < 0.01, "the feature did not go where it was put"
+        b.screenshot(f"{folder}/paste.png")
+
+        faces = b.evaluate("taut.mesh.faceCount")
+        click(b, "keep")
+        b.wait("taut.model.feature > taut.mesh.faceCount")
+        x, y = near(0.7, 0.7)
+        for count in (1, 2):
+            for kind in ("mousePressed", "mouseReleased"):
+                b.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=count)
+        b.wait(f"taut.model.feature < taut.mesh.faceCount && taut.mesh.faceCount > {faces}")
+        b.wait("taut.state")
+        click(b, "save")
+        saved, end = f"{folder}/dome-pasted.obj", time.monotonic() + 20
+        while not os.path.exists(saved) and time.monotonic() < end:
+            time.sleep(0.05)
+        assert open(saved).read().count("\nf ") == b.evaluate("taut.mesh.faceCount")
+        os.remove(saved)
+        for _ in range(20):
+            b.wait("taut.state")
+            if not b.evaluate("taut.state.canUndo"):
+                break
+            b.evaluate("taut.frames.length = 0")
+            click(b, "undo")
+            b.wait("taut.state && taut.frames.length > 0")
+        b.wait("taut.state && !taut.state.canUndo")
+        assert b.evaluate(positions) == first
+        assert not b.errors(), b.errors()
+
+
+side = dome(f"{folder}/dome.obj")
 visit(dark=False)
 visit(dark=True)
+fingers()
+pasting(side)
 print("page: all as it should be")

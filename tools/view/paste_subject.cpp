@@ -110,19 +110,18 @@ public:
 
     std::shared_ptr<const memory> remember() const override
     {
-        return std::make_shared<moment>(target_, paste_ ? onto_ : -1, pose_);
+        return std::make_shared<moment>(target_, paste_ ? onto_ : -1, pose_, attached_);
     }
 
     void go_back(const memory& before) override
     {
         const auto& m = static_cast<const moment&>(before);
-        if (m.target == target_ && paste_ && m.onto == onto_ && is_near(m.pose))
-        {
-            paste_->pose(m.pose);
-            pose_ = m.pose;
-        }
-        else
-            put(m.target, m.onto, m.pose);
+        const auto same = [](const paste_pose& a, const paste_pose& b)
+        { return a.turn == b.turn && a.scale == b.scale && a.softness == b.softness; };
+        if (m.target != target_ || !paste_ || m.onto != onto_ || !same(m.attached, attached_))
+            put(m.target, m.onto, m.attached);
+        if (paste_ && !same(m.pose, pose_)) paste_->pose(m.pose);
+        pose_ = m.pose;
     }
 
     saved write() const override
@@ -139,13 +138,13 @@ public:
 private:
     struct moment : memory
     {
-        moment(std::shared_ptr<const mesh<triangle>> t, idx o, const paste_pose& p)
-            : target(std::move(t)), onto(o), pose(p)
+        moment(std::shared_ptr<const mesh<triangle>> t, idx o, const paste_pose& p, const paste_pose& a)
+            : target(std::move(t)), onto(o), pose(p), attached(a)
         {
         }
         std::shared_ptr<const mesh<triangle>> target;
         idx onto; ///< -1: the feature is nowhere
-        paste_pose pose;
+        paste_pose pose, attached;
     };
 
     static constexpr const char* no_pins = "a feature is being pasted; there are no pins";

@@ -24,8 +24,7 @@ struct feature_pin
 inline map_result parameterize_feature(queue& q, const paste& p, std::span<const feature_pin> pins = {})
 {
     const auto& region = p.part().region;
-    constraints<triangle> wanted(region.surface);
-    for (std::size_t i = 0; i < region.rim.size(); ++i) wanted.pin(region.rim[i], p.rim_uv()[i]);
+    auto wanted = detail::rim_pins(region, p.rim_uv());
     for (const auto& pin : pins) wanted.pin(pin.vertex, pin.at);
     return parameterize(q, region.surface, {.constraints = wanted});
 }

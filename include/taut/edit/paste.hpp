@@ -5,6 +5,8 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,8 +14,10 @@
 
 #include <taut/edit/detail/bending.hpp>
 #include <taut/edit/detail/choose_place.hpp>
+#include <taut/edit/detail/laid_feature.hpp>
 #include <taut/edit/paste_params.hpp>
 #include <taut/edit/paste_report.hpp>
+#include <taut/edit/self_intersections.hpp>
 
 /// Cut and paste (paper, section 4). An optional header: taut.hpp does not include it, as it needs Eigen.
 namespace taut
@@ -53,7 +57,8 @@ public:
     }
 
     /// Puts the feature elsewhere. What it is attached to stays: for a way across the surface that is longer than some
-    /// edges, and for a turn of more than some twenty degrees, paste anew.
+    /// edges, and for a turn of more than some twenty degrees, paste anew. The first soft one maps the feature. Throws
+    /// paste_error where that fails.
     paste& pose(const paste_pose& to)
     {
         to.validate();
@@ -102,6 +107,24 @@ public:
     similarity_transform transform() const { return transform_of(params_.pose); }
 
     const paste_report& report() const { return report_; }
+
+    /// Pairs of triangles of the result that meet elsewhere than in what they share, but for those that did so in the
+    /// target or in the feature; exact (see taut::self_intersections).
+    std::vector<std::array<idx, 2>> self_intersections() const
+    {
+        auto pairs = taut::self_intersections(surface());
+        std::erase_if(pairs,
+                      [&](const std::array<idx, 2>& pair)
+                      {
+                          const auto met = [&](const mesh<triangle>& m, idx f, idx g)
+                          { return triangles_meet(m.points(), m.cells()[at(f)], m.cells()[at(g)]); };
+                          if (pair[1] < first_gap_)
+                              return met(target_, kept_faces_[at(pair[0])], kept_faces_[at(pair[1])]);
+                          return pair[0] >= first_feature_ &&
+                                 met(part_.region.surface, pair[0] - first_feature_, pair[1] - first_feature_);
+                      });
+        return pairs;
+    }
 
 private:
     static const paste_params& valid(const paste_params& params)
@@ -211,7 +234,7 @@ private:
 
         // The target bends between the rim of the feature and a band along the rim of the place.
         const auto& region = site_.place.region;
-        const auto staying = detail::some_of(band(region, 0.0, 0.12), params_.controls);
+        const auto staying = detail::some_of(band(rim_distances(region), 0.0, 0.12), params_.controls);
         base_ = {queue_, pick(moving_, site_.rim.on_target), pick(staying, region.surface.points()),
                  pick(bent_, points_), params_.basis};
         report_.controls = base_.solver().size();
@@ -219,16 +242,24 @@ private:
 
         // The feature bends between its rim and what is far from it.
         const auto& own = part_.region;
-        const auto far = detail::some_of(band(own, 0.5, 1.0), params_.controls);
+        from_rim_ = rim_distances(own);
+        const auto far = detail::some_of(band(from_rim_, soft_band, 1.0), params_.controls);
         std::vector<vec3> on_rim;
         for (const idx i : moving_) on_rim.push_back(own.surface.points()[at(own.rim[at(i)])]);
         soft_ = {queue_, on_rim, pick(far, own.surface.points()), own.surface.points(), params_.basis};
+        laid_.reset();
+    }
+
+    static constexpr double soft_band = 0.5; ///< how far from its rim a feature bends, by the largest distance
+
+    static std::vector<double> rim_distances(const surface_region& region)
+    {
+        return geodesic_distances(region.surface, vertex_cells(region.surface), region.rim);
     }
 
     /// Vertices whose distance from the rim is from low to high times the largest one.
-    static std::vector<idx> band(const surface_region& region, double low, double high)
+    static std::vector<idx> band(std::span<const double> d, double low, double high)
     {
-        const auto d = geodesic_distances(region.surface, vertex_cells(region.surface), region.rim);
         const double far = *std::max_element(d.begin(), d.end());
         std::vector<idx> ids;
         for (std::size_t v = 0; v < d.size(); ++v)
@@ -249,8 +280,35 @@ private:
         return values;
     }
 
+    /// The feature laid on the target, and the width of the band that follows it: of a few, that which folds least.
+    void lay(const paste_pose& to)
+    {
+        const double far = *std::max_element(from_rim_.begin(), from_rim_.end());
+        auto laid = detail::lay_feature(queue_, part_.region, from_rim_, 0.4 * far, site_.place, site_.rim.uv);
+        bend_laid_ = {queue_, base_.field(std::vector<vec3>(moving_.size(), vec3(0.0))), laid.on_target};
+        laid_ = std::move(laid);
+        paste_pose soft = to;
+        soft.softness = 1;
+        idx fewest = std::numeric_limits<idx>::max();
+        double best = 0;
+        for (const double width : {0.25, 0.15, 0.4, 0.08})
+        {
+            laid_width_ = width * far;
+            bend(soft);
+            const std::vector<vec3> points(points_.begin() + static_cast<std::ptrdiff_t>(feature_begin_),
+                                           points_.end());
+            const auto seam = measure_seam({points, part_.region.surface.cells()}, 0, 0);
+            if (seam.folded >= fewest) continue;
+            fewest = seam.folded;
+            best = laid_width_;
+            if (fewest == 0) break;
+        }
+        laid_width_ = best;
+    }
+
     void bend(const paste_pose& to)
     {
+        if (to.softness > 0 && !laid_) lay(to);
         const auto transform = transform_of(to);
         const auto& own = part_.region;
         // Where both sides meet.
@@ -275,17 +333,30 @@ private:
             base_moves.push_back(by_target[at(i)]);
             soft_moves.push_back(by_feature[at(i)]);
         }
-        const auto by = base_(base_moves);
+        const auto field = base_.field(base_moves);
+        const auto by = base_(field);
         for (std::size_t i = 0; i < bent_.size(); ++i)
             points_[at(bent_[i])] = target_.points()[at(origins_[at(bent_[i])])] + by[i];
         for (std::size_t v = 0; v < own.surface.points().size(); ++v)
             points_[feature_begin_ + v] = transform(own.surface.points()[v]);
         if (to.softness > 0)
         {
-            const auto soft_by = soft_(soft_moves);
+            const auto soft_by = soft_(soft_.field(soft_moves));
             for (std::size_t v = 0; v < soft_by.size(); ++v) points_[feature_begin_ + v] += soft_by[v];
+            follow_target(to.softness, field);
         }
         for (std::size_t i = 0; i < own.rim.size(); ++i) points_[feature_begin_ + at(own.rim[i])] = meeting[i];
+    }
+
+    /// Near its rim the feature follows the bent target, so that both sides have one tangent plane at softness 1.
+    void follow_target(double softness, const rbf_field& of_target)
+    {
+        const auto by = bend_laid_(of_target);
+        for (std::size_t i = 0; i < by.size(); ++i)
+        {
+            vec3& p = points_[feature_begin_ + at(laid_->vertices[i])];
+            p += softness * laid_->share(i, laid_width_) * (laid_->on_target[i] + by[i] - p);
+        }
     }
 
     queue queue_;
@@ -296,8 +367,12 @@ private:
     paste_report report_;
     detail::site site_;
     detail::bending base_, soft_;
-    std::vector<idx> moving_; ///< controls, of the rim
-    std::vector<idx> bent_;   ///< vertices of the result
+    std::vector<double> from_rim_;             ///< of vertices of the feature
+    std::optional<detail::laid_feature> laid_; ///< from the first soft pose on
+    double laid_width_ = 0;                    ///< of the band that follows it
+    rbf_evaluator bend_laid_;                  ///< of the field of the target, there
+    std::vector<idx> moving_;                  ///< controls, of the rim
+    std::vector<idx> bent_;                    ///< vertices of the result
     std::vector<vec3> points_;
     std::vector<cell> cells_;
     std::vector<idx> origins_, kept_faces_;

@@ -45,6 +45,7 @@ struct seam_quality
     idx boundary_edges = 0;    ///< of the whole surface: 0 where it is watertight
     bool manifold = false;     ///< edges, and neighbours oriented alike
     idx degenerate = 0;        ///< triangles of no area
+    idx folded = 0;            ///< edges of gap and feature whose triangles turn back by more than 150 degrees
     double smallest_angle = 0; ///< of the triangles of the gap, degrees
     double median_angle = 0;   ///< between the normals across the rim, degrees
     double largest_angle = 0;
@@ -74,12 +75,14 @@ inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx fir
     }
     q.smallest_angle = smallest;
     std::vector<double> angles;
-    for (idx s = 3 * first_feature; s < 3 * m.cell_count(); ++s)
+    for (idx s = 3 * first_gap; s < 3 * m.cell_count(); ++s)
     {
         const idx twin = sides.twin[static_cast<std::size_t>(s)];
-        if (twin < 0 || twin / 3 < first_gap || twin / 3 >= first_feature) continue;
+        if (twin < 0 || twin > s) continue; // an edge once, from the later side
         const vec3 &a = normals[static_cast<std::size_t>(s / 3)], &b = normals[static_cast<std::size_t>(twin / 3)];
-        angles.push_back(degrees * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+        const double angle = degrees * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+        if (angle > 150) ++q.folded;
+        if (s / 3 >= first_feature && twin / 3 >= first_gap && twin / 3 < first_feature) angles.push_back(angle);
     }
     if (angles.empty()) return q;
     std::sort(angles.begin(), angles.end());

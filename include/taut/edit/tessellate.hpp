@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/edit/detail/plane_triangulation.hpp>
+#include <taut/edit/detail/feature_refinement.hpp>
 #include <taut/edit/detail/polygon_filling.hpp>
 #include <taut/edit/feature_map.hpp>
 #include <taut/edit/paste_error.hpp>
@@ -93,9 +93,11 @@ inline std::vector<map_cell> split_cells(queue& q, const feature_map& map, std::
 
 /// A feature made of its map: the rim as it is, and inside triangles as dense as the map asks for (paper, section 4.1,
 /// whose tessellation shader does the same). The plane within the rim is split into square cells, the roughest first,
-/// until there are about as many triangles as are wanted or nothing is rougher than a hundredth of a texel's footprint;
+/// until half of the triangles are spent or nothing is rougher than a hundredth of a texel's footprint;
 /// their middles and the rim get a constrained Delaunay triangulation, which has no cracks between coarse and fine; its
-/// vertices are offset by the map. Roughness and positions are computed on the device.
+/// vertices are offset by the map. Roughness and positions are computed on the device. A map cuts off creases, and
+/// where it squeezes the feature its texels are far apart: there the feature's own vertices, and middles of its edges,
+/// come in instead, the farthest first, until both are within a quarter of a footprint or the triangles are spent.
 ///
 /// uv: of the vertices of part's region, that the map was made with. The vertices inside and all triangles are none of
 /// the source (-1). Throws parameter_error, paste_error where the rim crosses itself in uv.
@@ -116,18 +118,26 @@ inline feature tessellate(queue& q, const feature& part, const feature_map& map,
         throw paste_error("the rim of the feature crosses itself in its map; parameterize it with the rim pinned");
     detail::plane_triangulation plane(polygon, std::move(filling));
 
-    const auto wanted = static_cast<std::size_t>(std::max<idx>(0, (triangles - static_cast<idx>(rim.size())) / 2));
-    for (const auto& c : detail::split_cells(q, map, wanted, 0.01 * map.footprint))
-    {
-        const vec2 p = map.low + map.texel * c.middle();
-        if (detail::distance_from(polygon, p) > 0.4 * c.size * map.texel) plane.insert(p);
-    }
-
     std::vector<vec3> points;
     for (const idx v : rim) points.push_back(part.region.surface.points()[static_cast<std::size_t>(v)]);
-    const auto inner = std::span(plane.points()).subspan(rim.size());
+    const auto wanted = static_cast<std::size_t>(std::max<idx>(0, (triangles - static_cast<idx>(rim.size())) / 2));
+    const double tolerance = 0.25 * map.footprint;
+    std::vector<vec2> middles;
+    for (const auto& c : detail::split_cells(q, map, wanted / 2, 0.01 * map.footprint))
+    {
+        const vec2 p = map.low + map.texel * c.middle();
+        if (detail::distance_from(polygon, p) > 0.4 * c.size * map.texel) middles.push_back(p);
+    }
+    detail::feature_refinement refine(part.region.surface, uv, tolerance);
     const mat3 frame = part.frame();
-    for (const vec3& p : sample(q, map, inner)) points.push_back(part.centre + frame * p);
+    const auto sampled = sample(q, map, middles);
+    for (std::size_t i = 0; i < middles.size(); ++i)
+    {
+        const vec3 p = part.centre + frame * sampled[i];
+        if (refine.distance(p) <= tolerance && plane.insert(middles[i])) points.push_back(p);
+    }
+    refine(plane, points, rim.size() + wanted);
+
     std::vector<idx> vertices(points.size(), -1);
     for (std::size_t i = 0; i < rim.size(); ++i) vertices[i] = part.region.vertices[static_cast<std::size_t>(rim[i])];
     std::vector<idx> faces(plane.triangles().size(), -1);

@@ -82,7 +82,7 @@ TEST_CASE("paste: hard keeps the shape of the feature, soft lays its rim on the 
     CHECK(check(p.surface(), closed).empty());
 }
 
-TEST_CASE("paste: a pose costs one kernel, two where it is soft, and changes coordinates alone")
+TEST_CASE("paste: a pose costs one kernel, three where it is soft, and changes coordinates alone")
 {
     queue q;
     const auto part = mushroom();
@@ -100,10 +100,50 @@ TEST_CASE("paste: a pose costs one kernel, two where it is soft, and changes coo
     const vec3 arm = p.points()[first + 100] - p.points()[first], was = at_first[first + 100] - at_first[first];
     CHECK(glm::length(arm) == doctest::Approx(glm::length(was) * 0.45 / 0.4));
 
-    p.pose({.scale = 0.4, .softness = 0.5});
-    CHECK(q.counters().launches == before.launches + 3);
+    p.pose({.scale = 0.4, .softness = 0.5}); // the first one maps the feature
+    const auto soft = q.counters();
+    p.pose({.scale = 0.4, .softness = 0.6});
+    CHECK(q.counters().launches == soft.launches + 3);
     p.pose({.scale = 0.4});
     CHECK(p.points() == at_first); // bit for bit
+}
+
+TEST_CASE("paste: the softer, the less the surface bends across the rim, and at 1 hardly")
+{
+    queue q;
+    // The rim is on the stem, upright.
+    paste p(q, test::sphere(4), make_feature(geodesic_disk(test::mushroom(48), 0, 1.5)), 4, {.pose = {.scale = 0.4}});
+    double before = 180, hard = 0;
+    for (const double softness : {0.0, 0.5, 1.0})
+    {
+        p.pose({.scale = 0.4, .softness = softness});
+        const auto seam = measure_seam(p.surface(), p.first_gap(), p.first_feature());
+        CHECK(seam.degenerate == 0);
+        CHECK(seam.folded == 0);
+        CHECK(seam.median_angle < before);
+        before = seam.median_angle;
+        if (softness == 0) hard = before;
+    }
+    CHECK(hard > 60);
+    CHECK(before < hard / 3);
+    CHECK(p.self_intersections().empty());
+}
+
+TEST_CASE("paste: triangles that meet are found, but for those that met before")
+{
+    queue q;
+    CHECK(paste(q, test::sphere(4), mushroom(), 4, {.pose = {.scale = 0.4}}).self_intersections().empty());
+    // Deep in the sphere, the hat comes out on the other side.
+    const paste deep(q, test::sphere(4), mushroom(), 4, {.pose = {.scale = 0.4, .shift = {0, 0, -2.35}}});
+    const auto pairs = deep.self_intersections();
+    CHECK(pairs.size() > 20);
+    bool both = false;
+    for (const auto& [f, g] : pairs) both = both || (f < deep.first_gap() && g >= deep.first_feature());
+    CHECK(both);
+    // As a target it has them already.
+    const taut::idx far = deep.origins()[0] == 4 ? 1 : 0;
+    const paste again(q, deep.surface(), mushroom(), far, {.pose = {.scale = 0.02}});
+    CHECK(again.self_intersections().empty());
 }
 
 TEST_CASE("paste: again and again, on a plane, and on a feature that was pasted")

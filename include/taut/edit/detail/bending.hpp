@@ -40,13 +40,16 @@ public:
     {
     }
 
-    /// How far each point goes where the moving controls go so far. Throws as rbf::solve.
-    std::vector<vec3> operator()(std::span<const vec3> moves)
+    /// The field where the moving controls go so far. Throws as rbf::solve.
+    rbf_field field(std::span<const vec3> moves) const
     {
         std::vector<vec3> values(moves.begin(), moves.end());
         values.resize(all_, vec3(0.0));
-        return evaluate_(solver_->solve(values));
+        return solver_->solve(values);
     }
+
+    /// How far each point goes.
+    std::vector<vec3> operator()(const rbf_field& field) { return evaluate_(field); }
 
     explicit operator bool() const { return solver_.has_value(); }
     const rbf& solver() const { return *solver_; }

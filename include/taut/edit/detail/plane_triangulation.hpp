@@ -60,21 +60,6 @@ public:
         return true;
     }
 
-private:
-    idx size() const { return static_cast<idx>(cells_.size()); }
-    const vec2& at(idx v) const { return x_[static_cast<std::size_t>(v)]; }
-    idx& corner(idx t, idx k) { return cells_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
-    idx corner(idx t, idx k) const { return cells_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
-    idx& across(idx t, idx k) { return across_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
-
-    /// Which side of triangle t leads to triangle u.
-    idx side_to(idx t, idx u)
-    {
-        for (idx k = 0; k < 2; ++k)
-            if (across(t, k) == u) return k;
-        return 2;
-    }
-
     /// A triangle that has p inside or on it, by a walk towards it, and if that fails by a search; -1: none.
     idx locate(const vec2& p)
     {
@@ -92,6 +77,21 @@ private:
         for (t = 0; t < size(); ++t)
             if (!outside(t, 0) && !outside(t, 1) && !outside(t, 2)) return last_ = t;
         return -1;
+    }
+
+private:
+    idx size() const { return static_cast<idx>(cells_.size()); }
+    const vec2& at(idx v) const { return x_[static_cast<std::size_t>(v)]; }
+    idx& corner(idx t, idx k) { return cells_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
+    idx corner(idx t, idx k) const { return cells_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
+    idx& across(idx t, idx k) { return across_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
+
+    /// Which side of triangle t leads to triangle u.
+    idx side_to(idx t, idx u)
+    {
+        for (idx k = 0; k < 2; ++k)
+            if (across(t, k) == u) return k;
+        return 2;
     }
 
     void set(idx t, std::array<idx, 3> corners, std::array<idx, 3> neighbours)

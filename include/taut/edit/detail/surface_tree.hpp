@@ -55,7 +55,8 @@ inline vec3 nearest_weights(const vec3& p, const vec3& a, const vec3& b, const v
     return {va / sum, vb / sum, vc / sum};
 }
 
-/// A tree of boxes about triangles that finds the nearest point. It refers to points and triangles.
+/// A tree of boxes about triangles that finds the nearest point and what is near a box. It refers to points and
+/// triangles.
 class surface_tree
 {
 public:
@@ -89,6 +90,23 @@ public:
             stack.push_back(near);
         }
         return best;
+    }
+
+    /// Calls visit(f) for triangles whose box may meet that from low to high.
+    template <class Visit>
+    void for_each_near(const vec3& low, const vec3& high, const Visit& visit) const
+    {
+        std::vector<std::size_t> stack{0};
+        while (!stack.empty())
+        {
+            const node& n = nodes_[stack.back()];
+            stack.pop_back();
+            if (glm::any(glm::lessThan(high, n.low)) || glm::any(glm::lessThan(n.high, low))) continue;
+            if (n.left > 0)
+                stack.insert(stack.end(), {n.right, n.left});
+            else
+                for (std::size_t i = n.first; i < n.last; ++i) visit(order_[i]);
+        }
     }
 
 private:

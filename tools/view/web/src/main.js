@@ -79,9 +79,7 @@ class Page {
       element('left').parentElement.classList.add('single');
       for (const id of ['straight-u', 'straight-v']) element(id).hidden = model.dimension === 3;
       if (model.dimension === 3) {
-        this.right.flat = false;
-        this.right.controls.enableRotate = true;
-        this.right.controls.mouseButtons.LEFT = 0;
+        this.right.setFlat(false);
       }
     }
     this.right.setMesh(this.mesh);
@@ -302,8 +300,11 @@ class Page {
     const canvas = pane.canvas;
     const pixel = (e) => { const r = canvas.getBoundingClientRect(); return [e.clientX - r.left, e.clientY - r.top]; };
     const movable = () => pane === this.right;
+    let first = null; // finger
     canvas.addEventListener('pointerdown', (e) => {
-      if (!this.state || e.button !== 0 || !e.isPrimary) return;
+      if (!this.state || e.button !== 0) return;
+      if (e.isPrimary) first = e;
+      else return this.#yieldTo(pane, first);
       const at = pixel(e);
       let v = movable() ? pane.vertexAt(at, reach, this.state.pins.keys()) : -1;
       if (v < 0) v = pane.vertexAt(at, reach);
@@ -367,6 +368,17 @@ class Page {
     });
   }
 
+  /** A second finger comes: both are the view's, and what the first one did is undone. */
+  #yieldTo(pane, first) {
+    if (this.#drag?.pane !== pane) return;
+    if (this.#drag.sent) this.send(messages.undo());
+    this.#drag = null;
+    ++this.gesture;
+    pane.controls.enabled = true;
+    const { pointerId, pointerType, clientX, clientY } = first;
+    pane.canvas.dispatchEvent(new PointerEvent('pointerdown', { pointerId, pointerType, clientX, clientY, button: 0, buttons: 1 }));
+  }
+
   /** One message a picture, however fast the pointer reports. */
   #schedule() {
     if (this.#sending) return;
@@ -377,6 +389,7 @@ class Page {
   #sendDrag() {
     if (!this.#drag?.fresh) return;
     this.#drag.fresh = false;
+    this.#drag.sent = true;
     this.pin(this.#drag.vertex, this.#drag.x);
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One canvas with a mesh: flat, seen from above, or in space, seen from anywhere. Drawn only when something changed.
 import {
-  BufferAttribute, BufferGeometry, Color, DoubleSide, LinearSRGBColorSpace, LineBasicMaterial, LineSegments, Mesh as Drawn, OrthographicCamera,
-  Points, PointsMaterial, Scene, ShaderMaterial, Spherical, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, LinearSRGBColorSpace, LineBasicMaterial, LineSegments, Mesh as Drawn, MOUSE,
+  OrthographicCamera, Points, PointsMaterial, Scene, ShaderMaterial, Spherical, TOUCH, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
@@ -59,7 +59,6 @@ export class Pane {
   /** flat: seen from above, moved but not turned. afterDraw is called when a picture is done. */
   constructor(canvas, { flat, afterDraw = () => {} }) {
     this.canvas = canvas;
-    this.flat = flat;
     this.afterDraw = afterDraw;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -67,11 +66,18 @@ export class Pane {
     this.camera = new OrthographicCamera(-1, 1, 1, -1, -100, 100);
     this.camera.position.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.enableRotate = !flat;
     this.controls.zoomToCursor = true;
-    if (flat) this.controls.mouseButtons.LEFT = 2; // pan
+    this.setFlat(flat);
     this.controls.addEventListener('change', () => this.draw());
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
+  }
+
+  /** Seen from above, moved by the pointer; or turned by it. Two fingers zoom, too. */
+  setFlat(flat) {
+    this.flat = flat;
+    this.controls.enableRotate = !flat;
+    this.controls.mouseButtons.LEFT = flat ? MOUSE.PAN : MOUSE.ROTATE;
+    this.controls.touches = flat ? { ONE: TOUCH.PAN, TWO: TOUCH.DOLLY_PAN } : { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_ROTATE };
   }
 
   setMesh(mesh) {
