@@ -130,10 +130,10 @@ def main():
     table, ended = [], {}
     for line in results.read_text().splitlines():
         result = json.loads(line)
-        ended[result["exit"]] = ended.get(result["exit"], 0) + 1
+        ended[result["code"]] = ended.get(result["code"], 0) + 1
         s = result.get("stats")
         if not s:
-            table.append([result["id"], result["word"], result.get("error", "")[:90]])
+            table.append([result["id"], result["outcome"], result.get("error", "")[:90]])
             continue
         t = s["seconds"]
         table.append([result["id"], sum(f["faces"] for f in s["surfaces"]), s["charts"], f'{s["distortion"]:.4f}',

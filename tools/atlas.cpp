@@ -100,6 +100,8 @@ private:
         const auto f = facets(m);
         const auto seams = seams_of(sources_, *joined_, f, options_);
         params.charts.seams = seams;
+        const auto diagonals = diagonals_of(sources_, f);
+        params.charts.together = diagonals;
         if (options_.keep_charts) params.initial = texcoords_of(sources_);
         // The certificate is of what the files will have.
         if (std::any_of(options_.outputs.begin(), options_.outputs.end(), io::is_gltf))

@@ -6,6 +6,7 @@
 #include <taut/gltf/gltf.hpp>
 #include <taut/io/write_obj.hpp>
 
+#include "../failure.hpp"
 #include "../repair_report.hpp"
 
 namespace taut::tools
@@ -30,6 +31,18 @@ public:
             take(mesh<triangle>(file_.points, file_.triangles));
     }
 
+    std::vector<idx> polygons() const override
+    {
+        if (file_.faces.triangles.empty()) return {};
+        std::vector<idx> polygon(file_.faces.corners.size());
+        std::size_t corner = 0;
+        for (std::size_t f = 0; f < file_.faces.sizes.size(); ++f)
+            for (idx k = 0; k < file_.faces.sizes[f]; ++k) polygon[corner++] = static_cast<idx>(f);
+        std::vector<idx> result(surface().cells().size());
+        for (std::size_t c = 0; c < result.size(); ++c) result[c] = polygon[file_.faces.corner(origin(c, 0).first, 0)];
+        return result;
+    }
+
     std::vector<io::file_to_write> files(const std::string& path, const corner_map& map) const override
     {
         if (io::is_gltf(path))
@@ -39,7 +52,11 @@ public:
             for (std::size_t k = 0; k < 3; ++k)
             {
                 const auto [cell, corner] = origin(c, k);
-                texcoords[file_.faces.corner(cell, corner)] = map.cells[c][k];
+                idx& t = texcoords[file_.faces.corner(cell, corner)];
+                if (t >= 0 && t != map.cells[c][k])
+                    throw no_valid_map("the polygon of triangle " + std::to_string(cell) +
+                                       " is bent too far to be in one chart; write the surface as triangles");
+                t = map.cells[c][k];
             }
         return {{path, [this, texcoords = std::move(texcoords), map](io::atomic_file& out)
                  { io::write_obj(out, file_, texcoords, map.uv); }}};

@@ -48,7 +48,11 @@ public:
     /// A label a triangle where the file parts the surface, as by materials; or empty.
     virtual std::vector<idx> parts() const { return {}; }
 
+    /// The number of the polygon that each triangle is of; or empty, if all faces are triangles.
+    virtual std::vector<idx> polygons() const { return {}; }
+
     /// The files to be written for this map of the surface. What was left out of the surface gets no coordinates.
+    /// Throws no_valid_map if a polygon is in several charts.
     virtual std::vector<io::file_to_write> files(const std::string& path, const corner_map& map) const = 0;
 
     idx file_vertices = 0, file_triangles = 0;

@@ -128,6 +128,25 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
     return seam;
 }
 
+std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const facet_table& f)
+{
+    std::vector<std::array<idx, 2>> polygon; // of each triangle: file, polygon
+    bool any = false;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+    {
+        auto own = sources[i]->polygons();
+        any = any || !own.empty();
+        if (own.empty())
+            for (idx c = 0; c < sources[i]->surface().cell_count(); ++c) own.push_back(c);
+        for (const idx p : own) polygon.push_back({static_cast<idx>(i), p});
+    }
+    if (!any) return {};
+    std::vector<char> diagonal(f.twin.size(), 0);
+    for (std::size_t s = 0; s < diagonal.size(); ++s)
+        if (f.twin[s] >= 0) diagonal[s] = polygon[s / 3] == polygon[u(f.twin[s]) / 3];
+    return diagonal;
+}
+
 std::vector<std::array<vec2, 3>> texcoords_of(const std::vector<std::unique_ptr<atlas_source>>& sources)
 {
     std::vector<std::array<vec2, 3>> uv;

@@ -73,10 +73,12 @@ namespace detail
 class clustering
 {
 public:
-    /// keep: one flag a side, edges that remain seams, or empty
-    clustering(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep)
+    /// keep: one flag a side, edges that remain seams, or empty; together: those that go before all others, or empty
+    clustering(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep,
+               std::span<const char> together)
         : mesh_(m),
           facets_(f),
+          together_(together),
           graph_(m, f),
           sides_(static_cast<idx>(f.twin.size())),
           pieces_(u(graph_.polygons())),
@@ -118,7 +120,13 @@ public:
     cluster_tree run()
     {
         for (idx h = 0; h < sides_; ++h)
-            if (graph_.arc(h) == h) offer(h);
+            if (graph_.arc(h) == h)
+            {
+                if (!together_.empty() && together_[u(h)] != 0)
+                    push(h, -infinite);
+                else
+                    offer(h);
+            }
         while (!queue_.empty())
         {
             const offered e = queue_.top();
@@ -128,7 +136,7 @@ public:
             // large piece is not offered anew for every triangle that this takes in.
             const double price = price_of(e.arc);
             if (price == infinite) continue;
-            if (price > e.price + 0.1 * std::abs(e.price))
+            if (e.price > -infinite && price > e.price + 0.1 * std::abs(e.price))
                 push(e.arc, price);
             else
                 remove(e.arc);
@@ -244,7 +252,8 @@ private:
 
     void remove(idx h)
     {
-        constexpr idx grain = 32; // triangles over which normals vary by noise alone
+        constexpr idx grain = 32;           // triangles over which normals vary by noise alone
+        constexpr double most_noise = 0.02; // normals 20 degrees off
         const piece& p = pieces_[u(graph_.polygon(h))];
         piece result{.moments = {}, .noise = p.noise, .triangles = p.triangles, .node = tree_.nodes()};
         std::array<idx, 2> children{p.node, cluster_tree::none};
@@ -257,7 +266,7 @@ private:
             result.triangles += q.triangles;
         }
         result.strain = result.moments.strain();
-        if (result.triangles <= grain) result.noise = result.strain;
+        if (result.triangles <= grain) result.noise = std::min(result.strain, most_noise * result.moments.area);
 
         for (idx s = arcs_[u(h)].first; s >= 0; s = after_[u(s)])
         {
@@ -298,6 +307,7 @@ private:
 
     const mesh<triangle>& mesh_;
     const facet_table& facets_;
+    std::span<const char> together_;
     arc_graph graph_;
     idx sides_;
     std::vector<piece> pieces_;  // one a polygon
@@ -315,9 +325,11 @@ private:
 /// Clusters a surface. Deterministic; time O(n log n).
 /// m:    an oriented manifold; several components, handles and holes are welcome; f: its facets
 /// keep: one flag a side, edges that are to remain seams, the same on both sides; or empty
-inline cluster_tree make_cluster_tree(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep = {})
+/// together: edges whose triangles are united before all others, in the same way
+inline cluster_tree make_cluster_tree(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep = {},
+                                      std::span<const char> together = {})
 {
-    return detail::clustering(m, f, keep).run();
+    return detail::clustering(m, f, keep, together).run();
 }
 
 } // namespace taut

@@ -27,6 +27,13 @@ struct segment_params
     /// Edges that are to be seams in any case: one flag a side, the same on both sides of an edge; or empty.
     std::span<const char> seams = {};
 
+    /// Edges that are to be none, as the diagonals of a polygon: one flag a side as above; or empty. A seam leads
+    /// through one where nothing else keeps a bound.
+    std::span<const char> together = {};
+
+    /// The largest part of the area that a chart takes, above 0. Few and large charts do not pack well.
+    double largest_share = 1.0 / 12;
+
     /// At most so many times charts are cut further, 0 to 100. Each time those that were cut are flattened.
     int cut_rounds = 8;
 
@@ -44,6 +51,7 @@ struct segment_params
     {
         if (!(max_distortion > 4)) throw parameter_error("max_distortion", "must be above 4, that of no distortion");
         if (!(mean_distortion > 4)) throw parameter_error("mean_distortion", "must be above 4, that of no distortion");
+        if (!(largest_share > 0)) throw parameter_error("largest_share", "must be positive");
         if (cut_rounds < 0 || cut_rounds > 100) throw parameter_error("cut_rounds", "must be 0 to 100");
         if (unite_rounds < 0 || unite_rounds > 100) throw parameter_error("unite_rounds", "must be 0 to 100");
     }

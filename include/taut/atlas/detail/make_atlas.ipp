@@ -17,6 +17,7 @@
 #include <taut/atlas/make_atlas.hpp>
 #include <taut/core/budget.hpp>
 #include <taut/energy/isometric.hpp>
+#include <taut/map/parameterize.hpp>
 #include <taut/mesh/ideal.hpp>
 #include <taut/mesh/validate.hpp>
 #include <taut/packing/certificate.hpp>
@@ -42,8 +43,14 @@ public:
             keep_charts();
         else
             make_charts();
-        budget_.has_result(true);
+        mend(overlapping(flat_));
         lay();
+        // Borders that all but touch may meet by the rounding of their places.
+        if (const auto touching = overlapping(uv_); std::count(touching.begin(), touching.end(), char(1)) > 0)
+        {
+            take_apart(touching);
+            lay();
+        }
         certify_all();
         return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
     }
@@ -67,7 +74,7 @@ private:
         };
     }
 
-    /// All charts at once; those whose borders meet themselves have no map.
+    /// All charts at once; those that overlap themselves count as without a map.
     flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial = {})
     {
         auto params = params_.flattening;
@@ -82,9 +89,10 @@ private:
             {
                 flat.charts[k].valid = false;
                 flat.charts[k].energy = std::numeric_limits<double>::infinity();
-                flat.charts[k].reason = "its border meets itself";
+                flat.charts[k].reason = "it overlaps itself";
             }
         report_.seconds.flatten += budget_.total() - begin;
+        usable_ = true;
         return flat;
     }
 
@@ -94,59 +102,12 @@ private:
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("charts");
         auto made = segment(
-            mesh_, facets_,
-            [this](const chart_mesh& charts)
-            {
-                auto flat = flatten(charts);
-                usable_ = true;
-                return flat;
-            },
-            params);
+            mesh_, facets_, [this](const chart_mesh& charts) { return flatten(charts); }, params);
         report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
         seam_ = std::move(made.seam);
         charts_.emplace(std::move(made.charts));
-        uv_ = std::move(made.uv);
+        flat_ = std::move(made.uv);
         energy_ = std::move(made.energy);
-        if (made.report.unmapped > 0) take_apart();
-    }
-
-    /// Charts without a map, which is what those are for whom there was no time, become single triangles.
-    void take_apart()
-    {
-        idx apart = 0;
-        std::vector<char> mapped(mesh_.cells().size(), 1);
-        std::vector<std::array<vec2, 3>> uv(mesh_.cells().size());
-        std::vector<double> energy(mesh_.cells().size());
-        for (std::size_t k = 0; k < energy_.size(); ++k)
-        {
-            const bool valid = energy_[k] < std::numeric_limits<double>::infinity();
-            apart += valid ? 0 : 1;
-            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
-            {
-                const auto c = u(charts_->cell_origins[i]);
-                mapped[c] = valid;
-                energy[c] = valid ? energy_[k] : 4;
-                const auto x = mesh_.rest(static_cast<idx>(c));
-                const mat2 W = stiff_ideal(x[1] - x[0], x[2] - x[0]);
-                for (std::size_t j = 0; j < 3; ++j)
-                    uv[c][j] = valid    ? uv_[u(charts_->surface.cells()[i][j])]
-                               : j == 0 ? vec2(0.0)
-                                        : W[static_cast<int>(j) - 1];
-            }
-        }
-        for (std::size_t s = 0; s < seam_.size(); ++s) seam_[s] = seam_[s] != 0 || mapped[s / 3] == 0;
-        charts_.emplace(cut_charts(mesh_, facets_, seam_));
-        uv_.assign(charts_->surface.points().size(), vec2(0.0));
-        energy_.clear();
-        for (std::size_t k = 0; k + 1 < charts_->first_cell.size(); ++k)
-        {
-            energy_.push_back(energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
-            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
-                for (std::size_t j = 0; j < 3; ++j)
-                    uv_[u(charts_->surface.cells()[i][j])] = uv[u(charts_->cell_origins[i])][j];
-        }
-        report_.notes.push_back(std::to_string(apart) + (apart == 1 ? " chart" : " charts") +
-                                " without a map became single triangles");
     }
 
     void keep_charts()
@@ -156,33 +117,130 @@ private:
         charts_.emplace(cut_charts(mesh_, facets_, seam_));
         std::vector<vec2> initial(params_.initial.empty() ? 0 : charts_->surface.points().size());
         if (!initial.empty())
-            for (std::size_t i = 0; i < charts_->cell_origins.size(); ++i)
-                for (std::size_t j = 0; j < 3; ++j)
-                    initial[u(charts_->surface.cells()[i][j])] = params_.initial[u(charts_->cell_origins[i])][j];
+            for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
+                            { initial[v] = params_.initial[cell][corner]; });
         auto flat = flatten(*charts_, initial);
         report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
-        for (std::size_t k = 0; k < flat.charts.size(); ++k)
+        for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
+        flat_ = std::move(flat.uv);
+    }
+
+    /// Calls f(triangle of the surface, corner, vertex of the charts) for all corners.
+    template <class F>
+    void for_each_corner(F&& f) const
+    {
+        for (std::size_t i = 0; i < charts_->cell_origins.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) f(u(charts_->cell_origins[i]), k, u(charts_->surface.cells()[i][k]));
+    }
+
+    /// One flag a chart: 1 where it has no map, or overlaps itself.
+    std::vector<char> overlapping(std::span<const vec2> uv) const
+    {
+        auto bad = crossing_charts(*charts_, uv);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            bad[k] = bad[k] != 0 || !(energy_[k] < std::numeric_limits<double>::infinity());
+        return bad;
+    }
+
+    /// Keeps the borders of these charts apart, and takes those apart for which that does not succeed.
+    void mend(std::vector<char> bad)
+    {
+        const double begin = budget_.total();
+        idx mended = 0;
+        for (std::size_t k = 0; k < bad.size(); ++k)
         {
-            energy_.push_back(flat.charts[k].energy);
-            if (flat.charts[k].valid || !report_.reason.empty()) continue;
-            report_.reason = "the chart of triangle " +
-                             std::to_string(charts_->cell_origins[u(charts_->first_cell[k])]) +
-                             " cannot be kept: " + flat.charts[k].reason + "; let charts be made";
+            if (!bad[k] || !report_.complete) continue;
+            const idx first = charts_->first_vertex[k], end = charts_->first_vertex[k + 1];
+            std::vector<vec3> points(charts_->surface.points().begin() + first,
+                                     charts_->surface.points().begin() + end);
+            std::vector<std::array<idx, 3>> cells(charts_->surface.cells().begin() + charts_->first_cell[k],
+                                                  charts_->surface.cells().begin() + charts_->first_cell[k + 1]);
+            for (auto& t : cells)
+                for (idx& v : t) v -= first;
+            parameterize_params params{.initial = {flat_.begin() + first, flat_.begin() + end},
+                                       .placement = placement::as_solved,
+                                       .holes = true,
+                                       .no_overlap = true,
+                                       .time_limit = std::max(budget_.left(), budget::seconds(1e-6)),
+                                       .observer = asking("flatten")};
+            const mesh<triangle> chart(std::move(points), std::move(cells));
+            if (!check(chart, {.one_boundary = false}).empty()) continue;
+            const auto map = parameterize(queue_, chart, params);
+            if (!map) continue;
+            std::copy(map.uv.begin(), map.uv.end(), flat_.begin() + first);
+            energy_[k] = map.report.solve.value;
+            bad[k] = 0;
+            ++mended;
         }
-        uv_ = std::move(flat.uv);
+        const auto crossing = crossing_charts(*charts_, flat_);
+        for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] != 0 || crossing[k] != 0;
+        if (mended > 0)
+            report_.notes.push_back(
+                std::to_string(mended) +
+                (mended == 1 ? " chart that overlapped itself was" : " charts that overlapped themselves were") +
+                " mapped anew with its border kept apart");
+        report_.seconds.flatten += budget_.total() - begin;
+        if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
+    }
+
+    /// These charts become single triangles; charts that are to be kept cannot.
+    void take_apart(const std::vector<char>& bad)
+    {
+        if (!report_.reason.empty()) return;
+        const auto first_bad = static_cast<std::size_t>(std::find(bad.begin(), bad.end(), char(1)) - bad.begin());
+        if (params_.keep_charts)
+        {
+            report_.reason = "the chart of triangle " +
+                             std::to_string(charts_->cell_origins[u(charts_->first_cell[first_bad])]) +
+                             " has no map, or none without overlaps, and cannot be kept; let charts be made";
+            return;
+        }
+        std::vector<char> apart(mesh_.cells().size(), 0);
+        std::vector<double> energy(mesh_.cells().size(), 4);
+        std::vector<std::array<vec2, 3>> uv(mesh_.cells().size());
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
+            {
+                const auto c = u(charts_->cell_origins[i]);
+                apart[c] = bad[k];
+                if (!bad[k]) energy[c] = energy_[k];
+            }
+        for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v) { uv[cell][corner] = flat_[v]; });
+        for (std::size_t c = 0; c < apart.size(); ++c)
+        {
+            if (!apart[c]) continue;
+            const auto x = mesh_.rest(static_cast<idx>(c));
+            const mat2 W = stiff_ideal(x[1] - x[0], x[2] - x[0]);
+            uv[c] = {vec2(0.0), W[0], W[1]};
+        }
+        for (std::size_t s = 0; s < seam_.size(); ++s)
+            seam_[s] =
+                seam_[s] != 0 || apart[s / 3] != 0 || (facets_.twin[s] >= 0 && apart[u(facets_.twin[s]) / 3] != 0);
+        charts_.emplace(cut_charts(mesh_, facets_, seam_));
+        flat_.assign(charts_->surface.points().size(), vec2(0.0));
+        for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v) { flat_[v] = uv[cell][corner]; });
+        energy_.clear();
+        for (std::size_t k = 0; k + 1 < charts_->first_cell.size(); ++k)
+            energy_.push_back(energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
+        const auto count = std::count(bad.begin(), bad.end(), char(1));
+        report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") +
+                                " without a map became single triangles");
     }
 
     void lay()
     {
-        if (!report_.reason.empty()) return;
-        usable_ = true;
+        if (!report_.reason.empty())
+        {
+            uv_ = flat_;
+            return;
+        }
         auto params = params_.packing;
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("pack");
         const auto& cut = charts_->surface;
-        layout_ = pack(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex, params);
+        layout_ = pack(flat_, cut.cells(), charts_->first_cell, charts_->first_vertex, params);
         report_.complete = report_.complete && layout_.complete;
-        uv_ = layout_.apply(uv_, charts_->first_vertex);
+        uv_ = layout_.apply(flat_, charts_->first_vertex);
         for (std::size_t k = 0; k < layout_.places.size(); ++k) // rows of ten tiles
         {
             const idx tile = layout_.places[k].tile, row = tile / 10;
@@ -192,7 +250,7 @@ private:
         }
         if (params_.stored != nullptr)
             for (vec2& x : uv_) x = params_.stored(x);
-        report_.seconds.pack = budget_.lap();
+        report_.seconds.pack += budget_.lap();
     }
 
     void certify_all()
@@ -264,8 +322,8 @@ private:
     atlas_report report_;
     std::vector<char> seam_; // one a side of the surface
     std::optional<chart_mesh> charts_;
-    std::vector<vec2> uv_;       // one a vertex of the charts
-    std::vector<double> energy_; // one a chart
+    std::vector<vec2> flat_, uv_; // one a vertex of the charts: in units of the surface, in the tiles
+    std::vector<double> energy_;  // one a chart
     packing layout_;
     bool usable_ = false;
 };

@@ -97,7 +97,7 @@ private:
     void cut_by_estimate()
     {
         budget_.lap();
-        const auto tree = make_cluster_tree(mesh_, facets_, params_.seams);
+        const auto tree = make_cluster_tree(mesh_, facets_, params_.seams, params_.together);
         std::vector<char> chosen(u(tree.nodes()), 0);
         double strain = 0;
         for (idx n = 0; n < tree.nodes(); ++n)
@@ -106,9 +106,12 @@ private:
                 chosen[u(n)] = 1;
                 strain += tree.strain[u(n)];
             }
-        for (idx n = tree.nodes(); n-- > tree.leaves && strain > 2 * allowed();)
+        for (idx n = tree.nodes(); n-- > tree.leaves;)
         {
-            chosen[u(n)] = 0; // those behind are no more: it is a chart
+            // Those behind are no more: a chosen node is a chart.
+            const bool large = tree.area[u(n)] > params_.largest_share * total_area_;
+            if (!chosen[u(n)] || !(strain > 2 * allowed() || large)) continue;
+            chosen[u(n)] = 0;
             strain -= tree.strain[u(n)];
             for (const idx child : tree.children[u(n - tree.leaves)])
                 if (child != cluster_tree::none)
@@ -119,7 +122,7 @@ private:
         }
         seam_ = tree.seams(facets_, tree.labels(chosen));
         report_.tree_seconds += budget_.lap();
-        straighten(mesh_, facets_, seam_, params_.seams);
+        straighten(mesh_, facets_, seam_, params_.seams, params_.together);
         report_.straighten_seconds += budget_.lap();
     }
 
@@ -201,9 +204,14 @@ private:
         const surface_part part = part_of(mesh_, triangles, seam_, number_);
         const auto f = facets(part.charts.surface);
         budget_.lap();
-        std::vector<char> keep(params_.seams.empty() ? 0 : f.twin.size(), 0);
-        for (std::size_t s = 0; s < keep.size(); ++s) keep[s] = params_.seams[part.origin(s)];
-        const auto tree = make_cluster_tree(part.charts.surface, f, keep);
+        const auto of_part = [&](std::span<const char> flags)
+        {
+            std::vector<char> result(flags.empty() ? 0 : f.twin.size(), 0);
+            for (std::size_t s = 0; s < result.size(); ++s) result[s] = flags[part.origin(s)];
+            return result;
+        };
+        const auto keep = of_part(params_.seams), together = of_part(params_.together);
+        const auto tree = make_cluster_tree(part.charts.surface, f, keep, together);
 
         // Pieces of a chart are undone in the order from the last.
         std::vector<char> chosen(u(tree.nodes()), 0);
@@ -241,7 +249,7 @@ private:
         }
         auto seam = tree.seams(f, tree.labels(chosen));
         report_.tree_seconds += budget_.lap();
-        straighten(part.charts.surface, f, seam, keep);
+        straighten(part.charts.surface, f, seam, keep, together);
         for (std::size_t s = 0; s < seam.size(); ++s)
             if (f.twin[s] >= 0) seam_[part.origin(s)] = seam[s];
         report_.straighten_seconds += budget_.lap();
@@ -288,6 +296,7 @@ private:
             chart_moments sum = moments[u(p)];
             if (p != q) sum += moments[u(q)];
             sum.perimeter -= 2 * shared;
+            if (p != q && sum.area > params_.largest_share * total_area_) continue;
             const double strain = sum.strain();
             // An estimate that is far above the bound is seldom wrong.
             if (strain / sum.area > 4 * (params_.max_distortion - 4)) continue;

@@ -23,12 +23,15 @@ namespace taut::detail
 class straightening
 {
 public:
-    /// m: oriented; f: its facets. seam: one flag a side; kept: seams that stay where they are, or empty
-    straightening(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam, std::span<const char> kept)
+    /// m: oriented; f: its facets. seam: one flag a side; kept: seams that stay where they are, or empty; together:
+    /// edges that no way leads along, or empty
+    straightening(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam, std::span<const char> kept,
+                  std::span<const char> together)
         : mesh_(m),
           facets_(f),
           seam_(seam),
           kept_(kept),
+          together_(together),
           sides_(starting_sides(m)),
           weight_(seam_weights(m, f)),
           chart_(m.cells().size()),
@@ -181,7 +184,8 @@ private:
             for (const idx s : sides)
             {
                 const idx w = end_of(s);
-                if (!inside(s) || ring_[u(w)] < 0 || w == from) continue;
+                if (!inside(s) || ring_[u(w)] < 0 || w == from || (!together_.empty() && together_[u(s)] != 0))
+                    continue;
                 if (w == to && std::find(ends.begin(), ends.end(), facets_.twin[u(s)]) == ends.end()) continue;
                 if (const double there = here + weight_[u(s)]; there < distance_[u(w)])
                 {
@@ -232,7 +236,7 @@ private:
     const mesh<triangle>& mesh_;
     const facet_table& facets_;
     std::vector<char>& seam_;
-    std::span<const char> kept_;
+    std::span<const char> kept_, together_;
     csr sides_;
     std::vector<double> weight_; // one a side
     std::vector<idx> chart_;     // one a triangle
@@ -246,9 +250,9 @@ private:
 
 /// Straightens seams in place.
 inline void straighten(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam,
-                       std::span<const char> kept = {})
+                       std::span<const char> kept = {}, std::span<const char> together = {})
 {
-    straightening(m, f, seam, kept).run();
+    straightening(m, f, seam, kept, together).run();
 }
 
 } // namespace taut::detail
