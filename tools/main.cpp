@@ -40,6 +40,23 @@ int fail(exit_code code, const std::string& what, const std::string& remedy = {}
     return to_int(code);
 }
 
+/// What the program offers where a map of one disk cannot be.
+std::string other_way(mesh_fault fault)
+{
+    switch (fault)
+    {
+    case mesh_fault::several_boundaries:
+        return "or take it as it is with --holes, or let --cut join them";
+    case mesh_fault::closed_surface:
+    case mesh_fault::handles:
+        return "or let --cut do so, or `taut atlas` make charts of it";
+    case mesh_fault::several_components:
+        return "or let `taut atlas` make charts of it";
+    default:
+        return {};
+    }
+}
+
 /// Runs a subcommand; every exception becomes one line and an exit code, see docs/errors.md.
 int guarded(const command& run)
 {
@@ -91,8 +108,7 @@ int guarded(const command& run)
     }
     catch (const mesh_error& e)
     {
-        const bool holes = e.fault() == mesh_fault::several_boundaries;
-        return fail(code_of(e.fault()), e.what(), holes ? "or take it as it is with --holes" : "");
+        return fail(code_of(e.fault()), e.what(), other_way(e.fault()));
     }
     catch (const error& e) // unsuitable_input, texcoord_error and what the library may add
     {

@@ -2,7 +2,14 @@
 #include "seams.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <utility>
 #include <vector>
+
+#include <taut/atlas/chart_mesh.hpp>
+#include <taut/atlas/cut_to_disk.hpp>
 
 #include "failure.hpp"
 #include "text_table.hpp"
@@ -59,6 +66,53 @@ std::optional<io::cut_surface> cut_open(const io::surface_file& file, const mesh
                                describe_pieces(cut->surface, sides, faults) +
                                ", not one disk; give it seams that leave one, or map the charts one at a time");
     return cut;
+}
+
+std::optional<io::cut_surface> cut_to_one_disk(const io::surface_file& file)
+{
+    const auto& m = file.surface;
+    const auto f = facets(m);
+    validate(m, f, {.open = false, .one_boundary = false, .no_handles = false});
+    if (check(m, f).empty()) return std::nullopt;
+    const auto made = cut_charts(m, f, cut_to_disk(m, f));
+    // The first sheet of a vertex has its number, further ones follow.
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    std::vector<vec3> points = m.points();
+    std::vector<idx> origins(points.size()), sheet(made.vertex_origins.size());
+    std::iota(origins.begin(), origins.end(), idx(0));
+    std::vector<char> taken(points.size(), 0), divided(points.size(), 0);
+    std::size_t seam_vertices = 0;
+    for (std::size_t i = 0; i < sheet.size(); ++i)
+    {
+        const idx v = made.vertex_origins[i];
+        sheet[i] = taken[u(v)] ? static_cast<idx>(points.size()) : v;
+        if (taken[u(v)])
+        {
+            points.push_back(vec3(points[u(v)]));
+            origins.push_back(v);
+            seam_vertices += divided[u(v)] ? 0 : 1;
+            divided[u(v)] = 1;
+        }
+        taken[u(v)] = 1;
+    }
+    std::vector<std::array<idx, 3>> cells(m.cells().size());
+    std::vector<idx> corners(file.faces.corners.size(), -1);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+        const auto c = u(made.cell_origins[i]);
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            cells[c][k] = sheet[u(made.surface.cells()[i][k])];
+            idx& corner = corners[file.faces.corner(c, k)];
+            if (corner >= 0 && corner != cells[c][k])
+                throw unsuitable_input(
+                    "the seam that --cut finds runs through a polygon; write the surface as triangles");
+            corner = cells[c][k];
+        }
+    }
+    std::vector<vec2> uv(points.size(), vec2(0.0));
+    return io::cut_surface{mesh<triangle>(std::move(points), std::move(cells)), std::move(uv), std::move(origins),
+                           std::move(corners), seam_vertices};
 }
 
 std::string describe(const io::cut_surface& cut)

@@ -18,6 +18,10 @@ namespace taut::tools
 /// if a cut is wanted and a corner has no texture coordinate.
 std::optional<io::cut_surface> cut_open(const io::surface_file& file, const mesh_requirements& need, bool wanted);
 
+/// The surface of a file cut open along seams that make it one disk; nothing if it is one.
+/// Throws mesh_error (no oriented manifold, several components), unsuitable_input (a seam through a polygon).
+std::optional<io::cut_surface> cut_to_one_disk(const io::surface_file& file);
+
 /// "cut open along the seams of its vt, on which 14 vertices lie"
 std::string describe(const io::cut_surface& cut);
 

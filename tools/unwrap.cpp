@@ -29,6 +29,7 @@
 #include "run_clock.hpp"
 #include "seams.hpp"
 #include "shared_options.hpp"
+#include "text_table.hpp"
 #include "unwrap_options.hpp"
 #include "unwrap_report.hpp"
 #include "writing.hpp"
@@ -67,7 +68,11 @@ public:
         report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
         cut_ = cut_open(*file_, {.one_boundary = !options_.holes}, options_.start == start_kind::uv);
-        if (cut_) report_.notes.push_back(describe(*cut_));
+        if (cut_)
+            report_.notes.push_back(describe(*cut_));
+        else if (options_.cut && (cut_ = cut_to_one_disk(*file_)))
+            report_.notes.push_back("cut open along short seams, on which " +
+                                    count(cut_->seam_vertices, "vertex lies", "vertices lie"));
         read_pins();
         parameterize();
         write();

@@ -55,6 +55,8 @@ void declare_map(CLI::App& app, unwrap_options& o)
              "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
              "file; without a weight exactly, with one as a spring; an empty u or v is free")
         ->type_name("FILE.csv");
+    app.add_flag("--cut", o.cut,
+                 "Cut a surface that is no disk open along short seams: closed ones, handles, between boundaries");
     app.add_flag("--holes", o.holes, "Take surfaces with holes; the longest boundary is the outer one");
     app.add_flag("--no-overlap", o.no_overlap,
                  "Keep the boundary from crossing itself, so that no two triangles of the map overlap");

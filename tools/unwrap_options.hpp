@@ -66,6 +66,7 @@ struct unwrap_options
     double tolerance = solve::stopping_params{}.gradient_tolerance;
     double time_limit = std::numeric_limits<double>::infinity();
     std::optional<vec3> up, front; ///< of the render; guessed if not given
+    bool cut = false;              ///< to a disk
     bool holes = false, no_overlap = false, quiet = false;
 };
 
