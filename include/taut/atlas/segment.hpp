@@ -31,8 +31,9 @@ struct segment_params
     /// through one where nothing else keeps a bound.
     std::span<const char> together = {};
 
-    /// The largest part of the area that a chart takes, above 0. Few and large charts do not pack well.
-    double largest_share = 1.0 / 12;
+    /// Charts of more than a 200th of the area that take less of their convex hull in the plane are cut, 0 to 1: limbs
+    /// go their own ways, for the sake of packing.
+    double least_fill = 0.8;
 
     /// At most so many times charts are cut further, 0 to 100. Each time those that were cut are flattened.
     int cut_rounds = 8;
@@ -51,7 +52,7 @@ struct segment_params
     {
         if (!(max_distortion > 4)) throw parameter_error("max_distortion", "must be above 4, that of no distortion");
         if (!(mean_distortion > 4)) throw parameter_error("mean_distortion", "must be above 4, that of no distortion");
-        if (!(largest_share > 0)) throw parameter_error("largest_share", "must be positive");
+        if (!(least_fill >= 0 && least_fill <= 1)) throw parameter_error("least_fill", "must be 0 to 1");
         if (cut_rounds < 0 || cut_rounds > 100) throw parameter_error("cut_rounds", "must be 0 to 100");
         if (unite_rounds < 0 || unite_rounds > 100) throw parameter_error("unite_rounds", "must be 0 to 100");
     }

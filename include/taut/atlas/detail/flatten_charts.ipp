@@ -208,7 +208,13 @@ private:
     {
         chart_report& report = result_.charts[k];
         parameterize_params params{.initial = given(k), .holes = true, .time_limit = clock_.left()};
-        params.observer = [this](const progress&) { return proceed(); };
+        // A chart that takes long on coarser levels already is none that could be flattened well.
+        int steps = 0;
+        params.observer = [&](const progress& p)
+        {
+            steps += p.iterate ? 1 : 0;
+            return steps <= 4 * params_.max_iterations && proceed();
+        };
         params.solve.stopping.max_iterations = params_.max_iterations;
         try
         {

@@ -145,11 +145,13 @@ private:
     /// Keeps the borders of these charts apart, and takes those apart for which that does not succeed.
     void mend(std::vector<char> bad)
     {
+        constexpr idx most = 32; // one by one: more would take long
         const double begin = budget_.total();
-        idx mended = 0;
+        idx mended = 0, tried = 0;
         for (std::size_t k = 0; k < bad.size(); ++k)
         {
-            if (!bad[k] || !report_.complete) continue;
+            if (!bad[k] || !report_.complete || tried == most) continue;
+            ++tried;
             const idx first = charts_->first_vertex[k], end = charts_->first_vertex[k + 1];
             std::vector<vec3> points(charts_->surface.points().begin() + first,
                                      charts_->surface.points().begin() + end);

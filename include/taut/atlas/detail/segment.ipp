@@ -106,12 +106,9 @@ private:
                 chosen[u(n)] = 1;
                 strain += tree.strain[u(n)];
             }
-        for (idx n = tree.nodes(); n-- > tree.leaves;)
+        for (idx n = tree.nodes(); n-- > tree.leaves && strain > 2 * allowed();)
         {
-            // Those behind are no more: a chosen node is a chart.
-            const bool large = tree.area[u(n)] > params_.largest_share * total_area_;
-            if (!chosen[u(n)] || !(strain > 2 * allowed() || large)) continue;
-            chosen[u(n)] = 0;
+            chosen[u(n)] = 0; // those behind are no more: it is a chart
             strain -= tree.strain[u(n)];
             for (const idx child : tree.children[u(n - tree.leaves)])
                 if (child != cluster_tree::none)
@@ -187,7 +184,8 @@ private:
         for (const idx k : order)
         {
             const record& r = charts_[u(k)];
-            if (r.energy <= params_.max_distortion && !r.shape.crosses && excess <= allowed()) continue;
+            const bool ragged = r.shape.fill < params_.least_fill && r.area > total_area_ / 200;
+            if (r.energy <= params_.max_distortion && !r.shape.crosses && !ragged && excess <= allowed()) continue;
             chosen.push_back(k);
             if (r.energy < infinite) excess -= 0.6 * r.excess(); // what two halves have less, about
         }
@@ -296,7 +294,6 @@ private:
             chart_moments sum = moments[u(p)];
             if (p != q) sum += moments[u(q)];
             sum.perimeter -= 2 * shared;
-            if (p != q && sum.area > params_.largest_share * total_area_) continue;
             const double strain = sum.strain();
             // An estimate that is far above the bound is seldom wrong.
             if (strain / sum.area > 4 * (params_.max_distortion - 4)) continue;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <span>
 #include <utility>
 #include <vector>
@@ -47,11 +48,11 @@ public:
     packing run()
     {
         on_shelves();
-        // Quarter turns pack best, but for few pieces, or one that is longer than a tile could be.
+        // Of many pieces quarter turns are enough; few, or one that is longer than a tile could be, need more.
         double longest = 0;
         for (const piece& p : pieces_) longest = std::max({longest, p.box.x, p.box.y});
         const double side = estimated_side();
-        search(std::max(side, longest), params_.rotate ? 4 : 1);
+        search(std::max(side, longest), !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
         if (params_.rotate && (pieces_.size() <= 16 || longest > 0.8 * side))
             search(std::max(side, longest / std::numbers::sqrt2), 16);
         packed_.complete = !limits_.over();
@@ -112,7 +113,37 @@ private:
             }
             side = std::max<idx>(8, static_cast<idx>(std::lround(side * std::sqrt(filled))));
         }
-        if (best.complete) keep(best, least);
+        if (!best.complete) return;
+        reorder(best, least);
+        keep(best, least);
+    }
+
+    /// Tries other orders near the one that was best, as many as take about as long whatever there is to lay.
+    void reorder(layout& best, double& least)
+    {
+        const std::size_t n = pieces_.size();
+        std::minstd_rand lot(1);
+        double last = least;
+        for (std::size_t k = 0; n > 1 && k < std::min<std::size_t>(100, 3000 / n) && !limits_.over(); ++k)
+        {
+            auto order = order_;
+            for (std::size_t swaps = 1 + lot() % 2; swaps > 0; --swaps)
+            {
+                const std::size_t i = lot() % n, j = i + 1 + lot() % std::max<std::size_t>(2, n / 3);
+                if (j < n) std::swap(order[i], order[j]);
+            }
+            const auto side = static_cast<idx>(least) - 1;
+            layout l = lay_out(pieces_, poses_, order, side, params_.tiles, gap_in_cells(1.02 * side + 1),
+                               cells_per_length_, n > 1500, limits_);
+            ++packed_.layouts;
+            const double used = std::max(l.width, l.height);
+            if (!l.complete || used > 1.002 * last || used > 1.02 * side + 1) continue;
+            last = used;
+            order_ = std::move(order);
+            if (used >= least) continue;
+            least = used;
+            best = std::move(l);
+        }
     }
 
     /// Draws all pieces in their poses; large ones will be laid first.
