@@ -158,7 +158,7 @@ def poison():
     assert (r["a"]["outcome"], r["a"]["code"]) == ("valid", 0)
 
     # One that has a map keeps it. Its kernels are compiled by the one before.
-    sheet("endless map.obj", 60)
+    sheet("endless map.obj", 250)
     unwrap = lambda iterations: ["unwrap", "endless map.obj", "-o", "flat.obj", "--solver", "gd", "--tolerance", "0", "--iterations", str(iterations)]
     manifest([{"id": "first", "args": unwrap(3)}, {"id": "endless map", "args": unwrap(2_000_000_000), "time_limit": 5}])
     os.remove("results.jsonl")
