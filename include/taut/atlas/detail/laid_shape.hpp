@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <taut/atlas/chart_mesh.hpp>
-#include <taut/exact/crossings.hpp>
+#include <taut/atlas/detail/crossing_charts.hpp>
 #include <taut/mesh/boundary.hpp>
 
 namespace taut::detail
@@ -18,7 +18,7 @@ namespace taut::detail
 /// What a chart is like in the plane.
 struct laid_shape
 {
-    bool crosses = false; ///< its boundary meets itself
+    bool crosses = false; ///< it overlaps itself
     double fill = 1;      ///< its area by that of its convex hull
 };
 
@@ -66,7 +66,7 @@ inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<c
             for (std::size_t i = begin; i < end; ++i)
             {
                 if (!(energy[i] < std::numeric_limits<double>::infinity())) continue;
-                shapes[i].crosses = count_boundary_crossings(loops[i], uv, 1).pairs > 0;
+                shapes[i].crosses = overlaps_itself(loops[i], uv);
                 std::vector<vec2> rim;
                 for (const auto& loop : loops[i])
                     for (const idx v : loop) rim.push_back(uv[u(v)]);

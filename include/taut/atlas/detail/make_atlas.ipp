@@ -74,7 +74,7 @@ private:
         };
     }
 
-    /// All charts at once; those that overlap themselves count as without a map.
+    /// All charts at once.
     flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial = {})
     {
         auto params = params_.flattening;
@@ -83,14 +83,6 @@ private:
         params.observer = asking("flatten");
         const double begin = budget_.total();
         auto flat = flatten_charts(queue_, charts, params);
-        const auto crossing = crossing_charts(charts, flat.uv);
-        for (std::size_t k = 0; k < flat.charts.size(); ++k)
-            if (flat.charts[k].valid && crossing[k])
-            {
-                flat.charts[k].valid = false;
-                flat.charts[k].energy = std::numeric_limits<double>::infinity();
-                flat.charts[k].reason = "it overlaps itself";
-            }
         report_.seconds.flatten += budget_.total() - begin;
         usable_ = true;
         return flat;
