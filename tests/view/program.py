@@ -314,11 +314,28 @@ def pasting(path, n):
         assert "no pins" in s.message("note")["text"]
 
 
+def in_the_way(path, n):
+    """Two pins that exchange their places cannot: the page comes to rest all the same, and soon."""
+    with Program(program, path) as p:
+        s = p.socket()
+        s.message("model")
+        state = s.message("state")
+        middle = (n + 1) * (n // 2) + n // 2
+        for a, b in ((middle, middle + 2), (middle + 6, middle + 7)):
+            s.send(places(a, [(a, 3, (*at(state, b), 0)), (b, 3, (*at(state, a), 0))]))
+            states = 1
+            while (state := s.message("state"))["working"] or a not in state["pins"]:
+                states += 1
+                assert states < 120, "it goes on and on"
+            assert state["flipped"] == 0
+
+
 if __name__ == "__main__":
     program, folder = sys.argv[1], tempfile.mkdtemp(dir=sys.argv[2])
     n = dome(f"{folder}/dome.obj")
     bar(f"{folder}/bar.mesh")
     a_page(f"{folder}/dome.obj", n)
+    in_the_way(f"{folder}/dome.obj", n)
     strangers(f"{folder}/dome.obj")
     volume(f"{folder}/bar.mesh")
     pasting(f"{folder}/dome.obj", n)

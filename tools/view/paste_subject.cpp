@@ -88,6 +88,7 @@ public:
     void keep() override
     {
         if (!paste_) throw error("the feature is nowhere: click where it is to be");
+        require_unfolded();
         auto kept = std::make_shared<const mesh<triangle>>(paste_->surface());
         paste_.reset();
         target_ = std::move(kept);
@@ -97,7 +98,8 @@ public:
 
     int revision() const override { return revision_; }
 
-    bool advance(std::chrono::duration<double>) override { return false; }
+    void rehearse() override {}
+    bool advance(std::chrono::duration<double>, const std::function<bool()>&) override { return false; }
 
     void describe(state& s) const override
     {
@@ -110,7 +112,9 @@ public:
 
     std::shared_ptr<const memory> remember() const override
     {
-        return std::make_shared<moment>(target_, paste_ ? onto_ : -1, pose_, attached_);
+        const bool other = remembered_.lock() != target_;
+        remembered_ = target_;
+        return std::make_shared<moment>(target_, paste_ ? onto_ : -1, pose_, attached_, other);
     }
 
     void go_back(const memory& before) override
@@ -126,6 +130,7 @@ public:
 
     saved write() const override
     {
+        require_unfolded();
         return {std::filesystem::path(name_).stem().string() + "-pasted.obj", obj_of(points(), cells())};
     }
 
@@ -138,19 +143,33 @@ public:
 private:
     struct moment : memory
     {
-        moment(std::shared_ptr<const mesh<triangle>> t, idx o, const paste_pose& p, const paste_pose& a)
-            : target(std::move(t)), onto(o), pose(p), attached(a)
+        moment(std::shared_ptr<const mesh<triangle>> t, idx o, const paste_pose& p, const paste_pose& a, bool other)
+            : target(std::move(t)), onto(o), pose(p), attached(a), other_target(other)
         {
+        }
+        std::size_t bytes() const override
+        {
+            if (!other_target) return 0;
+            return target->points().size() * sizeof(vec3) + target->cells().size() * sizeof(mesh<triangle>::cell);
         }
         std::shared_ptr<const mesh<triangle>> target;
         idx onto; ///< -1: the feature is nowhere
         paste_pose pose, attached;
+        bool other_target; ///< than that of the moment before
     };
 
     static constexpr const char* no_pins = "a feature is being pasted; there are no pins";
 
     const std::vector<mesh<triangle>::cell>& cells() const { return paste_ ? paste_->cells() : target_->cells(); }
     const std::vector<vec3>& points() const { return paste_ ? paste_->points() : target_->points(); }
+
+    void require_unfolded() const
+    {
+        const auto folds = paste_ ? paste_->folds().size() : 0;
+        if (folds > 0)
+            throw error("the seam folds back on itself at " + std::to_string(folds) +
+                        (folds == 1 ? " edge" : " edges") + "; make it less soft, smaller, or move it");
+    }
 
     /// Whether the rim may stay attached to what it is attached to.
     bool is_near(const paste_pose& pose) const
@@ -177,7 +196,8 @@ private:
     std::shared_ptr<const mesh<triangle>> target_;
     std::optional<paste> paste_;
     idx onto_ = -1;
-    paste_pose pose_, attached_; ///< now, and when the rim was attached
+    paste_pose pose_, attached_;                             ///< now, and when the rim was attached
+    mutable std::weak_ptr<const mesh<triangle>> remembered_; ///< the target of the last moment
     int revision_ = 0;
 };
 

@@ -8,15 +8,51 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <taut/map/session.hpp>
+#include <taut/untangle/untangle.hpp>
 
 #include "subject.hpp"
 
 namespace taut::view
 {
+
+/// The corners of a cross around a vertex that is outside of it: what takes a moment to untangle.
+template <class Element>
+untangle_problem<Element> tangled_star()
+{
+    constexpr int D = Element::dimension;
+    std::vector<vec3> points(1, vec3(0.0));
+    for (int k = 0; k < D; ++k)
+        for (const double side : {-1.0, 1.0})
+        {
+            points.emplace_back(0.0);
+            points.back()[k] = side;
+        }
+    std::vector<typename mesh<Element>::cell> cells;
+    for (unsigned sides = 0; sides < 1u << D; ++sides)
+    {
+        typename mesh<Element>::cell c{};
+        bool turned = false;
+        for (int k = 0; k < D; ++k)
+        {
+            const int side = static_cast<int>(sides >> k & 1u);
+            c[static_cast<std::size_t>(k) + 1] = 1 + 2 * k + side;
+            turned ^= side == 0;
+        }
+        if (turned) std::swap(c[1], c[2]);
+        cells.push_back(c);
+    }
+    std::vector<vec<D>> start;
+    for (const vec3& p : points) start.emplace_back(p);
+    start[0][0] = 1.5;
+    held_marks<D> held(points.size());
+    for (std::size_t v = 1; v < points.size(); ++v) held[v] = held.every;
+    return {mesh<Element>(std::move(points), std::move(cells)), std::move(start), std::move(held)};
+}
 
 /// A session as a page sees it. Faces outside of a focus are held where they are, beside what is pinned.
 template <class Element>
@@ -82,16 +118,35 @@ public:
     void keep() override { throw error(nothing_pasted); }
     int revision() const override { return 0; }
 
-    bool advance(std::chrono::duration<double> time) override
+    void rehearse() override
+    {
+        // A vertex that goes a little aside has the kernels of a drag made, a star to be untangled those of repairs.
+        const auto before = x();
+        const auto& c = mesh_.cells().front();
+        const auto v = static_cast<std::size_t>(c[0]);
+        const auto report = std::exchange(report_, {});
+        session_->pin(c[0], before[v] + 1e-3 * (before[static_cast<std::size_t>(c[1])] - before[v]));
+        session_->solve({.steps = 2});
+        go_to(before);
+        report_ = report;
+        if constexpr (Element::oriented) untangle(queue_, tangled_star<Element>(), {.stages = {"pull"}, .rounds = 1});
+    }
+
+    bool advance(std::chrono::duration<double> time, const std::function<bool()>& goes_on) override
     {
         // Steps that gain nothing: some more in one call can tell rounding from convergence, and untangle what is
         // stuck.
         constexpr int patience = 5;
+        goes_on_ = goes_on;
         const auto r =
             session_->solve(idle_ < patience ? session_budget{.time = time} : session_budget{.steps = 25}).report;
         if (r.outcome != outcome::valid || !r.reason.empty()) throw error(r.reason);
-        const bool gains = r.steps > 0 && (r.distance < 0.999 * distance_ || r.energy < (1 - 1e-9) * energy_);
-        idle_ = gains ? 0 : idle_ + 1;
+        // Where a pin is in another one's way the energy creeps for ever.
+        const bool gains = r.steps > 0 && (r.distance < 0.999 * distance_ || r.energy < (1 - 1e-5) * energy_);
+        if (gains)
+            idle_ = 0;
+        else if (goes_on())
+            ++idle_;
         distance_ = r.distance;
         energy_ = r.energy;
         report_ = r;
@@ -130,9 +185,13 @@ public:
     }
 
 protected:
-    /// The mesh is referred to.
-    session_subject(const mesh<Element>& m, std::unique_ptr<session<Element>> s)
-        : mesh_(m), session_(std::move(s)), asked_(session_->constraints())
+    /// Queue and mesh are referred to. make: the session, with an observer.
+    template <class Make>
+    session_subject(queue& q, const mesh<Element>& m, const Make& make)
+        : queue_(q),
+          mesh_(m),
+          session_(make([this](const progress&) { return !goes_on_ || goes_on_(); })),
+          asked_(session_->constraints())
     {
         const auto r = session_->solve().report;
         if (r.outcome != outcome::valid) throw error(r.reason);
@@ -141,6 +200,8 @@ protected:
 
     /// The corners of what is drawn.
     virtual const std::vector<std::array<std::uint32_t, 3>>& shown() const = 0;
+
+    queue& queue_;
 
     const map& x() const { return session_->x(); }
     const taut::constraints<Element>& asked() const { return asked_; }
@@ -172,6 +233,11 @@ private:
         std::vector<char> outside;
         map x;
         session_report report;
+        std::size_t bytes() const override
+        {
+            using pin = typename std::decay_t<decltype(asked.pins())>::value_type;
+            return outside.size() + x.size() * sizeof(vec<D>) + asked.pins().size() * (sizeof(pin) + 4 * sizeof(void*));
+        }
     };
 
     static constexpr const char* nothing_pasted = "there is nothing to paste; start with --source";
@@ -217,6 +283,7 @@ private:
     }
 
     const mesh<Element>& mesh_;
+    std::function<bool()> goes_on_; ///< asked by the session
     std::unique_ptr<session<Element>> session_;
     taut::constraints<Element> asked_; ///< by the person at the page
     std::vector<char> outside_;        ///< of the focus, one a vertex; empty: there is none

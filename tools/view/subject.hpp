@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,8 +35,12 @@ public:
     /// Another number where there is another model.
     virtual int revision() const = 0;
 
-    /// Goes on for some milliseconds, and at least for a step; whether there is more to gain.
-    virtual bool advance(std::chrono::duration<double> time) = 0;
+    /// Does what makes drivers compile late, so that no one at the page waits for it; nothing has changed.
+    virtual void rehearse() = 0;
+
+    /// Goes on for some milliseconds, and at least for a step, unless goes_on() says no: then what there is will do.
+    /// Whether there is more to gain.
+    virtual bool advance(std::chrono::duration<double> time, const std::function<bool()>& goes_on) = 0;
 
     /// Energy, pins, positions and whether it has converged; what is about the workbench stays as it is.
     virtual void describe(state& s) const = 0;
@@ -44,6 +50,7 @@ public:
     {
     public:
         virtual ~memory() = default;
+        virtual std::size_t bytes() const = 0; ///< that are kept for it alone
     };
     virtual std::shared_ptr<const memory> remember() const = 0;
     virtual void go_back(const memory& before) = 0;

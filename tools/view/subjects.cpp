@@ -87,8 +87,13 @@ class map_subject final : private opened_surface, public session_subject<triangl
 public:
     map_subject(queue& q, const source& from)
         : opened_surface(from),
-          session_subject<triangle>(surface(), std::make_unique<session<triangle>>(q, surface(), params_of(*this))),
-          queue_(q),
+          session_subject<triangle>(q, surface(),
+                                    [&](observer ask)
+                                    {
+                                        auto p = params_of(*this);
+                                        p.observer = std::move(ask);
+                                        return std::make_unique<session<triangle>>(q, surface(), p);
+                                    }),
           name_(base_name(from.path)),
           faces_(as_corners(surface().cells()))
     {
@@ -124,7 +129,6 @@ public:
 private:
     const std::vector<corners>& shown() const override { return faces_; }
 
-    queue& queue_;
     std::string name_;
     std::vector<corners> faces_;
 };
@@ -186,8 +190,13 @@ class shape_subject final : private opened_volume<Element>, public session_subje
 public:
     shape_subject(queue& q, io::volume_file f, const source& from)
         : opened(std::move(f), from),
-          base(input.simplices(), std::make_unique<session<Element>>(q, input.simplices(), opened::params())),
-          queue_(q),
+          base(q, input.simplices(),
+               [&](observer ask)
+               {
+                   auto p = opened::params();
+                   p.observer = std::move(ask);
+                   return std::make_unique<session<Element>>(q, input.simplices(), p);
+               }),
           name_(base_name(from.path)),
           faces_(opened::faces())
     {
@@ -203,7 +212,7 @@ public:
     {
         auto p = opened::params();
         p.constraints = base::all_held();
-        auto result = deform(queue_, input.simplices(), p);
+        auto result = deform(base::queue_, input.simplices(), p);
         if (!result) throw error(result.report.reason);
         base::go_to(result.x);
     }
@@ -213,7 +222,6 @@ public:
 private:
     const std::vector<corners>& shown() const override { return faces_; }
 
-    queue& queue_;
     std::string name_;
     std::vector<corners> faces_;
 };
@@ -237,9 +245,13 @@ class shell_subject final : private opened_shell, public session_subject<hinge>
 public:
     shell_subject(queue& q, const source& from)
         : opened_shell(from),
-          session_subject<hinge>(shell.hinges(), std::make_unique<session<hinge>>(
-                                                     q, shell, shell_params{.constraints = opened_shell::constraints})),
-          queue_(q),
+          session_subject<hinge>(
+              q, shell.hinges(),
+              [&](observer ask)
+              {
+                  return std::make_unique<session<hinge>>(
+                      q, shell, shell_params{.constraints = opened_shell::constraints, .observer = std::move(ask)});
+              }),
           name_(base_name(from.path)),
           faces_(as_corners(shell.surface().cells()))
     {
@@ -271,7 +283,6 @@ public:
 private:
     const std::vector<corners>& shown() const override { return faces_; }
 
-    queue& queue_;
     std::string name_;
     std::vector<corners> faces_;
 };

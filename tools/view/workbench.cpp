@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "workbench.hpp"
 
+#include <cstddef>
 #include <exception>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -55,6 +57,7 @@ bool workbench::wish(message m)
 void workbench::work()
 {
     using clock = std::chrono::steady_clock;
+    rehearse();
     show(0);
     for (;;)
     {
@@ -70,7 +73,7 @@ void workbench::work()
         {
             for (std::size_t k = 0; k < wishes.size(); ++k)
                 if (!is_overtaken(wishes, k)) grant(wishes[k]);
-            if (working_) working_ = subject_->advance(frame_);
+            if (working_) working_ = subject_->advance(frame_, [this] { return !is_asked(); });
         }
         catch (const std::exception& e)
         {
@@ -79,6 +82,25 @@ void workbench::work()
         }
         show(std::chrono::duration<double>(clock::now() - begin).count());
     }
+}
+
+void workbench::rehearse()
+{
+    try
+    {
+        subject_->rehearse();
+    }
+    catch (const std::exception& e)
+    {
+        listener_.tell(encode_note(e.what()));
+    }
+}
+
+/// Whether somebody waits, or it is over.
+bool workbench::is_asked()
+{
+    const std::lock_guard lock(mutex_);
+    return over_ || !inbox_.empty();
 }
 
 /// One that is refused is told, and the others are granted.
@@ -135,13 +157,19 @@ void workbench::grant(const message& m)
     }
 }
 
-/// What was before a gesture.
+/// What was before a gesture, as many of them as there is room for.
 void workbench::keep(moment before)
 {
-    constexpr std::size_t most = 100;
+    constexpr std::size_t most = 100, most_bytes = 256 << 20;
     before_.push_back(std::move(before));
-    if (before_.size() > most) before_.pop_front();
     after_.clear();
+    std::size_t bytes = std::accumulate(before_.begin(), before_.end(), std::size_t{0},
+                                        [](std::size_t sum, const moment& m) { return sum + m->bytes(); });
+    while (before_.size() > 1 && (before_.size() > most || bytes > most_bytes))
+    {
+        bytes -= before_.front()->bytes();
+        before_.pop_front();
+    }
 }
 
 void workbench::go(std::deque<moment>& from, std::deque<moment>& to)

@@ -19,6 +19,7 @@ namespace taut::view
 {
 
 /// A subject at work on a thread of its own: it grants wishes as they come, goes on until it has converged, and rests.
+/// A wish that comes while it goes on ends the step at hand.
 class workbench
 {
 public:
@@ -47,6 +48,8 @@ private:
     void work();
     void grant(const message& m);
     void keep(moment before);
+    void rehearse();
+    bool is_asked();
     void go(std::deque<moment>& from, std::deque<moment>& to);
     void show(double seconds);
 

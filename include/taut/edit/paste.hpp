@@ -126,6 +126,44 @@ public:
         return pairs;
     }
 
+    /// Edges of gap and feature where triangles of the result turn back by more than 150 degrees, and not by nearly as
+    /// much in the feature: the two triangles of each.
+    std::vector<std::array<idx, 2>> folds() const
+    {
+        constexpr double nearly = 30; // degrees that bending may add to a crease
+        auto pairs = folded_edges(surface(), first_gap_, fold_angle);
+        std::erase_if(pairs,
+                      [&](const std::array<idx, 2>& pair)
+                      {
+                          return pair[0] >= first_feature_ &&
+                                 turned_back(part_.region.surface, pair[0] - first_feature_, pair[1] - first_feature_) >
+                                     fold_angle - nearly;
+                      });
+        return pairs;
+    }
+
+    /// Where the pose has folds(): takes the nearest softness without, of those below it in quarters, then of those
+    /// above. False where there are some at each: the pose is as before then.
+    bool unfold()
+    {
+        const paste_pose wanted = params_.pose;
+        const double soft = wanted.softness;
+        std::vector<double> tries{soft};
+        for (const double part : {0.75, 0.5, 0.25, 0.0})
+            if (soft > 0) tries.push_back(part * soft);
+        for (const double part : {0.25, 0.5, 0.75, 1.0})
+            if (soft < 1) tries.push_back(soft + part * (1 - soft));
+        for (const double softness : tries)
+        {
+            paste_pose to = wanted;
+            to.softness = softness;
+            if (softness != params_.pose.softness) pose(to);
+            if (folds().empty()) return true;
+        }
+        pose(wanted);
+        return false;
+    }
+
 private:
     static const paste_params& valid(const paste_params& params)
     {

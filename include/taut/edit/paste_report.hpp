@@ -51,10 +51,39 @@ struct seam_quality
     double largest_angle = 0;
 };
 
+inline double degrees_between(const vec3& a, const vec3& b)
+{
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+constexpr double fold_angle = 150; ///< degrees from which on two triangles fold at their edge
+
+/// The angle between the normals of two triangles, in degrees.
+inline double turned_back(const mesh<triangle>& m, idx f, idx g)
+{
+    const auto normal = [&](idx t)
+    {
+        const auto x = m.rest(t);
+        return glm::cross(x[1] - x[0], x[2] - x[0]);
+    };
+    return degrees_between(normal(f), normal(g));
+}
+
+/// Pairs of neighbours, the later one from `first` on, that turn back by more than an angle in degrees.
+inline std::vector<std::array<idx, 2>> folded_edges(const mesh<triangle>& m, idx first, double angle)
+{
+    const auto sides = facets(m);
+    std::vector<std::array<idx, 2>> pairs;
+    for (idx s = 3 * first; s < 3 * m.cell_count(); ++s)
+        if (const idx twin = sides.twin[static_cast<std::size_t>(s)];
+            twin >= 0 && twin < s && turned_back(m, twin / 3, s / 3) > angle)
+            pairs.push_back({twin / 3, s / 3});
+    return pairs;
+}
+
 /// Looks at the result of a paste: triangles from first_gap on are of the gap, from first_feature on of the feature.
 inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx first_feature)
 {
-    constexpr double degrees = 57.29577951308232;
     seam_quality q;
     const auto sides = facets(m);
     q.manifold = sides.oriented();
@@ -70,7 +99,7 @@ inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx fir
         for (std::size_t k = 0; k < 3; ++k)
         {
             const vec3 a = x[(k + 1) % 3] - x[k], b = x[(k + 2) % 3] - x[k];
-            smallest = std::min(smallest, degrees * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+            smallest = std::min(smallest, degrees_between(a, b));
         }
     }
     q.smallest_angle = smallest;
@@ -80,8 +109,8 @@ inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx fir
         const idx twin = sides.twin[static_cast<std::size_t>(s)];
         if (twin < 0 || twin > s) continue; // an edge once, from the later side
         const vec3 &a = normals[static_cast<std::size_t>(s / 3)], &b = normals[static_cast<std::size_t>(twin / 3)];
-        const double angle = degrees * std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-        if (angle > 150) ++q.folded;
+        const double angle = degrees_between(a, b);
+        if (angle > fold_angle) ++q.folded;
         if (s / 3 >= first_feature && twin / 3 >= first_gap && twin / 3 < first_feature) angles.push_back(angle);
     }
     if (angles.empty()) return q;

@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <span>
 #include <string>
+#include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include <view/gate.hpp>
 #include <view/messages.hpp>
+#include <view/workbench.hpp>
 
 using namespace taut::view;
 
@@ -34,6 +45,91 @@ bytes begin(std::uint8_t kind)
 {
     return bytes().put(kind).put(std::uint32_t{17});
 }
+
+/// A number that pins set. Its steps never end by themselves where they are counted. What is remembered of it is said
+/// to be large.
+class number_subject final : public subject
+{
+public:
+    number_subject(std::size_t bytes, std::atomic<int>* steps) : bytes_(bytes), steps_(steps) {}
+
+    taut::view::model model() const override { return {}; }
+    void pin(std::span<const place> pins) override { value_ = pins[0].vertex; }
+    void rehearse() override { ++rehearsals_; }
+    bool advance(std::chrono::duration<double>, const std::function<bool()>& goes_on) override
+    {
+        if (steps_ == nullptr) return false;
+        ++*steps_;
+        while (goes_on()) std::this_thread::yield();
+        return true;
+    }
+    void describe(state& s) const override
+    {
+        s.energy = value_;
+        s.turn = rehearsals_;
+    }
+    std::shared_ptr<const memory> remember() const override { return std::make_shared<moment>(value_, bytes_); }
+    void go_back(const memory& before) override { value_ = static_cast<const moment&>(before).value; }
+
+    void release(std::span<const std::int32_t>) override {}
+    void focus(std::span<const std::int32_t>) override {}
+    void align(int, std::span<const std::int32_t>) override {}
+    void start_afresh() override {}
+    void pose(const ask::pose&) override {}
+    void keep() override {}
+    int revision() const override { return 0; }
+    saved write() const override { return {}; }
+
+private:
+    struct moment : memory
+    {
+        moment(int v, std::size_t b) : value(v), size(b) {}
+        std::size_t bytes() const override { return size; }
+        int value;
+        std::size_t size;
+    };
+    std::size_t bytes_;
+    std::atomic<int>* steps_;
+    int value_ = -1, rehearsals_ = 0;
+};
+
+/// A workbench, and what it shows.
+class watched
+{
+public:
+    explicit watched(std::size_t bytes, std::atomic<int>* steps = nullptr)
+        : bench_(std::make_unique<number_subject>(bytes, steps),
+                 {.show =
+                      [this](std::shared_ptr<const state> s)
+                  {
+                      const std::lock_guard lock(mutex_);
+                      last_ = std::move(s);
+                      shown_.notify_one();
+                  },
+                  .tell = [](const std::string&) {},
+                  .open = [](const std::string&) {}},
+                 std::chrono::duration<double>(0))
+    {
+    }
+
+    void pin(int value) { bench_.wish({gesture_++, ask::places{{place{value, 3, {}}}}}); }
+    void undo() { bench_.wish({0, ask::undo{}}); }
+
+    /// The first state that is so; null: none has come.
+    std::shared_ptr<const state> wait(const std::function<bool(const state&)>& is_so)
+    {
+        std::unique_lock lock(mutex_);
+        const bool came = shown_.wait_for(lock, std::chrono::seconds(20), [&] { return last_ && is_so(*last_); });
+        return came ? last_ : nullptr;
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable shown_;
+    std::shared_ptr<const state> last_;
+    std::uint32_t gesture_ = 1;
+    workbench bench_; // last: it calls
+};
 
 } // namespace
 
@@ -115,4 +211,33 @@ TEST_CASE("an allowance: so many at once, and then as many as time brings")
     taken = 0;
     for (int k = 0; k < 100; ++k) taken += a.take(now + 1h) ? 1 : 0;
     CHECK(taken == 10);
+}
+
+TEST_CASE("a workbench: what undo keeps is bounded by its bytes, and by a hundred gestures")
+{
+    for (const auto& [bytes, kept] :
+         {std::pair{std::size_t{1}, 100}, {std::size_t{100} << 20, 2}, {std::size_t{1} << 30, 1}})
+    {
+        CAPTURE(bytes);
+        watched w(bytes);
+        constexpr int gestures = 120;
+        for (int k = 0; k < gestures; ++k) w.pin(k);
+        REQUIRE(w.wait([](const state& s) { return s.energy == gestures - 1; }));
+        for (int k = 0; k < gestures; ++k) w.undo();
+        const auto first = w.wait([](const state& s) { return !s.can_undo; });
+        REQUIRE(first);
+        CHECK(first->energy == gestures - 1 - kept);
+    }
+}
+
+TEST_CASE("a workbench: a wish ends the step at hand, and what drivers compile late is rehearsed once")
+{
+    std::atomic<int> steps{0};
+    watched w(1, &steps);
+    w.pin(0);
+    while (steps == 0) std::this_thread::yield();
+    w.pin(1);
+    const auto s = w.wait([](const state& now) { return now.energy == 0; });
+    REQUIRE(s);
+    CHECK(s->turn == 1);
 }

@@ -105,6 +105,7 @@ protected:
         if (changed)
         {
             constrain();
+            proof_sought_ = false;
             r.reason.clear();
             r.ids.clear();
         }
@@ -165,13 +166,16 @@ protected:
     {
         const double gap = std::max(held_.gap(from, way).distance * lengths_, std::numeric_limits<double>::min());
         double mark = clock.total();
-        bool feasible = true, asked = false;
+        bool feasible = true;
         const auto proceed = [&](const solve::prescribed_report& at)
         {
             step_seconds_ = clock.total() - std::exchange(mark, clock.total());
             // Where it is hard to go on there may be no way.
-            if (!std::exchange(asked, asked || at.left > 0.5 * gap) && at.left > 0.5 * gap)
+            if (!proof_sought_ && at.left > 0.5 * gap)
+            {
+                proof_sought_ = true;
                 feasible = !proved(user_coordinates());
+            }
             progress p = seen();
             p.iteration = at.iterations;
             p.value = at.value;
@@ -333,9 +337,10 @@ private:
     untangle_params untangling_;
     taut::observer observer_;
     std::chrono::duration<double> limit_;
-    stage_report followed_;   ///< what bringing held coordinates to their places came to so far
-    bool stuck_ = false;      ///< steps bring held coordinates no nearer to their places
-    double step_seconds_ = 0; ///< of the last step
+    stage_report followed_;     ///< what bringing held coordinates to their places came to so far
+    bool proof_sought_ = false; ///< that what is asked now cannot be
+    bool stuck_ = false;        ///< steps bring held coordinates no nearer to their places
+    double step_seconds_ = 0;   ///< of the last step
     int steps_left_ = 0;
 };
 
