@@ -50,6 +50,7 @@ struct paste_options
     int at = -1, onto = -1, triangles = 0, texels = feature_map_params{}.resolution;
     double radius = 0, degrees = 0, reach = paste_params{}.reach;
     paste_pose pose;
+    bool folds = false;
     double time_limit = std::numeric_limits<double>::infinity();
     bool quiet = false;
 };
@@ -108,12 +109,26 @@ public:
         paste_seconds_ =
             clock_.timed([&] { paste_.emplace(*q, target_->surface, std::move(part), options_.onto, params); });
         if (!options_.map.empty() || options_.triangles > 0) map_seconds_ = clock_.timed([&] { draw_map(*q); });
+        if (!options_.folds) require_unfolded();
         look();
         write();
         return exit_code::valid;
     }
 
 private:
+    /// With another softness if need be.
+    void require_unfolded()
+    {
+        if (paste_->unfold()) return;
+        const auto folds = paste_->folds();
+        const auto& c = paste_->cells()[static_cast<std::size_t>(folds[0][1])];
+        const vec3& p = paste_->points()[static_cast<std::size_t>(c[0])];
+        throw paste_error("the surface would fold back on itself at " + count(folds.size(), "edge", "edges") +
+                          " of the seam, as near (" + number(p.x, 4) + ", " + number(p.y, 4) + ", " + number(p.z, 4) +
+                          "), at each softness" +
+                          "; choose another vertex, radius or scale, or write it all the same with --folds");
+    }
+
     /// The feature's map, and its tessellation if that is asked for.
     void draw_map(queue& q)
     {
@@ -227,6 +242,8 @@ private:
         json["removed_triangles"] = r.removed_triangles;
         json["gap_triangles"] = r.gap_triangles;
         json["bent_vertices"] = r.bent_vertices;
+        json["softness"] = paste_->pose().softness;
+        json["softness_asked"] = options_.pose.softness;
         json["correspondence"] = r.way;
         json["controls"] = r.controls;
         json["reciprocal_condition"] = r.reciprocal_condition;
@@ -273,6 +290,12 @@ private:
                       count(static_cast<std::uint64_t>(quality_.boundary_edges), "boundary edge", "boundary edges"));
         lines.add("seam", "angle " + number(quality_.median_angle, 3) + " degrees (median), " +
                               number(quality_.largest_angle, 3) + " at most");
+        if (const double taken = paste_->pose().softness; taken != options_.pose.softness)
+            lines.add("note", "softness " + number(taken, 3) + " instead of " + number(options_.pose.softness, 3) +
+                                  ", at which the seam would fold");
+        if (quality_.folded > 0)
+            lines.add("note", count(static_cast<std::uint64_t>(quality_.folded), "edge", "edges") +
+                                  " of gap and feature where the surface turns back by more than 150 degrees");
         if (!meeting_.empty())
             lines.add("note", count(meeting_.size(), "pair of triangles meets", "pairs of triangles meet") +
                                   ", as of " + std::to_string(meeting_[0][0]) + " and " +
@@ -351,6 +374,7 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
            "0: the feature keeps its shape, the target bends; 1: its rim is laid on the target, the feature bends")
         ->type_name("0..1")
         ->check(number_that([](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1"));
+    app.add_flag("--folds", options->folds, "Write it also where the seam folds back on itself at each softness");
     app.add_option("--reach", options->reach, "Radius of what may bend on the target, by that of the feature")
         ->type_name("1.2..")
         ->check(number_that([](double x) { return x >= 1.2 && std::isfinite(x); }, "is not 1.2 or more"));

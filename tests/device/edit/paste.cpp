@@ -146,6 +146,35 @@ TEST_CASE("paste: triangles that meet are found, but for those that met before")
     CHECK(again.self_intersections().empty());
 }
 
+TEST_CASE("paste: where the seam folds, another softness is taken, and where all fold, that is told")
+{
+    queue q;
+    const auto rough = [](double height, double waves)
+    {
+        auto points = test::sphere(4).points();
+        for (vec3& p : points) p *= 1 + height * std::sin(waves * p.x) * std::sin(waves * p.y) * std::cos(waves * p.z);
+        return mesh<triangle>(std::move(points), test::sphere(4).cells());
+    };
+    paste p(q, rough(0.15, 6), mushroom(), 40, {.pose = {.scale = 0.3}});
+    const auto folds = p.folds();
+    REQUIRE(!folds.empty());
+    CHECK(folds.size() <= std::size_t(measure_seam(p.surface(), p.first_gap(), p.first_feature()).folded));
+    for (const auto& [f, g] : folds) CHECK((f < g && g >= p.first_gap()));
+    CHECK(p.unfold());
+    CHECK(p.pose().softness > 0);
+    CHECK(p.folds().empty());
+    const auto taken = p.points();
+    CHECK(p.unfold());
+    CHECK(p.points() == taken);
+
+    paste hopeless(q, rough(0.25, 9), make_feature(geodesic_disk(test::mushroom(20), 0, 1.5)), 40,
+                   {.pose = {.scale = 0.3, .softness = 0.5}});
+    const auto before = hopeless.points();
+    CHECK(!hopeless.unfold());
+    CHECK(hopeless.points() == before);
+    CHECK(!hopeless.folds().empty());
+}
+
 TEST_CASE("paste: again and again, on a plane, and on a feature that was pasted")
 {
     queue q;
