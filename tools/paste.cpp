@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -101,13 +102,19 @@ public:
         const auto& surface = source_->surface;
         feature part = make_feature(options_.region.empty() ? geodesic_disk(surface, options_.at, options_.radius)
                                                             : region_of_faces(surface, read_faces(options_.region)));
+        region_ = part.region.vertices;
         std::optional<queue> q;
         device_seconds_ = clock_.timed([&] { q = open_queue(options_.device, false); });
         device_ = q->device().name();
         paste_params params{.pose = options_.pose, .reach = options_.reach};
         params.pose.turn = options_.degrees * std::numbers::pi / 180;
-        paste_seconds_ =
-            clock_.timed([&] { paste_.emplace(*q, target_->surface, std::move(part), options_.onto, params); });
+        const double softness = std::exchange(params.pose.softness, 0);
+        paste_seconds_ = clock_.timed(
+            [&]
+            {
+                paste_.emplace(*q, target_->surface, std::move(part), options_.onto, params);
+                soften(softness);
+            });
         if (!options_.map.empty() || options_.triangles > 0) map_seconds_ = clock_.timed([&] { draw_map(*q); });
         if (!options_.folds) require_unfolded();
         look();
@@ -116,6 +123,21 @@ public:
     }
 
 private:
+    /// Where the feature has a map for that.
+    void soften(double softness)
+    {
+        if (softness == 0) return;
+        paste_pose to = paste_->pose();
+        to.softness = softness;
+        try
+        {
+            paste_->pose(to);
+        }
+        catch (const paste_error&) // the report tells which softness it has
+        {
+        }
+    }
+
     /// With another softness if need be.
     void require_unfolded()
     {
@@ -209,17 +231,40 @@ private:
         writing([&] { io::write_files(files); });
     }
 
-    /// The result, seen from where the feature is and from behind.
+    /// Source, target and result side by side, as who looks at the feature sees them; the feature in checks.
     std::string picture() const
     {
-        const vec3 front = paste_->transform().rotation * paste_->part().normal;
-        const auto& points = paste_->points();
-        vec3 up = io::guess_orientation(points, paste_->cells()).up;
+        const auto& part = paste_->part();
+        std::vector<idx> in_result(static_cast<std::size_t>(part.region.surface.vertex_count()));
+        std::iota(in_result.begin(), in_result.end(), static_cast<idx>(paste_->points().size() - in_result.size()));
+        const vec3 front = paste_->transform().rotation * part.normal;
+        const auto up = io::guess_orientation(target_->surface.points(), target_->surface.cells()).up;
+        const auto source_up = io::guess_orientation(source_->surface.points(), source_->surface.cells()).up;
+        return encode_png(io::side_by_side({view(source_->surface, region_, part.normal, source_up, options_.source),
+                                            view(target_->surface, {}, front, up, options_.target),
+                                            view(paste_->surface(), in_result, front, up, "result")}));
+    }
+
+    /// One of them; marked: vertices between which triangles have checks.
+    static io::image view(const mesh<triangle>& m, const std::vector<idx>& marked, const vec3& front, vec3 up,
+                          const std::string& title)
+    {
         if (std::abs(glm::dot(up, front)) > 0.8) up = std::abs(front.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        const vec3 right = glm::normalize(glm::cross(up, front)), above = glm::cross(front, right);
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
-        return encode_png(
-            io::render_picture(points, paste_->cells(), std::vector<vec2>(points.size(), vec2(none)),
-                               {.title = options_.source + " on " + options_.target, .up = up, .front = front}));
+        std::vector<vec2> uv(m.points().size(), vec2(none));
+        for (const idx v : marked)
+        {
+            if (v < 0) continue; // the middle of an edge, which the source does not have
+            const vec3& p = m.points()[static_cast<std::size_t>(v)];
+            uv[static_cast<std::size_t>(v)] = {glm::dot(p, right), glm::dot(p, above)};
+        }
+        const auto both =
+            io::render_picture(m.points(), m.cells(), uv, {.title = title, .checks = 16, .up = up, .front = front});
+        io::image one(both.width() / 2, both.height());
+        for (int y = 0; y < one.height(); ++y)
+            for (int x = 0; x < one.width(); ++x) one(x, y) = both(x, y);
+        return one;
     }
 
     nlohmann::ordered_json json() const
@@ -292,7 +337,7 @@ private:
                               number(quality_.largest_angle, 3) + " at most");
         if (const double taken = paste_->pose().softness; taken != options_.pose.softness)
             lines.add("note", "softness " + number(taken, 3) + " instead of " + number(options_.pose.softness, 3) +
-                                  ", at which the seam would fold");
+                                  ", at which the seam would fold, or which finds no map");
         if (quality_.folded > 0)
             lines.add("note", count(static_cast<std::uint64_t>(quality_.folded), "edge", "edges") +
                                   " of gap and feature where the surface turns back by more than 150 degrees");
@@ -312,6 +357,7 @@ private:
     run_clock clock_;
     const char* place_of_report_; ///< null: there is none
     std::optional<io::surface_file> source_, target_;
+    std::vector<idx> region_; ///< vertices of the source that the feature has
     std::optional<paste> paste_;
     std::optional<feature_map> map_;
     seam_quality quality_;
@@ -390,7 +436,7 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
         ->type_name("8..8192")
         ->check(CLI::Range(8, 8192));
     add_path(app, "--stats", options->stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
-    app.add_option("--picture", options->picture, "Draw the result")->type_name("FILE.png");
+    app.add_option("--picture", options->picture, "Draw source, target and result")->type_name("FILE.png");
     add_time_limit(app, options->time_limit, "Give up after S seconds");
     add_device(app, options->device);
     app.add_flag("-q,--quiet", options->quiet, "No report");

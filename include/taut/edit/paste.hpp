@@ -157,7 +157,14 @@ public:
         {
             paste_pose to = wanted;
             to.softness = softness;
-            if (softness != params_.pose.softness) pose(to);
+            try
+            {
+                if (softness != params_.pose.softness) pose(to);
+            }
+            catch (const paste_error&) // it cannot be soft at all
+            {
+                return false;
+            }
             if (folds().empty()) return true;
         }
         pose(wanted);
@@ -322,7 +329,8 @@ private:
     void lay(const paste_pose& to)
     {
         const double far = *std::max_element(from_rim_.begin(), from_rim_.end());
-        auto laid = detail::lay_feature(queue_, part_.region, from_rim_, 0.4 * far, site_.place, site_.rim.uv);
+        auto laid = detail::lay_feature(queue_, part_.region, from_rim_, 0.4 * far, site_.place, site_.rim.uv,
+                                        params_.time_limit);
         bend_laid_ = {queue_, base_.field(std::vector<vec3>(moving_.size(), vec3(0.0))), laid.on_target};
         laid_ = std::move(laid);
         paste_pose soft = to;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cmath>
 
 #include <taut/core/error.hpp>
@@ -42,6 +43,10 @@ struct paste_params
     /// Of the fields that bend target and feature. `linear` overshoots least.
     rbf_basis basis = rbf_basis::linear;
 
+    /// Of the map that lays the feature on the target, for the first soft pose: where the rim is hard to fit it takes
+    /// an untangling, which may never end.
+    std::chrono::duration<double> time_limit{20};
+
     /// At most so many control points of each kind: along the rim, and where nothing moves.
     idx controls = 300;
 
@@ -50,6 +55,7 @@ struct paste_params
     {
         pose.validate();
         if (!(reach >= 1.2) || !std::isfinite(reach)) throw parameter_error("reach", "must be 1.2 or more");
+        if (!(time_limit.count() > 0)) throw parameter_error("time_limit", "must be positive");
         if (controls < 8) throw parameter_error("controls", "must be at least 8");
         rbf_value(basis, 0, 1);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -173,6 +174,20 @@ TEST_CASE("paste: where the seam folds, another softness is taken, and where all
     CHECK(!hopeless.unfold());
     CHECK(hopeless.points() == before);
     CHECK(!hopeless.folds().empty());
+}
+
+TEST_CASE("paste: a soft seam without a map in time is refused, and the hard one stays")
+{
+    queue q;
+    paste p(q, test::sphere(4), mushroom(), 4,
+            {.pose = {.scale = 0.4}, .time_limit = std::chrono::duration<double>(1e-9)});
+    const auto hard = p.points();
+    CHECK_THROWS_AS(p.pose({.scale = 0.4, .softness = 1}), paste_error);
+    CHECK(p.points() == hard);
+    CHECK(p.pose().softness == 0);
+    CHECK_THROWS_AS(p.pose({.scale = 0.4, .softness = 0.5}), paste_error);
+    const paste_params never{.time_limit = std::chrono::duration<double>(0)};
+    CHECK_THROWS_AS(never.validate(), parameter_error);
 }
 
 TEST_CASE("paste: again and again, on a plane, and on a feature that was pasted")

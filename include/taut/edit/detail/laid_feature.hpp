@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -38,12 +39,15 @@ struct laid_feature
     }
 };
 
-/// Those vertices whose distance from the rim is below `most`. Throws paste_error.
+/// Those vertices whose distance from the rim is below `most`. limit: of the map. Throws paste_error.
 inline laid_feature lay_feature(queue& q, const surface_region& region, std::span<const double> from_rim, double most,
-                                const landing_place& place, std::span<const vec2> rim_uv)
+                                const landing_place& place, std::span<const vec2> rim_uv,
+                                std::chrono::duration<double> limit)
 {
-    const auto map = parameterize(q, region.surface, {.constraints = rim_pins(region, rim_uv)});
-    if (!map) throw paste_error("the feature has no map with its rim on the target: " + map.reason());
+    const auto map = parameterize(q, region.surface, {.constraints = rim_pins(region, rim_uv), .time_limit = limit});
+    if (!map)
+        throw paste_error("the feature has no map with its rim on the target, which a soft seam needs: " +
+                          map.reason() + "; choose softness 0, or another vertex, radius or scale");
     std::vector<vec3> in_plane;
     for (const vec2& p : place.uv) in_plane.emplace_back(p, 0.0);
     const auto& target = place.region.surface;
