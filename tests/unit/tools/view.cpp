@@ -218,7 +218,6 @@ TEST_CASE("a workbench: what undo keeps is bounded by its bytes, and by a hundre
     for (const auto& [bytes, kept] :
          {std::pair{std::size_t{1}, 100}, {std::size_t{100} << 20, 2}, {std::size_t{1} << 30, 1}})
     {
-        CAPTURE(bytes);
         watched w(bytes);
         constexpr int gestures = 120;
         for (int k = 0; k < gestures; ++k) w.pin(k);
