@@ -54,7 +54,8 @@ void declare(CLI::App& app, untangle_options& o)
                                                       {"free", untangle_boundary::free}},
                "Whether the boundary of the volume stays where it is; auto: unless --pins or --fix hold something");
     app.add_flag("--refine", o.refine,
-                 "Split elements where it is proved that there is no injective map without that, or none was found; what is written has more vertices then, the "
+                 "Split elements where it is proved that there is no injective map without that, or none was found; "
+                 "what is written has more vertices then, the "
                  "given ones first. OUT of a problem is a problem, too");
     add_path(app, "--refined-map", o.refined_map, standard_output,
              "With --refine: write which element of the input each element is a part of, as element,of")

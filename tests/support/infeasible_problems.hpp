@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -49,6 +51,40 @@ inline untangle_problem<triangle> fan_in_a_u()
     held_marks<2> held(x.size());
     for (std::size_t v = 0; v < outline.size(); ++v) held[v] = held.every;
     return {mesh<triangle>(std::move(rest), std::move(cells)), std::move(x), std::move(held)};
+}
+
+/// The same with height: tetrahedra around a free vertex, their faces opposite it pinned to a prism on a U. No proof
+/// finds it, as none knows of stars in space.
+inline untangle_problem<tetrahedron> cone_in_a_u()
+{
+    const auto base = fan_in_a_u();
+    const auto n = static_cast<idx>(base.initial.size()) - 1; // of the outline
+    std::vector<vec3> rest, x;
+    for (const double z : {0.0, 1.0})
+        for (idx k = 0; k < n; ++k)
+        {
+            rest.push_back(base.rest.points()[static_cast<std::size_t>(k)] + vec3(0, 0, z));
+            x.emplace_back(base.initial[static_cast<std::size_t>(k)], z);
+        }
+    rest.emplace_back(0.0, 0.0, 0.5);
+    x.emplace_back(1.5, 0.5, 0.5);
+    const idx middle = 2 * n;
+    std::vector<mesh<tetrahedron>::cell> cells;
+    for (const auto& [a, b, c] :
+         std::vector<std::array<idx, 3>>{{0, 1, 4}, {0, 4, 5}, {1, 2, 4}, {2, 3, 4}, {0, 5, 7}, {5, 6, 7}})
+    {
+        cells.push_back({a, b, c, middle});
+        cells.push_back({n + a, n + c, n + b, middle});
+    }
+    for (idx k = 0; k < n; ++k)
+    {
+        const idx next = (k + 1) % n;
+        cells.push_back({k, n + next, next, middle});
+        cells.push_back({k, n + k, n + next, middle});
+    }
+    held_marks<3> held(x.size());
+    for (std::size_t v = 0; v + 1 < x.size(); ++v) held[v] = held.every;
+    return {mesh<tetrahedron>(std::move(rest), std::move(cells)), std::move(x), std::move(held)};
 }
 
 } // namespace taut::test

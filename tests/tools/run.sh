@@ -1582,7 +1582,7 @@ test_untangle()
     expect 7 untangle folded.prob -o mended.prob
     expect 0 untangle folded.prob -o mended.prob --refine --quiet
     expect 0 check mended.prob
-    says out '^problem .*7 vertices, 8 tetrahedra' '^map +0 of 8'
+    says out '^input .*7 vertices, 8 tetrahedra' '^map +0 of 8'
 
     expect 2 untangle in.prob
     error_says '--output is required'

@@ -23,7 +23,7 @@ struct deform_report
     volume_state before, after;
     std::string format, cells, device;
     std::optional<refined_size> refined; ///< none: no element was split
-    const char* element = ""; ///< a word
+    const char* element = "";            ///< a word
     std::size_t vertices = 0, elements = 0, pins = 0, springs = 0;
     int dimension = 3;
     bool mixed = false; ///< there are cells other than simplices

@@ -21,8 +21,7 @@ std::string refined_text(const refined_size& size)
 std::string table_of_parts(std::span<const idx> parts)
 {
     std::string text = "element,of\n";
-    for (std::size_t c = 0; c < parts.size(); ++c)
-        text += std::to_string(c) + ',' + std::to_string(parts[c]) + '\n';
+    for (std::size_t c = 0; c < parts.size(); ++c) text += std::to_string(c) + ',' + std::to_string(parts[c]) + '\n';
     return text;
 }
 

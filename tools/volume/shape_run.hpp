@@ -176,7 +176,8 @@ private:
                 all.stopped = how.stopped;
                 return other;
             };
-            if (auto note = mend_insides(*input_, x, again); !note.empty()) report_.run.notes.push_back(std::move(note));
+            if (auto note = mend_insides(*input_, x, again); !note.empty())
+                report_.run.notes.push_back(std::move(note));
         }
         take(std::move(x));
     }

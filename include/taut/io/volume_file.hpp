@@ -138,8 +138,8 @@ struct volume_file
     std::vector<cell_block> cells;
     std::vector<volume_group> groups;
     std::vector<volume_label> labels; ///< MEDIT, gmsh, VTK and VTU; what groups were made of
-    std::vector<std::string> notes; ///< what groups were not read from, in sentences
-    std::string bytes;              ///< all of the file
+    std::vector<std::string> notes;   ///< what groups were not read from, in sentences
+    std::string bytes;                ///< all of the file
     std::vector<companion_file> companions;
     coordinate_places places;
 

@@ -31,7 +31,8 @@ template <class Element>
 refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, deform_params<Element> params,
                                             const refine_params& refine = {})
 {
-    if (!params.targets.empty()) throw parameter_error("targets", "are of elements, which are to be split; leave it out");
+    if (!params.targets.empty())
+        throw parameter_error("targets", "are of elements, which are to be split; leave it out");
     if (!params.owners.empty()) throw parameter_error("owners", "cells that are not simplices cannot be split");
     if (!params.data.empty()) throw parameter_error("data", "is of elements, which are to be split; leave it out");
     using map = std::vector<vec<Element::dimension>>;
@@ -40,8 +41,8 @@ refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, de
     const auto pins = params.constraints.on(m);
     pins.impose(x);
     auto split = refine_infeasible(untangle_problem<Element>{m, std::move(x), pins.held()}, refine);
-    refined_deformation<Element> found{{}, std::move(split.problem.rest), std::move(split.how), std::move(split.cells),
-                                       split.rounds};
+    refined_deformation<Element> found{
+        {}, std::move(split.problem.rest), std::move(split.how), std::move(split.cells), split.rounds};
     if (!split.obstacle.empty())
     {
         found.result.report.outcome = outcome::infeasible;

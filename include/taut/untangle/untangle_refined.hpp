@@ -128,8 +128,8 @@ refined_problem<Element> refine_infeasible(const untangle_problem<Element>& prob
         else if (now.rounds >= params.rounds)
             now.obstacle = proof.reason() + "; so after " + std::to_string(now.rounds) + " rounds of splits";
         else if (!detail::split_further(now, splits.simplices, params))
-            now.obstacle = proof.reason() + "; splits would make more than " + detail::short_number(params.most_growth) +
-                           " times as many elements";
+            now.obstacle = proof.reason() + "; splits would make more than " +
+                           detail::short_number(params.most_growth) + " times as many elements";
         if (!now.obstacle.empty()) return now;
     }
 }
@@ -169,35 +169,56 @@ void take_better(const untangle_problem<Element>& p, std::vector<vec<Element::di
     found.stage = std::move(stage);
 }
 
+/// The stages of a short try: in space those that end soon.
+template <class Element>
+std::vector<std::string> quick_stages(const untangle_params& params, std::vector<std::string> in_space)
+{
+    return params.stages.empty() && Element::dimension == 3 ? std::move(in_space) : params.stages;
+}
+
+/// Untangles once more from the best map so far.
+template <class Element>
+void untangle_again(const queue& q, refined_problem<Element>& now, const untangle_params& how,
+                    untangle_result<Element>& found)
+{
+    now.problem.initial = found.map;
+    auto next = untangle(q, now.problem, how);
+    next.stages.insert(next.stages.begin(), found.stages.begin(), found.stages.end());
+    if (next.stage == "initial") next.stage = found.stage; // there was nothing left to do
+    found = std::move(next);
+}
+
 /// Untangles around the elements that are left inverted, with the rest of the map where it is.
 template <class Element>
 void untangle_around(const queue& q, untangle_problem<Element> p, untangle_params how, const budget& clock,
                      untangle_result<Element>& found)
 {
-    how.rounds = 1;
+    how.stages = quick_stages<Element>(how, {"harmonic", "operator", "newton"});
+    how.rounds = std::min(how.rounds, 2);
     for (const int rings : {2, 4, 8})
     {
         if (found.flips.flipped == 0 || !clock.in_time()) return;
         p.initial = found.map;
         const auto part = part_of(p, within_rings(p.rest, found.ids, rings));
-        if (!part) return;
         how.time_limit = clock.left();
-        auto local = untangle(q, part->problem, how);
+        auto local = untangle(q, part ? part->problem : p, how);
         found.stages.insert(found.stages.end(), local.stages.begin(), local.stages.end());
-        auto map = found.map;
-        for (std::size_t k = 0; k < part->vertices.size(); ++k)
+        auto map = part ? found.map : std::move(local.map);
+        for (std::size_t k = 0; part && k < part->vertices.size(); ++k)
             map[static_cast<std::size_t>(part->vertices[k])] = local.map[k];
         take_better(p, std::move(map), local.stage, found);
+        if (!part) return; // that was the whole
     }
 }
 
 } // namespace detail
 
 /// untangle(), and where it is proved that no map is injective, or none was found, elements are split and it is tried
-/// again: the edges inside between held vertices of what the proofs name, else the edges inside of the elements left
-/// inverted, around which it is untangled then. Held vertices stay where they are, the boundary is not split, and the
-/// certificate is of all elements of the refined mesh. The first try is a short one, of one round; the last one is of
-/// the whole mesh. `infeasible`: what is proved is not mended by splits inside the mesh; reason says what.
+/// again: the edges inside between held vertices of what the proofs name, else of or around the elements left inverted
+/// (proofs/mending_splits.hpp), where it is untangled then. Held vertices stay where they are, the boundary is not
+/// split, and the certificate is of all elements of the refined mesh. Tries but the last, which is of the whole mesh,
+/// are short ones, in space by the operator and one round of Newton's steps. `infeasible`: what is proved is not mended
+/// by splits inside the mesh; reason says what.
 /// Throws parameter_error as untangle() and refine_problem() do, device_error.
 template <class Element>
 refined_untangling<Element> untangle_refined(const queue& q, const untangle_problem<Element>& problem,
@@ -213,32 +234,40 @@ refined_untangling<Element> untangle_refined(const queue& q, const untangle_prob
             return !refused;
         };
     auto now = refine_infeasible(problem, refine);
+    const auto left = [&](const untangle_result<Element>& found)
+    { return found.outcome == untangle_outcome::gave_up && !refused && clock.in_time(); };
+    const bool splits = refine.rounds > 0;
     how.time_limit = clock.left();
-    how.rounds = refine.rounds > 0 ? 1 : params.rounds;
-    if (Element::dimension == 3 && refine.rounds > 0 && params.stages.empty()) // those that end soon
-        how.stages = {"harmonic", "operator", problem.outline_pinned() ? "newton" : "lead"};
-    auto found = untangle(q, now.problem, how);
-    how.stages = params.stages;
-    if (found.outcome == untangle_outcome::infeasible) found.reason = now.obstacle;
-    const bool goes_on = found.outcome == untangle_outcome::gave_up && refine.rounds > 0;
-    for (int round = now.rounds; goes_on && round < refine.rounds && found.flips.flipped > 0; ++round)
+    if (splits)
     {
-        if (refused || !clock.in_time()) break;
+        how.stages = detail::quick_stages<Element>(params, {"harmonic", "operator"});
+        how.rounds = std::min(2, params.rounds);
+    }
+    auto found = untangle(q, now.problem, how);
+    if (found.outcome == untangle_outcome::infeasible) found.reason = now.obstacle;
+    if (found.outcome != untangle_outcome::gave_up || !splits) return {std::move(found), std::move(now)};
+
+    if (Element::dimension == 3 && params.stages.empty() && left(found))
+    {
+        how.stages = {problem.outline_pinned() ? "newton" : "lead"};
+        how.rounds = 1;
+        how.time_limit = clock.left();
+        detail::untangle_again(q, now, how, found);
+    }
+    how.stages = params.stages;
+    how.rounds = params.rounds;
+    for (int round = now.rounds; left(found) && round < refine.rounds && found.flips.flipped > 0; ++round)
+    {
         now.problem.initial = found.map;
-        if (!detail::split_further(now, splits_around(now.problem.rest, found.ids).simplices, refine)) break;
+        if (!detail::split_further(now, splits_around(now.problem, found.ids).simplices, refine)) break;
         found.flips.flipped = found.flips.branched = now.problem.rest.cells().size();
         detail::take_better(now.problem, now.problem.initial, "initial", found);
         detail::untangle_around(q, now.problem, how, clock, found);
     }
-    if (goes_on)
+    if (found.outcome == untangle_outcome::gave_up)
     {
-        now.problem.initial = found.map;
         how.time_limit = clock.left();
-        how.rounds = params.rounds;
-        auto last = untangle(q, now.problem, how); // has nothing to do where the parts came out injective
-        last.stages.insert(last.stages.begin(), found.stages.begin(), found.stages.end());
-        if (last.stage == "initial") last.stage = found.stage;
-        found = std::move(last);
+        detail::untangle_again(q, now, how, found);
     }
     found.seconds = clock.total();
     return {std::move(found), std::move(now)};

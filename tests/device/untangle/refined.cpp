@@ -36,6 +36,19 @@ TEST_CASE("untangle_refined: what has no solution on its mesh has one where elem
     check_mended(test::fan_in_a_u());
 }
 
+TEST_CASE("untangle_refined: where no map is found, and nothing is proved, what is left inverted is split")
+{
+    const auto problem = test::cone_in_a_u();
+    REQUIRE(!find_infeasibility(problem));
+    queue q;
+    const auto [result, refined] = untangle_refined(q, problem, {.rounds = 1}, {.rounds = 2, .most_growth = 3});
+    test::check_typed(refined.problem, result);
+    CHECK(refined.rounds > 0);
+    CHECK(refined.cells.size() <= 3 * problem.rest.cells().size());
+    for (std::size_t v = 0; v < problem.initial.size(); ++v)
+        if (problem.held.all(v)) CHECK(result.map[v] == problem.initial[v]);
+}
+
 TEST_CASE("untangle_refined: a mesh that has a solution is not split")
 {
     auto problem = test::reflex_quad();

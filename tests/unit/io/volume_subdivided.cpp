@@ -82,9 +82,10 @@ TEST_CASE("subdivided: cells are split in every format that is written anew, wit
 
 TEST_CASE("subdivided: a problem keeps who is fixed, and its rest shape is split alike")
 {
-    const auto file = io::parse_volume("4 3\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 4\n0 1 2 3\n"
-                                       "2\n1\n3\n",
-                                       volume_format::problem);
+    const auto file =
+        io::parse_volume("4 3\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 4\n0 1 2 3\n"
+                         "2\n1\n3\n",
+                         volume_format::problem);
     subdivision how(4);
     how.split({1, 2});
     const auto split = io::subdivided(file, how);
@@ -96,9 +97,10 @@ TEST_CASE("subdivided: a problem keeps who is fixed, and its rest shape is split
 
 TEST_CASE("subdivided: a new point has the reference that all corners of what it splits have")
 {
-    const auto file = io::parse_volume("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 5\n1 0 0 5\n0 1 0 6\n0 0 1 0\n"
-                                       "Corners\n1\n3\nTetrahedra\n1\n1 2 3 4 9\nEnd\n",
-                                       volume_format::medit);
+    const auto file =
+        io::parse_volume("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 5\n1 0 0 5\n0 1 0 6\n0 0 1 0\n"
+                         "Corners\n1\n3\nTetrahedra\n1\n1 2 3 4 9\nEnd\n",
+                         volume_format::medit);
     subdivision how(4);
     how.split({0, 1});
     how.split({1, 2});

@@ -88,8 +88,7 @@ TEST_CASE("refine_elements: edges, faces and cells are split, neighbours with th
 TEST_CASE("refine_elements: parts of an element are equally large and keep its orientation")
 {
     const mesh<tetrahedron> m({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}});
-    for (const auto& [simplex, parts] :
-         {std::pair{std::vector<taut::idx>{3, 1}, 2}, {{2, 0, 3}, 3}, {{0, 1, 2, 3}, 4}})
+    for (const auto& [simplex, parts] : {std::pair{std::vector<taut::idx>{3, 1}, 2}, {{2, 0, 3}, 3}, {{0, 1, 2, 3}, 4}})
     {
         subdivision how(4);
         CHECK(how.split(simplex) == 4);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -77,4 +78,22 @@ TEST_CASE("refine_problem: parts are wanted to look like the whole, and count as
     double sum = 0;
     for (const auto& W : r.problem.wanted) sum += glm::determinant(W);
     CHECK(sum == doctest::Approx(8.0 * static_cast<double>(problem.wanted.size())));
+}
+
+TEST_CASE("splits_around: edges inside between held vertices near by, else the longest of each element in the map")
+{
+    const auto chord = test::folded_edge();
+    const std::vector<taut::idx> first{0};
+    CHECK(splits_around(chord, first).simplices == std::vector<std::vector<taut::idx>>{{0, 1}});
+    auto free = test::cone_in_a_u();
+    free.held = held_marks<3>(free.initial.size());
+    free.held[0] = free.held.every;
+    const auto splits = splits_around(free, first).simplices;
+    REQUIRE(splits.size() == 1);
+    double longest = 0;
+    const auto distance = [&](taut::idx a, taut::idx b)
+    { return glm::distance(free.initial[std::size_t(a)], free.initial[std::size_t(b)]); };
+    for (const taut::idx v : free.rest.cells()[0]) longest = std::max(longest, distance(v, 16)); // 16: inside
+    CHECK(splits[0][1] == 16);
+    CHECK(distance(splits[0][0], 16) == longest);
 }

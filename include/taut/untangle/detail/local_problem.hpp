@@ -69,12 +69,4 @@ std::optional<local_problem<Element>> part_of(const untangle_problem<Element>& p
                                   std::move(vertices)};
 }
 
-/// How an untangling in a session is bounded.
-struct repair_limits
-{
-    bool whole = false; ///< the whole mesh may be untangled, too
-    std::chrono::duration<double> time;
-    observer ask;
-};
-
 } // namespace taut::detail

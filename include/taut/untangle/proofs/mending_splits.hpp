@@ -82,8 +82,8 @@ private:
                            [&](idx c)
                            {
                                const auto& t = mesh_.cells()[static_cast<std::size_t>(c)];
-                               return std::all_of(simplex.begin(), simplex.end(), [&](idx v)
-                                                  { return std::find(t.begin(), t.end(), v) != t.end(); });
+                               return std::all_of(simplex.begin(), simplex.end(),
+                                                  [&](idx v) { return std::find(t.begin(), t.end(), v) != t.end(); });
                            });
     }
 
@@ -99,9 +99,7 @@ bool split_element(const untangle_problem<Element>& p, idx c, inner_simplices<El
     const auto& cell = p.rest.cells()[static_cast<std::size_t>(c)];
     const auto held = [&](idx v) { return p.held.any(static_cast<std::size_t>(v)); };
     const auto apart = [&](idx a, idx b)
-    {
-        return held(a) && held(b) && p.initial[static_cast<std::size_t>(a)] != p.initial[static_cast<std::size_t>(b)];
-    };
+    { return held(a) && held(b) && p.initial[static_cast<std::size_t>(a)] != p.initial[static_cast<std::size_t>(b)]; };
     if (inner.split_edges(cell, apart) > 0) return true;
     bool any = false;
     if constexpr (Element::dimension == 3)
@@ -180,8 +178,8 @@ bool split_against(const untangle_problem<Element>& p, const infeasibility_findi
 
 /// What to split so that these proofs hold no more: edges inside between vertices that are held, of the elements that
 /// they turn over or make flat, of outlines and of pairs that cross; faces where no such edge is inside; edges from a
-/// vertex without a place to its held neighbours. New vertices are free, so nothing on the boundary is split: what a pinned
-/// boundary proves by itself stays proved, and is the obstacle.
+/// vertex without a place to its held neighbours. New vertices are free, so nothing on the boundary is split: what a
+/// pinned boundary proves by itself stays proved, and is the obstacle.
 template <class Element>
 mending_splits splits_against(const untangle_problem<Element>& problem, const infeasibility& found)
 {
@@ -193,13 +191,31 @@ mending_splits splits_against(const untangle_problem<Element>& problem, const in
     return result;
 }
 
-/// What to split around elements that no map was found for: their edges inside.
+/// What to split around elements that no map was found for: the edges inside between held vertices, which straight as
+/// they are may leave no room, of all elements that touch these; where there are none the longest edge inside of each
+/// in the map.
 template <class Element>
-mending_splits splits_around(const mesh<Element>& m, std::span<const idx> cells)
+mending_splits splits_around(const untangle_problem<Element>& problem, std::span<const idx> cells)
 {
-    detail::inner_simplices<Element> inner(m);
+    const auto at = [](idx i) { return static_cast<std::size_t>(i); };
+    const auto& all = problem.rest.cells();
+    detail::inner_simplices<Element> inner(problem.rest);
+    std::size_t count = 0;
     for (const idx c : cells)
-        inner.split_edges(m.cells()[static_cast<std::size_t>(c)], [](idx, idx) { return true; });
+        for (const idx v : all[at(c)])
+            for (const idx near : inner.around().row(v))
+                count += inner.split_edges(all[at(near)], [&](idx a, idx b)
+                                           { return problem.held.any(at(a)) && problem.held.any(at(b)); });
+    if (count > 0) return {inner.take(), {}};
+    for (const idx c : cells)
+    {
+        std::vector<std::pair<double, std::vector<idx>>> edges;
+        for (const idx a : all[at(c)])
+            for (const idx b : all[at(c)])
+                if (a < b) edges.push_back({glm::distance(problem.initial[at(a)], problem.initial[at(b)]), {a, b}});
+        std::sort(edges.begin(), edges.end());
+        while (!edges.empty() && !inner.split(edges.back().second)) edges.pop_back();
+    }
     return {inner.take(), {}};
 }
 

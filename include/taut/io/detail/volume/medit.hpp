@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <taut/io/detail/volume/builder.hpp>
@@ -122,8 +123,7 @@ private:
         for (std::size_t c = 0; c < n; ++c)
         {
             for (idx& v : cell) v = to_.point_at(from_.integer(number_type::int64, "a vertex"), 1, from_);
-            const long long reference =
-                tagged ? from_.integer(number_type::int64, "the reference of a cell") : 0;
+            const long long reference = tagged ? from_.integer(number_type::int64, "the reference of a cell") : 0;
             groups.add(reference, shape_of(found->kind).dimension, cell);
             if (!tagged) continue;
             to_.add_cell(found->kind, cell);

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -54,8 +55,7 @@ class text_lines
 {
 public:
     template <class T>
-        requires std::is_arithmetic_v<T>
-    text_lines& operator<<(T x)
+    requires std::is_arithmetic_v<T> text_lines& operator<<(T x)
     {
         std::array<char, 32> digits;
         gap();
@@ -103,8 +103,7 @@ inline std::string medit_text(const plain_mesh& m)
     (out << "Vertices").end();
     (out << m.points.size()).end();
     const auto of_points = m.values("reference", false), of_cells = m.values("reference", true);
-    for (std::size_t v = 0; v < m.points.size(); ++v)
-        (out.point(m.points[v], d) << value_or_0(of_points, v)).end();
+    for (std::size_t v = 0; v < m.points.size(); ++v) (out.point(m.points[v], d) << value_or_0(of_points, v)).end();
     std::size_t number = 0;
     for (const auto& block : m.cells)
     {
@@ -165,9 +164,11 @@ inline int vtk_type(cell_kind kind)
 
 inline bool fits_32_bits(const volume_label& l)
 {
-    return std::all_of(l.values.begin(), l.values.end(), [](long long x)
-                       { return x >= std::numeric_limits<std::int32_t>::min() &&
-                                x <= std::numeric_limits<std::int32_t>::max(); });
+    return std::all_of(l.values.begin(), l.values.end(),
+                       [](long long x) {
+                           return x >= std::numeric_limits<std::int32_t>::min() &&
+                                  x <= std::numeric_limits<std::int32_t>::max();
+                       });
 }
 
 inline std::string vtk_text(const plain_mesh& m)
@@ -185,8 +186,7 @@ inline std::string vtk_text(const plain_mesh& m)
     for (const auto& block : m.cells) corners += block.corners.size();
     (out << "CELLS" << n << n + corners).end();
     for (const auto& block : m.cells)
-        for (std::size_t c = 0; c < block.size(); ++c)
-            (out << block.cell(c).size()).corners(block.cell(c), 0).end();
+        for (std::size_t c = 0; c < block.size(); ++c) (out << block.cell(c).size()).corners(block.cell(c), 0).end();
     (out << "CELL_TYPES" << n).end();
     for (const auto& block : m.cells)
         for (std::size_t c = 0; c < block.size(); ++c) (out << vtk_type(block.kind)).end();
@@ -213,8 +213,7 @@ inline std::string vtu_text(const plain_mesh& m)
     const auto array = [&](std::string_view name, const char* type, int components, const auto& values)
     {
         std::string quoted;
-        for (const char c : name)
-            quoted += c == '"' ? "&quot;" : std::string(1, c); // entities stay as they are
+        for (const char c : name) quoted += c == '"' ? "&quot;" : std::string(1, c); // entities stay as they are
         (out << "<DataArray type=\"" + std::string(type) + "\" Name=\"" + quoted + "\" NumberOfComponents=\"" +
                     std::to_string(components) + "\" format=\"ascii\">")
             .end();
@@ -222,13 +221,17 @@ inline std::string vtu_text(const plain_mesh& m)
         (out << "</DataArray>").end();
     };
     const std::size_t n = m.cell_count();
-    (out << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>").end();
+    (out << "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>")
+        .end();
     (out << "<Piece NumberOfPoints=\"" + std::to_string(m.points.size()) + "\" NumberOfCells=\"" + std::to_string(n) +
                 "\">")
         .end();
     (out << "<Points>").end();
     array("Points", m.of.places.single ? "Float32" : "Float64", 3,
-          [&] { for (const vec3& p : m.points) out.point(p, 3).end(); });
+          [&]
+          {
+              for (const vec3& p : m.points) out.point(p, 3).end();
+          });
     (out << "</Points>\n<Cells>").end();
     const auto each_cell = [&](const auto& f)
     {
@@ -248,7 +251,11 @@ inline std::string vtu_text(const plain_mesh& m)
         (out << (of_cells ? "<CellData>" : "<PointData>")).end();
         for (const auto& l : m.labels)
             if (l.of_cells == of_cells)
-                array(l.name, "Int64", 1, [&] { for (const long long x : l.values) (out << x).end(); });
+                array(l.name, "Int64", 1,
+                      [&]
+                      {
+                          for (const long long x : l.values) (out << x).end();
+                      });
         (out << (of_cells ? "</CellData>" : "</PointData>")).end();
     }
     (out << "</Piece>\n</UnstructuredGrid>\n</VTKFile>").end();
@@ -368,8 +375,9 @@ TAUT_INLINE volume_file subdivided(const volume_file& file, const subdivision& h
             auto mesh = detail::plain_subdivided(file, how);
             auto result = parse_volume(text(mesh), format, file.path);
             if (result.rest.empty()) result.rest = std::move(mesh.rest);
-            result.notes.push_back("cells were split: the file is written anew, without comments and without data other "
-                                   "than references, tags and integer arrays");
+            result.notes.push_back(
+                "cells were split: the file is written anew, without comments and without data other "
+                "than references, tags and integer arrays");
             return result;
         }
     throw io_error(file.path, "a refined mesh of the format " + file.format +

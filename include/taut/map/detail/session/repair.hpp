@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -52,6 +51,14 @@ std::vector<char> around_moved(const untangle_problem<Element>& p, double width)
     }
     return near;
 }
+
+/// How an untangling in a session is bounded.
+struct repair_limits
+{
+    bool whole = false; ///< the whole mesh may be untangled, too
+    std::chrono::duration<double> time;
+    observer ask;
+};
 
 /// A map whose held vertices could not be brought to their places by steps, with them there; none where that fails. It
 /// differs from the one at hand around these vertices alone, if that will do. problem: the held vertices at their
