@@ -127,18 +127,18 @@ TEST_CASE("deform: where steps in float lead no further the shape goes on in dou
     const auto m = bar();
     queue q;
     if (!q.device().has_fp64()) return;
+    // Squeezed across by 1e9: in float determinants are nothing but rounding, and no step gains anything.
     deform_params<tetrahedron> params;
-    params.constraints = constraints(m).fix(bottom(m)).move(top(m), turn(0.5));
-    params.solve.stopping.gradient_tolerance = 1e-11; // below the rounding of gradients in float
+    params.constraints = constraints(m).pin(0, m.points()[0]);
+    const vec3 across = glm::normalize(vec3(1, 2, 3));
+    for (const vec3& p : m.points()) params.initial.push_back(p - (1 - 1e-9) * glm::dot(p, across) * across);
     params.precision = precision::mixed;
-    const auto stalled = deform(q, m, params);
-    check_promises(m, params.constraints, stalled);
-    CHECK(!stalled.report.converged);
+    CHECK(!deform(q, m, params).report.converged);
     params.precision = precision::automatic;
     const auto r = deform(q, m, params);
     check_promises(m, params.constraints, r);
     CHECK(r.report.converged);
-    CHECK(r.report.gradient <= 1e-11);
+    CHECK(r.report.energy == doctest::Approx(2));
     const auto& notes = r.report.notes;
     CHECK(std::any_of(notes.begin(), notes.end(),
                       [](const std::string& note) { return note.find("in double") != std::string::npos; }));
