@@ -26,7 +26,10 @@ exit_code run(const shape_options& options, std::chrono::steady_clock::time_poin
     limit_time(options.time_limit - clock.now());
     progress progress(progress_of(options.progress, options.quiet), std::cerr);
     if (!options.smoothing && names_surface(options.input))
+    {
+        if (options.refine) throw usage_error("--refine is of volumes and of meshes of the plane; leave it out");
         return shell_run(options, clock, progress, place_of_report)();
+    }
     if (options.thickness)
         throw usage_error("--thickness is of surfaces in space (.obj, .off, .ply, .stl); leave it out");
     progress.update({.phase = "read", .seconds = clock.now()});

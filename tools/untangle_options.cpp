@@ -53,6 +53,14 @@ void declare(CLI::App& app, untangle_options& o)
                                                       {"fixed", untangle_boundary::fixed},
                                                       {"free", untangle_boundary::free}},
                "Whether the boundary of the volume stays where it is; auto: unless --pins or --fix hold something");
+    app.add_flag("--refine", o.refine,
+                 "Split elements where it is proved that there is no injective map without that, or none was found; "
+                 "what is written has more vertices then, the "
+                 "given ones first. OUT of a problem is a problem, too");
+    add_path(app, "--refined-map", o.refined_map, standard_output,
+             "With --refine: write which element of the input each element is a part of, as element,of")
+        ->type_name("FILE.csv")
+        ->needs("--refine");
     add_time_limit(app, o.time_limit, "Give up after S seconds");
     add_device(app, o.device);
     add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
@@ -73,6 +81,7 @@ outputs check(const untangle_options& o)
     files.add("-o (not valid)", name_of_invalid(o.output), {});
     files.add("--stats", o.stats, {".json"});
     files.add("--picture", o.picture, {".png", ".svg"});
+    files.add("--refined-map", o.refined_map, {".csv"});
     files.protect("the input", o.input);
     if (!o.pins.empty()) files.protect("the file of pins", o.pins);
     if (!o.rest.empty()) files.protect("the shape at rest", o.rest);

@@ -28,7 +28,8 @@ struct untangle_options
     std::vector<std::string> fixed; ///< groups
     untangle_boundary boundary = untangle_boundary::automatic;
     double time_limit = std::numeric_limits<double>::infinity();
-    bool quiet = false;
+    bool quiet = false, refine = false;
+    std::string refined_map; ///< a table of what elements are parts of; empty: none
 };
 
 /// Declares the options; they are filled when the program's arguments are parsed.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <picture/layout_picture.hpp>
@@ -22,13 +24,15 @@ struct layout_input
 /// The bytes of a picture; SVG or PNG as the path says.
 std::string draw(const std::string& path, const untangle_problem<triangle>& p, const std::vector<layout_input>& maps);
 
-/// A problem as a file of cells would have it, to draw.
+/// A problem as its file would have it, but for the bytes: to draw, or to split.
 template <class Element>
 io::volume_file file_of(const untangle_problem<Element>& p)
 {
     constexpr bool planar = Element::dimension == 2;
     io::volume_file file;
-    file.dimension = Element::dimension;
+    file.path = "the problem";
+    file.format = "problem";
+    file.dimension = file.places.per_point = Element::dimension;
     for (const auto& x : p.initial)
         if constexpr (planar)
             file.points.emplace_back(x, 0.0);
@@ -38,6 +42,10 @@ io::volume_file file_of(const untangle_problem<Element>& p)
     file.cells = {{planar ? io::cell_kind::triangle : io::cell_kind::tetrahedron, {}}};
     for (const auto& cell : p.rest.cells())
         file.cells.front().corners.insert(file.cells.front().corners.end(), cell.begin(), cell.end());
+    io::volume_group fixed{"fixed", 0, {}};
+    for (std::size_t v = 0; v < p.held.size(); ++v)
+        if (p.held.all(v)) fixed.vertices.push_back(static_cast<idx>(v));
+    file.groups.push_back(std::move(fixed));
     return file;
 }
 

@@ -42,6 +42,7 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
     }
     json["min_det"] = finite(r.least_det);
     json["min_relative_det"] = finite(r.least_relative_det);
+    json["refined"] = refined_json(r.refined);
     json["stage"] = r.stage;
     json["stages"] = nlohmann::ordered_json::array();
     for (const auto& s : r.stages)
@@ -73,6 +74,7 @@ std::string text_of(const untangle_report& r, const untangle_options& o)
     if (!r.format.empty() && !r.written.empty()) lines.add("after", shapes_text(r.state_after.shapes));
     if (r.dimension == 3 && !r.written.empty() && r.element == std::string("mixed"))
         lines.add("insides", insides_text(r.state_after));
+    if (r.refined) lines.add("refined", refined_text(*r.refined));
     lines.add("outcome", r.outcome + (r.stage.empty() ? "" : ", by " + r.stage));
     std::string stages;
     for (const auto& s : r.stages)
@@ -86,7 +88,8 @@ std::string text_of(const untangle_report& r, const untangle_options& o)
                           duration(r.seconds.check) + ", device " + duration(r.seconds.device) + ", solve " +
                           duration(r.seconds.solve) + ", write " + duration(r.seconds.write));
     std::string files = r.written;
-    for (const auto& file : {o.picture, o.stats})
+    const std::string table = r.code == exit_code::valid ? o.refined_map : "";
+    for (const auto& file : {o.picture, table, o.stats})
         if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
     if (!files.empty()) lines.add("wrote", files);
     return (std::ostringstream() << lines).str();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 
 #include "exit_codes.hpp"
 #include "untangle_options.hpp"
+#include "volume/refined_case.hpp"
 #include "volume/volume_case.hpp"
 
 namespace taut::tools
@@ -36,6 +38,7 @@ struct untangle_report
     std::string format;                                       ///< of a volume file; else empty
     volume_state state_before, state_after;                   ///< of a volume file
     std::string stage;
+    std::optional<refined_size> refined; ///< none: no element was split
     std::vector<untangle_stage_report> stages;
     std::vector<std::string> notes;
     struct

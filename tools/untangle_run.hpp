@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -18,6 +19,7 @@
 #include <taut/measure/describe_defects.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 #include <taut/untangle/untangle.hpp>
+#include <taut/untangle/untangle_refined.hpp>
 
 #include "failure.hpp"
 #include "interrupt.hpp"
@@ -30,6 +32,7 @@
 #include "untangle_picture.hpp"
 #include "untangle_report.hpp"
 #include "volume/mend_insides.hpp"
+#include "volume/refined_case.hpp"
 #include "volume/volume_drawing.hpp"
 #include "volume/volume_problem.hpp"
 #include "writing.hpp"
@@ -76,7 +79,8 @@ public:
             report_.cells = count(report_.elements, Element::name, Element::names);
         }
         report_.before = certified(problem_->initial, report_.state_before);
-        if (!prove_infeasible()) solve();
+        if (options_.refine) require_refinable();
+        if (options_.refine || !prove_infeasible()) solve();
         write();
         if (report_.code == exit_code::infeasible) throw infeasible_problem(report_.reason);
         if (valid_) return report_.code;
@@ -107,12 +111,40 @@ private:
         report_.seconds.check = clock_.timed([&] { found = find_infeasibility(*problem_); });
         for (const auto& warning : found.warnings) report_.notes.push_back(warning.message);
         if (!found) return false;
+        std::string all;
+        for (const auto& proof : found.proofs) all += (all.empty() ? "" : "\n  ") + proof.message;
+        refuse(all, std::move(found.proofs.front().ids));
+        return true;
+    }
+
+    void refuse(const std::string& why, std::vector<idx> ids)
+    {
         report_.code = exit_code::infeasible;
         report_.outcome = "infeasible";
         report_.after = report_.before;
-        report_.ids = found.proofs.front().ids;
-        for (const auto& proof : found.proofs) report_.reason += (report_.reason.empty() ? "" : "\n  ") + proof.message;
-        return true;
+        report_.ids = std::move(ids);
+        report_.reason = why;
+    }
+
+    /// Before anything is solved. Throws unsuitable_input, io_error.
+    void require_refinable()
+    {
+        if (!input_) problem_file_ = file_of(*problem_);
+        tools::require_refinable(input_ ? input_->file() : *problem_file_);
+    }
+
+    /// The mesh from here on, some of whose elements are split.
+    void go_on_with(refined_problem<Element> refined)
+    {
+        parts_ = std::move(refined.cells);
+        if (!input_) problem_file_ = io::subdivided(*problem_file_, refined.how);
+        if (refined.how.empty()) return;
+        report_.refined = {refined.rounds, static_cast<std::size_t>(refined.how.vertex_count()), parts_.size()};
+        problem_ = std::move(refined.problem);
+        if (!input_) return;
+        refined_ = std::make_unique<refined_case<Element>>(input_->file(), refined.how);
+        input_ = &refined_->parts();
+        report_.notes.insert(report_.notes.end(), input_->file().notes.begin(), input_->file().notes.end());
     }
 
     void solve()
@@ -137,7 +169,19 @@ private:
         tell("untangle");
         keep(true); // the initial map, at least
         untangle_result<Element> result;
-        report_.seconds.solve = clock_.timed([&] { result = untangle(*q, *problem_, params); });
+        report_.seconds.solve = clock_.timed(
+            [&]
+            {
+                if (!options_.refine)
+                    result = untangle(*q, *problem_, params);
+                else
+                {
+                    auto found = untangle_refined(*q, *problem_, params);
+                    result = std::move(found.result);
+                    if (result.outcome != untangle_outcome::infeasible) go_on_with(std::move(found.refined));
+                }
+            });
+        if (result.outcome == untangle_outcome::infeasible) return refuse(result.reason, std::move(result.ids));
         if (input_ && result) mend(*q, result, params);
         take(std::move(result));
     }
@@ -205,13 +249,26 @@ private:
                              {
                                  if (input_)
                                      file.write(io::with_points(input_->file(), points));
+                                 else if (problem_file_)
+                                     file.write(io::with_points(*problem_file_, in_space()));
                                  else
                                      io::write_map<D>(file, map_);
                              }});
+        if (valid_ && !options_.refined_map.empty())
+            files.push_back({options_.refined_map, [&](io::atomic_file& file) { file.write(table_of_parts(parts_)); }});
         if (drawn(options_.picture, report_.notes))
             files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
         write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
         if (valid_) remove_invalid(options_.output);
+    }
+
+    /// The map as points of a file.
+    std::vector<vec3> in_space() const
+    {
+        std::vector<vec3> points(map_.size(), vec3(0.0));
+        for (std::size_t v = 0; v < map_.size(); ++v)
+            for (int k = 0; k < D; ++k) points[v][k] = map_[v][k];
+        return points;
     }
 
     std::string picture() const
@@ -249,6 +306,9 @@ private:
 
     untangle_options options_;
     const volume_case<Element>* input_; ///< null: there is none
+    std::unique_ptr<refined_case<Element>> refined_;
+    std::optional<io::volume_file> problem_file_; ///< of what is no volume file, where it is refined
+    std::vector<idx> parts_;                      ///< of each element, that of the input; where it is refined
     run_clock clock_;
     progress& progress_;
     untangle_report report_;

@@ -37,8 +37,10 @@
 #include <taut/io/write_volume.hpp>
 
 #include <taut/map/deform.hpp>
+#include <taut/map/deform_refined.hpp>
 #include <taut/map/interpolate.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/map/session.hpp>
 #include <taut/map/smooth.hpp>
 #include <taut/untangle/untangle.hpp>
+#include <taut/untangle/untangle_refined.hpp>

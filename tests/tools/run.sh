@@ -1389,6 +1389,47 @@ test_volumes()
     expect 2 untangle in.prob -o late.txt --fix 1
     error_says '--fix is of volume files'
 
+    # Four tetrahedra around an edge, two pinned vertices beyond it: no map without splitting that.
+    octahedron() # X of the two vertices
+    {
+        printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n6\n0 0 -1 0\n0 0 1 0\n%s -1 0 3\n%s 1 0 3\n-1 1 0 0\n-1 -1 0 0\n' "$1" "$1"
+        printf 'Tetrahedra\n4\n1 2 3 4 8\n1 2 4 5 8\n1 2 5 6 9\n1 2 6 3 9\nEnd\n'
+    }
+    octahedron 1 >flat.mesh
+    octahedron -0.2 >folded.mesh
+    expect 7 untangle folded.mesh -o mended.mesh --rest flat.mesh
+    expect 0 untangle folded.mesh -o mended.mesh --rest flat.mesh --refine --refined-map parts.csv --stats stats.json
+    says out '^refined +7 vertices, 8 elements in 1 round' '^wrote +mended.mesh, parts.csv'
+    says err 'written anew'
+    keys stats.json refined.rounds refined.vertices refined.elements outcome
+    says values '^refined.elements=8$' '^outcome=injective$'
+    [ "$(tr '\n' ' ' <parts.csv)" = 'element,of 0,0 1,0 2,1 3,1 4,2 5,2 6,3 7,3 ' ] || fail "parts.csv is wrong"
+    expect 0 check mended.mesh --json
+    cp out check.json
+    keys check.json elements.tetrahedra inverted
+    says values '^elements.tetrahedra=8$' '^inverted=0$'
+    says mended.mesh '^0 0 -1 0$' '^-0.2 -1 0 3$' ' 9$'
+    printf '0,0,0,-1\n1,0,0,1\n2,-0.2,-1,0\n3,-0.2,1,0\n4,-1,1,0\n5,-1,-1,0\n' >pins.csv
+    expect 7 deform flat.mesh -o bent.mesh --pins pins.csv
+    expect 0 deform flat.mesh -o bent.mesh --pins pins.csv --refine --refined-map parts.csv --stats stats.json
+    says out '^refined +7 vertices, 8 elements'
+    keys stats.json refined.rounds pins_held outcome
+    says values '^refined.rounds=1$' '^pins_held=(true|ON)$'
+    expect 0 deform flat.mesh -o same.mesh --move vertices:3:translate:0.1,0,0 --refine --quiet
+    cmp -s flat.mesh same.mesh && fail "nothing was moved"
+    awk 'NR > 4 && NR <= 10 { $1 = -$1 } 1' flat.mesh >mirrored.mesh
+    expect 7 untangle mirrored.mesh -o late.mesh --rest flat.mesh --refine --refined-map late.csv
+    error_says 'no split inside the mesh changes that'
+    absent late.mesh
+    absent late.csv
+    {
+        printf 'NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n'
+    } >one.su2
+    expect 3 deform one.su2 -o late.su2 --refine
+    error_says 'convert it to MEDIT'
+    expect 2 untangle folded.mesh -o late.mesh --refined-map late.csv
+    error_says 'requires --refine'
+
     # Measures of a map, and of a mesh alone.
     expect 0 deform rest.mesh -o bent.mesh --fix 1 --move triangles:2:rotate:0,0,1,60 --quiet --picture bent.png --cut 0,1,0,0.4
     png bent.png
@@ -1532,6 +1573,16 @@ test_untangle()
     error_says 'volume.svg' '.png'
     expect 2 untangle in.prob -o out.txt --picture out.png --cut x
     error_says '--cut' 'planar'
+
+    # A problem that has a solution where an element is split; what is written is a problem, too.
+    {
+        printf '6 3\n0 0 -1\n0 0 1\n1 -1 0\n1 1 0\n-1 1 0\n-1 -1 0\n6 3\n0 0 -1\n0 0 1\n-0.2 -1 0\n-0.2 1 0\n-1 1 0\n-1 -1 0\n'
+        printf '4 4\n0 1 2 3\n0 1 3 4\n0 1 4 5\n0 1 5 2\n6\n0\n1\n2\n3\n4\n5\n'
+    } >folded.prob
+    expect 7 untangle folded.prob -o mended.prob
+    expect 0 untangle folded.prob -o mended.prob --refine --quiet
+    expect 0 check mended.prob
+    says out '^input .*7 vertices, 8 tetrahedra' '^map +0 of 8'
 
     expect 2 untangle in.prob
     error_says '--output is required'

@@ -29,6 +29,7 @@ nlohmann::ordered_json to_json(const deform_report& r, const shape_options& o)
     json["device"] = r.device;
     json["outcome"] = run.pins_held || run.outcome == outcome::valid ? "valid" : "stopped";
     json["reason"] = run.reason;
+    if (!o.smoothing) json["refined"] = refined_json(r.refined);
     json["converged"] = run.converged;
     json["pins_held"] = run.pins_held;
     json["farthest"] = run.farthest;
@@ -63,6 +64,7 @@ std::string text_of(const deform_report& r, const shape_options& o)
     lines.add("device", r.device);
     lines.add("inverted", count(r.before.inverted.size()) + " -> " + count(r.after.inverted.size()));
     if (r.has_insides()) lines.add("insides", insides_text(r.after));
+    if (r.refined) lines.add("refined", refined_text(*r.refined));
     lines.add("energy", number(run.energy) + (run.converged ? ", converged" : ", not converged") + ", " +
                             count(static_cast<std::uint64_t>(run.steps), "step", "steps"));
     lines.add("before", shapes_text(r.before.shapes));

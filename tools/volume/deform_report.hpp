@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include <taut/map/session_result.hpp>
 
+#include "volume/refined_case.hpp"
 #include "volume/shape_options.hpp"
 #include "volume/volume_case.hpp"
 
@@ -20,7 +22,8 @@ struct deform_report
     session_report run;
     volume_state before, after;
     std::string format, cells, device;
-    const char* element = ""; ///< a word
+    std::optional<refined_size> refined; ///< none: no element was split
+    const char* element = "";            ///< a word
     std::size_t vertices = 0, elements = 0, pins = 0, springs = 0;
     int dimension = 3;
     bool mixed = false; ///< there are cells other than simplices

@@ -63,6 +63,13 @@ void declare_deform(CLI::App& app, shape_options& o)
                                                  {"volume", shape_energy::volume},
                                                  {"neo-hookean", shape_energy::neo_hookean}},
                "What to keep: lengths, angles, volumes and lengths, or as rubber does");
+    app.add_flag("--refine", o.refine,
+                 "Split elements where it is proved that there is no shape without that; what is written has more "
+                 "vertices then, the given ones first");
+    add_path(app, "--refined-map", o.refined_map, standard_output,
+             "With --refine: write which element of the input each element is a part of, as element,of")
+        ->type_name("FILE.csv")
+        ->needs("--refine");
     app.add_option(
            "--thickness", o.thickness,
            "Of a surface in space (.obj .off .ply .stl), in its lengths: thick ones arch, thin ones crease. Default: "
@@ -92,6 +99,7 @@ outputs check(const shape_options& o)
     files.add("-o", o.output, {});
     files.add("--stats", o.stats, {".json"});
     files.add("--picture", o.picture, {".png", ".svg"});
+    files.add("--refined-map", o.refined_map, {".csv"});
     files.protect("the input", o.input);
     if (!o.pins.empty()) files.protect("the file of pins", o.pins);
     if (!o.rest.empty()) files.protect("the shape at rest", o.rest);

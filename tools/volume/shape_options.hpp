@@ -36,6 +36,8 @@ struct shape_options
     std::string pins, rest;
     std::vector<std::string> moves, fixed; ///< of groups; smooth has fixed ones, too
     shape_energy energy = shape_energy::isometric;
+    bool refine = false;
+    std::string refined_map;         ///< a table of what elements are parts of; empty: none
     std::optional<double> thickness; ///< of a surface, in its lengths
 
     // smooth

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include <taut/io/pins.hpp>
 #include <taut/io/write_files.hpp>
 #include <taut/io/write_volume.hpp>
+#include <taut/map/deform_refined.hpp>
 #include <taut/map/smooth.hpp>
 #include <taut/measure/describe_defects.hpp>
 
@@ -28,6 +30,7 @@
 #include "volume/deform_report.hpp"
 #include "volume/group_targets.hpp"
 #include "volume/mend_insides.hpp"
+#include "volume/refined_case.hpp"
 #include "volume/volume_drawing.hpp"
 #include "writing.hpp"
 
@@ -45,7 +48,7 @@ public:
     /// place_of_report: null if there is none. All else is referred to.
     shape_run(const shape_options& options, run_clock clock, progress& progress, const char* place_of_report,
               const volume_case<Element>& input)
-        : options_(options), clock_(clock), progress_(progress), place_of_report_(place_of_report), input_(input)
+        : options_(options), clock_(clock), progress_(progress), place_of_report_(place_of_report), input_(&input)
     {
         report_.seconds.read = clock_.now();
         report_.format = input.file().format;
@@ -60,12 +63,13 @@ public:
     exit_code operator()()
     {
         prepare();
+        if (options_.refine) require_refinable(input_->file());
         tell("device");
         std::optional<queue> q;
         report_.seconds.device = clock_.timed([&] { q = open_queue(options_.device, false); });
         report_.device = q->device().name();
         tell(phase());
-        report_.before = input_.look(input_.points());
+        report_.before = input_->look(input_->points());
         report_.seconds.solve = clock_.timed([&] { solve(*q); });
         if (!valid_) refuse();
         write();
@@ -78,7 +82,7 @@ private:
 
     void prepare()
     {
-        group_targets targets(input_.file());
+        group_targets targets(input_->file());
         for (const auto& name : options_.fixed) targets.fix(name);
         for (const auto& move : options_.moves) targets.move(move);
         if (options_.smoothing)
@@ -86,7 +90,7 @@ private:
             for (const auto& [v, x] : targets.all()) fixed_.push_back(v);
             return;
         }
-        const auto& mesh = input_.simplices();
+        const auto& mesh = input_->simplices();
         pins_ = constraints<Element>(mesh);
         for (const auto& [v, x] : targets.all()) pins_.pin(v, vec<D>(x));
         if (!options_.pins.empty()) add_pins(pins_, io::read_pins<D>(options_.pins, mesh.vertex_count()));
@@ -119,7 +123,7 @@ private:
     {
         if (options_.smoothing)
         {
-            const mesh<Element> m(input_.in_file(from), parts.simplices().cells());
+            const mesh<Element> m(input_->in_file(from), parts.simplices().cells());
             auto r = smooth(q, m,
                             limited(smooth_params<Element>{.boundary = options_.boundary,
                                                            .targets = parts.parts().regular,
@@ -131,12 +135,29 @@ private:
         deform_params<Element> params{
             .energy = energy_of(options_.energy), .constraints = pins_, .owners = parts.owners(), .initial = from};
         if (parts.parts().overlapping) params.data.weights = parts.parts().weights;
+        if (options_.refine) return deform_split(q, parts, limited(std::move(params)));
         return deform(q, parts.simplices(), limited(std::move(params)));
+    }
+
+    session_result<Element> deform_split(queue& q, const volume_case<Element>& parts,
+                                         const deform_params<Element>& params)
+    {
+        auto found = deform_refined(q, parts.simplices(), params);
+        parts_ = std::move(found.cells);
+        if (!found.how.empty())
+        {
+            report_.refined = {found.rounds, static_cast<std::size_t>(found.how.vertex_count()), parts_.size()};
+            refined_ = std::make_unique<refined_case<Element>>(parts.file(), found.how);
+            input_ = &refined_->parts();
+            auto& notes = found.result.report.notes;
+            notes.insert(notes.end(), input_->file().notes.begin(), input_->file().notes.end());
+        }
+        return std::move(found.result);
     }
 
     void solve(queue& q)
     {
-        auto [x, run] = solve(q, input_, input_.points());
+        auto [x, run] = solve(q, *input_, input_->points());
         report_.run = std::move(run);
         kept_ = !x.empty();
         keep(kept_);
@@ -155,7 +176,8 @@ private:
                 all.stopped = how.stopped;
                 return other;
             };
-            if (auto note = mend_insides(input_, x, again); !note.empty()) report_.run.notes.push_back(std::move(note));
+            if (auto note = mend_insides(*input_, x, again); !note.empty())
+                report_.run.notes.push_back(std::move(note));
         }
         take(std::move(x));
     }
@@ -171,8 +193,8 @@ private:
                 : run.outcome == outcome::infeasible ? exit_code::infeasible
                                                      : exit_code::no_valid_map;
         if (x.empty() || code_ == exit_code::infeasible || code_ == exit_code::no_valid_map) return;
-        points_ = input_.in_file(x);
-        report_.after = input_.look(input_.as_written(x));
+        points_ = input_->in_file(x);
+        report_.after = input_->look(input_->as_written(x));
         bool held = true;
         if (run.pins_held)
             for (const auto& [v, pin] : pins_.pins())
@@ -182,7 +204,7 @@ private:
         if (valid_) return;
         code_ = exit_code::no_valid_map;
         run.reason = held ? "in the single precision of the file the mesh has " +
-                                describe_defects<Element>(report_.after.simplices, input_.owners())
+                                describe_defects<Element>(report_.after.simplices, input_->owners())
                           : "a pin has moved";
     }
 
@@ -199,7 +221,9 @@ private:
     {
         tell("write");
         const auto note_time = [&] { report_.seconds.total = clock_.now(); };
-        auto files = io::volume_outputs(options_.output, input_.file(), points_);
+        auto files = io::volume_outputs(options_.output, input_->file(), points_);
+        if (!options_.refined_map.empty())
+            files.push_back({options_.refined_map, [&](io::atomic_file& file) { file.write(table_of_parts(parts_)); }});
         drawing_options drawing{options_.picture, options_.cut, options_.smoothing};
         if (drawn(drawing.path, report_.run.notes))
             files.push_back({drawing.path, [&](io::atomic_file& file) { file.write(picture(drawing)); }});
@@ -210,9 +234,9 @@ private:
     {
         const std::string name = std::filesystem::path(options_.input).filename().string();
         const map x(points_.begin(), points_.end());
-        return draw_states(input_.file(),
-                           {state_to_draw(input_, name + ": before", input_.points(), options_.smoothing),
-                            state_to_draw(input_, "after", x, options_.smoothing)},
+        return draw_states(input_->file(),
+                           {state_to_draw(*input_, name + ": before", input_->points(), options_.smoothing),
+                            state_to_draw(*input_, "after", x, options_.smoothing)},
                            drawing);
     }
 
@@ -220,7 +244,9 @@ private:
     run_clock clock_;
     progress& progress_;
     const char* place_of_report_;
-    const volume_case<Element>& input_;
+    const volume_case<Element>* input_;
+    std::unique_ptr<refined_case<Element>> refined_;
+    std::vector<idx> parts_; ///< of each element, that of the input; where it is refined
     constraints<Element> pins_;
     std::vector<idx> fixed_;
     std::vector<vec3> points_;

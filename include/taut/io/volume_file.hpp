@@ -89,6 +89,15 @@ struct volume_group
     std::vector<idx> vertices; ///< ascending, each once
 };
 
+/// Integers that a file gives its points, or its cells of all kinds in their order: references of MEDIT, tags of gmsh,
+/// arrays of VTK.
+struct volume_label
+{
+    std::string name;
+    bool of_cells;
+    std::vector<long long> values;
+};
+
 /// A group that is not there, or a name that several have. what() lists those there are.
 class group_error : public error
 {
@@ -128,8 +137,9 @@ struct volume_file
     std::vector<vec3> rest; ///< problems: the rest shape, of which the points are a map; else empty: points at rest
     std::vector<cell_block> cells;
     std::vector<volume_group> groups;
-    std::vector<std::string> notes; ///< what groups were not read from, in sentences
-    std::string bytes;              ///< all of the file
+    std::vector<volume_label> labels; ///< MEDIT, gmsh, VTK and VTU; what groups were made of
+    std::vector<std::string> notes;   ///< what groups were not read from, in sentences
+    std::string bytes;                ///< all of the file
     std::vector<companion_file> companions;
     coordinate_places places;
 

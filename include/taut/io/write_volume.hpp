@@ -9,6 +9,7 @@
 #include <taut/config.hpp>
 #include <taut/io/volume_file.hpp>
 #include <taut/io/write_files.hpp>
+#include <taut/mesh/refine_elements.hpp>
 
 namespace taut::io
 {
@@ -34,8 +35,19 @@ std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, con
 /// Writes them; they appear together or not at all. Throws io_error, parameter_error.
 void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);
 
+/// The file with cells subdivided, as its own format has it, written anew as text: `bytes` and all else as a reader of
+/// that finds it, `path` as it was, `rest` subdivided, too. Points come first as they were, and parts of a cell follow
+/// each other; they have its labels, and a new point those that all corners of what it splits have, or else 0.
+/// MEDIT (references, corners, required vertices), gmsh (as 2.2, nodes numbered from 1; names of physical groups, of
+/// several of a cell the first), VTK and VTU (integer arrays of one component), problems. What else was in the file is
+/// not in the result, which its notes say.
+/// Throws io_error for other formats, and for cells other than vertices, lines, triangles and tetrahedra;
+/// parameter_error for a subdivision of another number of points.
+volume_file subdivided(const volume_file& file, const subdivision& how);
+
 } // namespace taut::io
 
 #ifndef TAUT_COMPILED
+#include <taut/io/detail/volume/subdivided.ipp>
 #include <taut/io/detail/volume/write_volume.ipp>
 #endif

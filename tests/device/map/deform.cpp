@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -119,6 +120,28 @@ TEST_CASE("deform: an energy that is 0 at rest takes steps from there, in any pr
             params.parameters = {lame.begin(), lame.end()};
             CHECK(deform(q, m, params).report.energy == doctest::Approx(r.report.energy).epsilon(1e-5));
         }
+}
+
+TEST_CASE("deform: where steps in float lead no further the shape goes on in double")
+{
+    const auto m = bar();
+    queue q;
+    if (!q.device().has_fp64()) return;
+    // Squeezed across by 1e9: in float determinants are nothing but rounding, and no step gains anything.
+    deform_params<tetrahedron> params;
+    params.constraints = constraints(m).pin(0, m.points()[0]);
+    const vec3 across = glm::normalize(vec3(1, 2, 3));
+    for (const vec3& p : m.points()) params.initial.push_back(p - (1 - 1e-9) * glm::dot(p, across) * across);
+    params.precision = precision::mixed;
+    CHECK(!deform(q, m, params).report.converged);
+    params.precision = precision::automatic;
+    const auto r = deform(q, m, params);
+    check_promises(m, params.constraints, r);
+    CHECK(r.report.converged);
+    CHECK(r.report.energy == doctest::Approx(2));
+    const auto& notes = r.report.notes;
+    CHECK(std::any_of(notes.begin(), notes.end(),
+                      [](const std::string& note) { return note.find("in double") != std::string::npos; }));
 }
 
 TEST_CASE("deform: what is bent is no better for starting elsewhere, and the shape at rest costs nothing")

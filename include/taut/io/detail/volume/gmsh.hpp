@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <taut/io/detail/volume/builder.hpp>
 
@@ -72,6 +73,13 @@ public:
                   "hexahedra); save with Mesh.ElementOrder = 1");
     }
 
+    /// Notes the tags of the next cell, 0: none. A cell of several physical groups has the first of them.
+    void add_tags(long long physical, long long entity)
+    {
+        tags_[0].push_back(physical);
+        tags_[1].push_back(entity);
+    }
+
     /// Notes that a cell belongs to a physical group, or to a geometric entity.
     void add_physical(int dimension, long long tag, std::span<const idx> corners)
     {
@@ -85,6 +93,7 @@ public:
     /// Physical groups under their names, physical:DIM:TAG where they have none; in a file without them entity:DIM:TAG.
     void finish_groups()
     {
+        to_.file().labels = {{"physical", true, std::move(tags_[0])}, {"entity", true, std::move(tags_[1])}};
         const bool physical =
             std::any_of(physical_.begin(), physical_.end(), [](const auto& groups) { return !groups.empty(); });
         for (int d = 0; d <= 3; ++d)
@@ -175,6 +184,7 @@ private:
     std::map<std::string_view, const char*> contents_;
     std::map<std::pair<long long, long long>, std::string> names_;
     std::array<tagged_vertices, 4> physical_, entities_;
+    std::array<std::vector<long long>, 2> tags_; ///< of cells: physical, entity
 };
 
 } // namespace taut::io::detail

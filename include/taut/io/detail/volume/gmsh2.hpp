@@ -91,6 +91,7 @@ private:
         const auto cell = std::span(corners).first(static_cast<std::size_t>(shape_of(kind).corners));
         for (idx& v : cell) v = to_.point_of_id(from_.integer(integer, "a node"), from_);
         to_.add_cell(kind, cell);
+        sections_.add_tags(physical, entity);
         if (physical != 0) sections_.add_physical(shape_of(kind).dimension, physical, cell);
         if (entity != 0) sections_.add_entity(shape_of(kind).dimension, entity, cell);
     }

@@ -114,12 +114,14 @@ private:
             const auto corners = static_cast<std::size_t>(shape_of(kind).corners);
             const std::size_t n = from_.count(size, "the number of elements", 2 * (corners + 1));
             const auto groups = physical_.find({of.dimension, of.tag});
+            const bool physical = groups != physical_.end() && !groups->second.empty();
             std::vector<idx> cell(corners);
             for (std::size_t e = 0; e < n; ++e)
             {
                 from_.integer(size, "the number of an element");
                 for (idx& v : cell) v = to_.point_of_id(from_.integer(size, "a node"), from_);
                 to_.add_cell(kind, cell);
+                sections_.add_tags(physical ? groups->second.front() : 0, of.tag);
                 sections_.add_entity(of.dimension, of.tag, cell);
                 if (groups == physical_.end()) continue;
                 for (const long long tag : groups->second) sections_.add_physical(of.dimension, tag, cell);

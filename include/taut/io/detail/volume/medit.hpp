@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <taut/io/detail/volume/builder.hpp>
@@ -26,6 +27,7 @@ public:
         in_.require_text();
         find_sections();
         read_points();
+        to_.file().labels.push_back({"reference", true, {}});
         for (const auto& s : sections_) read_cells(s);
         to_.finish();
     }
@@ -82,12 +84,15 @@ private:
             from_.count(number_type::int64, "the number of vertices", static_cast<std::size_t>(2 * (d + 1)));
         to_.reserve_points(n);
         tagged_vertices groups;
+        volume_label references{"reference", false, {}};
         for (std::size_t v = 0; v < n; ++v)
         {
             to_.add_point(from_);
             const auto vertex = static_cast<idx>(v);
-            groups.add(from_.integer(number_type::int64, "the reference of a vertex"), 0, {&vertex, 1});
+            references.values.push_back(from_.integer(number_type::int64, "the reference of a vertex"));
+            groups.add(references.values.back(), 0, {&vertex, 1});
         }
+        to_.file().labels.push_back(std::move(references));
         groups.move_to_prefixed(to_.file(), "vertices");
     }
 
@@ -118,9 +123,11 @@ private:
         for (std::size_t c = 0; c < n; ++c)
         {
             for (idx& v : cell) v = to_.point_at(from_.integer(number_type::int64, "a vertex"), 1, from_);
-            if (tagged) to_.add_cell(found->kind, cell);
-            groups.add(tagged ? from_.integer(number_type::int64, "the reference of a cell") : 0,
-                       shape_of(found->kind).dimension, cell);
+            const long long reference = tagged ? from_.integer(number_type::int64, "the reference of a cell") : 0;
+            groups.add(reference, shape_of(found->kind).dimension, cell);
+            if (!tagged) continue;
+            to_.add_cell(found->kind, cell);
+            to_.file().labels.back().values.push_back(reference);
         }
         groups.move_to(to_.file(),
                        [&](long long reference)

@@ -31,6 +31,7 @@ public:
         if (to_.file().points.empty()) in_.fail("no POINTS; a mesh needs some");
         cells_.move_to(to_, from_);
         for (const auto& a : attributes_) add_attribute_groups(to_.file(), a);
+        to_.file().labels = std::move(attributes_);
         to_.finish();
     }
 
@@ -191,7 +192,7 @@ private:
             from_.fitting(static_cast<long long>(components * tuples), "the number of values", bytes_of(type, 1));
         if (of_cells_ && components == 1 && !is_real(type))
         {
-            vtk_attribute a{name, *of_cells_, {}};
+            volume_label a{name, *of_cells_, {}};
             for (std::size_t i = 0; i < n; ++i) a.values.push_back(from_.integer(type, "a value"));
             attributes_.push_back(std::move(a));
         }
@@ -276,7 +277,7 @@ private:
     number_encoding encoding_;
     number_source from_;
     vtk_cells cells_;
-    std::vector<vtk_attribute> attributes_;
+    std::vector<volume_label> attributes_;
     std::optional<bool> of_cells_; ///< what attributes belong to; nothing before CELL_DATA and POINT_DATA
     std::size_t tuples_ = 0;
 };

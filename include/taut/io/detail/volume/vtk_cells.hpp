@@ -67,16 +67,8 @@ struct vtk_cells
     }
 };
 
-/// An array of integers, one a point or cell, as VTK files carry them.
-struct vtk_attribute
-{
-    std::string name;
-    bool of_cells;
-    std::vector<long long> values;
-};
-
 /// Makes a group NAME:VALUE of each value of an attribute. One of very many values numbers things, and names nothing.
-inline void add_attribute_groups(volume_file& file, const vtk_attribute& a)
+inline void add_attribute_groups(volume_file& file, const volume_label& a)
 {
     constexpr std::size_t most = 256;
     std::unordered_set<long long> values;

@@ -227,7 +227,7 @@ private:
     {
         const number_type type = type_of(a);
         if (is_real(type) || a.tag.attribute_or("NumberOfComponents", "1") != "1") return;
-        vtk_attribute attribute{std::string(a.tag.attribute_or("Name", "")), a.section == "CellData", {}};
+        volume_label attribute{std::string(a.tag.attribute_or("Name", "")), a.section == "CellData", {}};
         if (const char* const why = obstacle(a))
         {
             to_.file().notes.push_back("no groups were made of '" + attribute.name + "': " + why);
@@ -236,6 +236,7 @@ private:
         for_each_integer(a, attribute.of_cells ? cells_ : points_,
                          [&](long long x, const number_source&) { attribute.values.push_back(x); });
         add_attribute_groups(to_.file(), attribute);
+        to_.file().labels.push_back(std::move(attribute));
     }
 
     volume_builder to_;
