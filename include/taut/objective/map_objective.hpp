@@ -169,25 +169,26 @@ public:
         return found;
     }
 
-    /// f at x + u a[i] d with u = min(1, fraction * max_step), which is returned. One wait in all.
+    /// f at x + u a[i] d with u = min(most, fraction * max_step), which is returned. One wait in all.
     double capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
-                         std::span<double> out)
+                         std::span<double> out, double most = 1)
     {
-        const auto capped = enqueue_capped_values(x, d, fraction, a);
+        const auto capped = enqueue_capped_values(x, d, fraction, a, most);
         reductions_.fetch();
-        return fold_capped_values(capped, fraction, out);
+        return fold_capped_values(capped, fraction, out, most);
     }
 
-    /// The same, and full = x + d with its gradient g; returns g'g second. Still one wait.
+    /// The same with most = 1, and full = x + d with its gradient g; returns g'g second. Still one wait.
     std::pair<double, double> capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
                                             std::span<double> out, point& full, vector& g)
     {
-        const auto capped = enqueue_capped_values(x, d, fraction, a);
+        constexpr double most = 1;
+        const auto capped = enqueue_capped_values(x, d, fraction, a, most);
         step(x, 1, d, full);
         gradient(full, g);
         const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
         reductions_.fetch();
-        return {fold_capped_values(capped, fraction, out), reductions_.value(norm)};
+        return {fold_capped_values(capped, fraction, out, most), reductions_.value(norm)};
     }
 
     /// Launches once what Newton's method launches, so that what the driver compiles at the first launch is compiled;
@@ -320,18 +321,19 @@ private:
         sums values;
     };
 
-    capped_sums enqueue_capped_values(const point& x, const vector& d, double fraction, std::span<const double> a)
+    capped_sums enqueue_capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
+                                      double most)
     {
         const auto least = enqueue_max_step(x, d);
-        reductions_.limit(least, fraction, 1, limit_);
+        reductions_.limit(least, fraction, most, limit_);
         return {least, enqueue_values(x, d, limit_, a)};
     }
 
-    double fold_capped_values(const capped_sums& r, double fraction, std::span<double> out) const
+    double fold_capped_values(const capped_sums& r, double fraction, std::span<double> out, double most) const
     {
         fold_values(r.values, out);
         const double bound = fraction * reductions_.value(r.least);
-        return bound >= 1 ? 1 : bound;
+        return bound >= most ? most : bound;
     }
 
     void fold_values(const sums& results, std::span<double> out) const

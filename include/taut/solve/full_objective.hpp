@@ -114,13 +114,13 @@ public:
     }
 
     double capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
-                         std::span<double> out)
+                         std::span<double> out, double most = 1)
     {
-        if constexpr (requires { f_.capped_values(x, d, fraction, a, out); })
-            return f_.capped_values(x, d, fraction, a, out);
+        if constexpr (requires { f_.capped_values(x, d, fraction, a, out, most); })
+            return f_.capped_values(x, d, fraction, a, out, most);
         else
         {
-            const double unit = std::min(1.0, fraction * max_step(x, d));
+            const double unit = std::min(most, fraction * max_step(x, d));
             std::vector<double> steps;
             for (const double s : a) steps.push_back(unit * s);
             values(x, d, steps, out);

@@ -28,15 +28,21 @@ namespace detail
 /// The loop of newton(). Truncated Newton's method with a line search (Nocedal & Wright, Algorithm 7.1): the direction
 /// by preconditioned conjugate gradients, then the best of four trial steps that meets the Armijo condition.
 ///
+/// Where the Hessian is indefinite the stand-in may be much too stiff: its directions are then those of steepest
+/// descent in its metric, and too short. So they are made conjugate to each other, and tried at up to four times their
+/// length.
+///
 /// | here                | meaning                                                     |
 /// |---------------------|-------------------------------------------------------------|
 /// | `x_, g_, value_`    | x_k, its gradient and value                                 |
 /// | `d_`                | d_k                                                         |
-/// | `unit`              | the longest trial step: min(1, fraction of the first flip)  |
+/// | `last_d_, last_g_`  | d_{k-1} and the gradient where it began                     |
+/// | `unit`              | the longest trial step: min(1, fraction of the first flip), |
+/// |                     | 4 in the place of 1 along directions of the stand-in        |
 ///
 /// Host waits of an iteration, 2: the products of pcg, mostly one look, and the trial steps. Where the decrease is
 /// small enough to expect the end, the norm of the gradient is wanted, too: it comes with the trial steps if the full
-/// step is taken, and else costs a third wait.
+/// step is taken, and else costs a third wait. Making directions conjugate costs one, too.
 template <objective Objective>
 class newton_loop
 {
@@ -58,6 +64,8 @@ public:
           full_(f.make_point()),
           g_(f.space().make()),
           d_(f.space().make()),
+          last_g_(f.space().make()),
+          last_d_(f.space().make()),
           full_gradient_(f.space().make()),
           waits_(f_.waits())
     {
@@ -98,6 +106,7 @@ private:
     std::optional<solve::stop> iterate()
     {
         const bool exact = step_.value_before - value_ < params_.exact_below * f_.size(value_);
+        std::swap(d_, last_d_);
         if (auto reason = direction(exact)) return reason;
         // An indefinite Hessian may have misled; its stand-in does not.
         std::optional<trial> found = search();
@@ -121,7 +130,26 @@ private:
             [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_,
             [this] { return monitor_.proceed(); });
         report_.products += model_.steps;
+        exact_ = exact;
+        if (!exact_ && along_stand_in_) conjugate();
         return pending_ ? settle(model_.gradient_squared) : std::nullopt;
+    }
+
+    /// Makes d_, a direction of the stand-in, conjugate to the last one (Hestenes & Stiefel 1952, with the stand-in as
+    /// preconditioner), as far as the change of the gradient along that one tells.
+    void conjugate()
+    {
+        const vector* const left[] = {&last_g_, &g_};
+        const vector* const right[] = {&last_d_, &d_};
+        std::array<double, 4> products;
+        f_.space().multi_dot(left, right, products);
+        const auto [before_last, before_now, after_last, after_now] = products;
+        const double beta = (before_now - after_now) / (after_last - before_last);
+        const double slope = after_now + beta * after_last;
+        constexpr double least = 0.1; // of the slope, or the last direction has taken over
+        if (!(after_last > before_last) || !(beta > 0) || !(slope < least * after_now)) return;
+        f_.space().axpby(beta, last_d_, 1, d_);
+        model_.slope = slope;
     }
 
     struct trial
@@ -130,7 +158,7 @@ private:
         bool capped;
     };
 
-    /// The step of the lowest value among four, or among ever shorter ones until one meets the Armijo condition; the
+    /// The step of the lowest value among some, or among ever shorter ones until one meets the Armijo condition; the
     /// longest of those that rounding cannot tell apart.
     std::optional<trial> search()
     {
@@ -139,12 +167,17 @@ private:
         constexpr int rounds = 8;
         const double noise = rounding_ * f_.size(value_);
         double unit = 1, longest = 1;
+        const bool far = !exact_;
+        const double most = far ? 4 : 1;
+        std::vector<double> a, values;
         for (int round = 0; round < rounds && monitor_.proceed(); ++round, longest /= 16)
         {
-            std::array<double, 4> a, values;
-            for (std::size_t i = 0; i < a.size(); ++i) a[i] = std::ldexp(longest, -int(i));
+            a.resize(far && round == 0 ? 8 : 4);
+            values.resize(a.size());
+            for (std::size_t i = 0; i < a.size(); ++i)
+                a[i] = longest * (a.size() > 4 ? std::exp2(-0.5 * double(i)) : std::ldexp(1.0, -int(i)));
             if (round == 0)
-                unit = first_values(a, values);
+                unit = first_values(a, values, most);
             else
                 later_values(unit, a, values);
             monitor_.count(int(a.size()), 0);
@@ -154,24 +187,25 @@ private:
             for (std::size_t i = 0; i < a.size(); ++i)
                 if (good(i)) least = std::min(least, values[i]);
             for (std::size_t i = 0; i < a.size(); ++i)
-                if (good(i) && values[i] <= least + noise) return trial{unit * a[i], values[i], unit < 1 && a[i] == 1};
+                if (good(i) && values[i] <= least + noise)
+                    return trial{unit * a[i], values[i], unit < most && a[i] == 1};
         }
         return std::nullopt;
     }
 
-    /// Values at unit * a; returns the unit.
-    double first_values(std::span<const double> a, std::span<double> values)
+    /// Values at unit * a with a unit of at most `most`, which is returned.
+    double first_values(std::span<const double> a, std::span<double> values, double most)
     {
         const double fraction = common_.search.barrier_fraction;
         full_square_.reset();
-        if (near_end_)
+        if (near_end_ && most == 1)
             if (const auto r = f_.capped_values(x_, d_, fraction, a, values, full_, full_gradient_))
             {
                 monitor_.count(0, 1);
                 full_square_ = r->second;
                 return r->first;
             }
-        return f_.capped_values(x_, d_, fraction, a, values);
+        return f_.capped_values(x_, d_, fraction, a, values, most);
     }
 
     void later_values(double unit, std::span<const double> a, std::span<double> values)
@@ -185,6 +219,8 @@ private:
     std::optional<solve::stop> accept(const trial& t)
     {
         const bool full = full_square_ && t.step == 1;
+        along_stand_in_ = !exact_;
+        std::swap(g_, last_g_);
         std::swap(x_, previous_);
         if (full)
             std::swap(x_, full_);
@@ -259,11 +295,13 @@ private:
     stopping_test test_;
     solve::pcg<space_of<Objective>> pcg_;
     point previous_, full_; // full_: x_ + d_ and its gradient, in advance
-    vector g_, d_, full_gradient_;
+    vector g_, d_, last_g_, last_d_, full_gradient_;
     pcg_result model_;
     step_record step_;
     double value_ = 0, scale_ = 1, taken_ = 0;
     std::optional<double> full_square_; // norm of full_gradient_ squared, if it came with the trial steps
+    bool exact_ = false;                // d_ is of the Hessian itself
+    bool along_stand_in_ = false;       // last_d_ is of the stand-in
     bool near_end_ = true;              // the norm of the next gradient will be wanted
     bool pending_ = false;              // the last step has no gradient norm yet
     std::uint64_t waits_;               // before the start

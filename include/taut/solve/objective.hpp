@@ -36,10 +36,11 @@ using vector_of = typename space_of<O>::vector;
 /// |                                   | does. No trial step goes beyond a fraction of it                         |
 /// | `capping(x, d)`                   | numbers of the parts of the problem that meet the barrier first along d  |
 /// | `values(x, d, a, out)`            | out[i] = f(x + a[i] d), several steps in one pass over the data          |
-/// | `capped_values(x, d, u, a, out)`  | out[i] = f(x + s a[i] d) with s = min(1, u max_step), which is returned: |
-/// |                                   | the barrier and several trial steps in one wait                          |
-/// | `capped_values(..., full, g)`     | in the same wait full = x + d and g = its gradient; the pair of s and    |
-/// |                                   | the norm of g squared. For steps that are expected to be taken in full   |
+/// | `capped_values(x, d, u, a, out,   | out[i] = f(x + s a[i] d) with s = min(most, u max_step), which is        |
+/// |  most)`                           | returned: the barrier and several trial steps in one wait                |
+/// | `capped_values(..., out, full, g)`| with most = 1; in the same wait full = x + d and g = its gradient; the   |
+/// |                                   | pair of s and the norm of g squared. For steps that are expected to be   |
+/// |                                   | taken in full                                                            |
 /// | `value_gradient(x, g, square)`    | also the norm of the gradient squared, in the same wait                  |
 /// | `gradient(x, g)`                  | g = the gradient, without the value and without a wait                   |
 /// | `gradient_scale(x)`               | the norm of a gradient that is typical for the problem, in which         |
