@@ -28,8 +28,8 @@ namespace taut::detail
 class segmenting
 {
 public:
-    segmenting(const mesh<triangle>& m, const facet_table& f,
-               const std::function<chart_maps(const chart_mesh&)>& flatten, const segment_params& params)
+    segmenting(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
+               const segment_params& params)
         : mesh_(m),
           facets_(f),
           flatten_(flatten),
@@ -39,6 +39,7 @@ public:
           uv_(f.twin.size(), vec2(0.0)),
           chart_(m.cells().size(), 0),
           number_(m.points().size(), -1),
+          place_(m.cells().size(), -1),
           area_(m.cells().size())
     {
         for (std::size_t c = 0; c < area_.size(); ++c)
@@ -52,17 +53,24 @@ public:
     segmentation run()
     {
         cut_by_estimate();
+        if (budget_.over()) // pieces without maps, and without records of their own
+        {
+            charts_.push_back({.area = total_area_, .energy = infinite, .shape = {}, .triangles = {}});
+            return result();
+        }
         std::vector<idx> all(chart_.size());
         std::iota(all.begin(), all.end(), idx(0));
         renew(all);
         for (int round = 0; round < params_.cut_rounds && proceed(round); ++round)
         {
-            const bool sewn = unite_round(true);
+            const bool sewn = unite_round(unions::slits);
             if (!cut_round() && !sewn) break;
         }
-        for (int round = 0; round < params_.unite_rounds && proceed(round) && unite_round(false); ++round)
+        for (int round = 0; round < params_.unite_rounds && proceed(round) && unite_round(unions::all); ++round)
         {
         }
+        if (params_.unite_rounds > 0 && proceed(params_.unite_rounds)) unite_round(unions::small);
+        settle();
         return result();
     }
 
@@ -74,6 +82,8 @@ private:
         double area = 0, energy = 4;
         laid_shape shape;
         std::vector<idx> triangles; // ascending; none: there is no such chart any more
+        char settled = 1;           // its map is that of least energy
+        char strained = 1;          // of one that is cut: there is too much distortion, or it is ragged
 
         double excess() const { return area * (energy - 4); }
     };
@@ -93,22 +103,24 @@ private:
         return sum;
     }
 
-    /// The seams of a first set of charts. The estimate is about twice the distortion of maps.
+    /// What a chart takes of what is allowed to all. The pieces of one above the bound will be below it.
+    double to_share(const record& r) const
+    {
+        return r.energy < infinite ? std::min(r.excess(), (params_.max_distortion - 4) * r.area) : 0;
+    }
+
+    /// The seams of a first set of charts. The estimate is about twice the distortion of maps on smooth surfaces; on
+    /// others some charts say what it is.
     void cut_by_estimate()
     {
         budget_.lap();
-        const auto tree = make_cluster_tree(mesh_, facets_, params_.seams, params_.together);
+        const auto tree = make_cluster_tree(mesh_, facets_, params_.seams, params_.together, {}, &budget_);
         std::vector<char> chosen(u(tree.nodes()), 0);
+        for (idx n = 0; n < tree.nodes(); ++n) chosen[u(n)] = tree.parents[u(n)] == cluster_tree::none;
         double strain = 0;
-        for (idx n = 0; n < tree.nodes(); ++n)
-            if (tree.parents[u(n)] == cluster_tree::none)
-            {
-                chosen[u(n)] = 1;
-                strain += tree.strain[u(n)];
-            }
-        for (idx n = tree.nodes(); n-- > tree.leaves && strain > 2 * allowed();)
+        const auto undo = [&](idx n)
         {
-            chosen[u(n)] = 0; // those behind are no more: it is a chart
+            chosen[u(n)] = 0;
             strain -= tree.strain[u(n)];
             for (const idx child : tree.children[u(n - tree.leaves)])
                 if (child != cluster_tree::none)
@@ -116,11 +128,128 @@ private:
                     chosen[u(child)] = 1;
                     strain += tree.strain[u(child)];
                 }
+        };
+        double ratio = 0.5; // of distortion to its estimate
+        for (int pass = 0; pass < 3 && !budget_.over(); ++pass)
+        {
+            strain = 0;
+            for (idx n = 0; n < tree.nodes(); ++n) strain += chosen[u(n)] ? tree.strain[u(n)] : 0;
+            for (idx n = tree.nodes(); n-- > tree.leaves && ratio * strain > allowed();)
+                if (chosen[u(n)]) undo(n);
+            report_.tree_seconds += budget_.lap();
+            if (pass == 0) part_hopeless(mesh_, facets_, tree, chosen);
+            const double found = found_ratio(tree, chosen);
+            if (!(found > 1.25 * ratio)) break;
+            ratio = found;
         }
         seam_ = tree.seams(facets_, tree.labels(chosen));
-        report_.tree_seconds += budget_.lap();
-        straighten(mesh_, facets_, seam_, params_.seams, params_.together);
+        straighten(mesh_, facets_, seam_, params_.seams, params_.together, budget_);
         report_.straighten_seconds += budget_.lap();
+    }
+
+    /// The distortion of charts to its estimate, where there are so many that a small share of them says it; else 0.
+    double found_ratio(const cluster_tree& tree, const std::vector<char>& chosen)
+    {
+        constexpr double share = 0.05;         // of the triangles
+        constexpr idx largest = 1000, few = 8; // triangles of a chart; charts
+        const auto triangles = triangles_below(tree);
+        std::vector<char> some(chosen.size(), 0);
+        double quota = 0;
+        idx count = 0;
+        for (idx n = 0; n < tree.nodes(); ++n)
+        {
+            if (!chosen[u(n)] || triangles[u(n)] > largest || triangles[u(n)] < 2) continue;
+            quota += share * triangles[u(n)];
+            if (quota < triangles[u(n)]) continue;
+            quota -= triangles[u(n)];
+            some[u(n)] = 1;
+            ++count;
+        }
+        if (count < few) return 0;
+        double distortion = 0, estimate = 0;
+        flatten_some(mesh_, facets_, tree, chosen, some,
+                     [&](idx n, double energy, bool)
+                     {
+                         // What is above the bound is to be cut in any case.
+                         distortion += tree.area[u(n)] * (std::min(energy, params_.max_distortion) - 4);
+                         estimate += tree.strain[u(n)];
+                     });
+        return estimate > 0 ? distortion / estimate : 0;
+    }
+
+    /// Of each node of a tree.
+    static std::vector<idx> triangles_below(const cluster_tree& tree)
+    {
+        std::vector<idx> triangles(u(tree.nodes()), 0);
+        for (idx n = 0; n < tree.nodes(); ++n)
+        {
+            if (n < tree.triangles) triangles[u(n)] = 1;
+            if (const idx parent = tree.parents[u(n)]; parent != cluster_tree::none)
+                triangles[u(parent)] += triangles[u(n)];
+        }
+        return triangles;
+    }
+
+    /// Flattens some of the pieces that the nodes of an antichain are, and calls told(node, energy, overlaps itself).
+    template <class Told>
+    void flatten_some(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
+                      const std::vector<char>& antichain, const std::vector<char>& some, Told&& told)
+    {
+        const auto label = tree.labels(some);
+        std::vector<idx> triangles;
+        for (idx c = 0; c < tree.triangles; ++c)
+            if (label[u(c)] != cluster_tree::none) triangles.push_back(c);
+        std::vector<idx> number(m.points().size(), -1);
+        const surface_part part = part_of(m, triangles, tree.seams(f, tree.labels(antichain)), number);
+        const auto [maps, shapes] = flatten(part);
+        for (idx k = 0; k < part.charts.charts(); ++k)
+            told(label[u(part.triangles[u(part.charts.first_cell[u(k)])])], maps.energy[u(k)], shapes[u(k)].crosses);
+    }
+
+    /// Large charts cost most where no map is any good. The distortion of a map is no less than the one that its parts
+    /// have by themselves, so some of these are flattened first, and charts of which too many are above the bound, or
+    /// overlap themselves, become their parts.
+    /// chosen: nodes of the tree of a surface, changed
+    void part_hopeless(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
+                       std::vector<char>& chosen)
+    {
+        constexpr idx large = 2500, most = 1000; // triangles of a chart that is looked at, of a part
+        constexpr double share = 0.1;            // of the triangles that are flattened
+        constexpr double spoiled = 0.25;         // of their area
+        const auto triangles = triangles_below(tree);
+        std::vector<idx> whole(u(tree.nodes()), cluster_tree::none);
+        std::vector<char> parts(u(tree.nodes()), 0), some(u(tree.nodes()), 0); // parts of large charts, those looked at
+        std::vector<double> seen(u(tree.nodes()), 0), bad(u(tree.nodes()), 0); // of a chart: area of these
+        std::vector<double> quota(u(tree.nodes()), 0);
+        for (idx n = tree.nodes(); n-- > 0;)
+        {
+            const idx parent = tree.parents[u(n)];
+            if (chosen[u(n)])
+                whole[u(n)] = triangles[u(n)] > large ? n : cluster_tree::none;
+            else if (parent != cluster_tree::none && triangles[u(parent)] > most)
+                whole[u(n)] = whole[u(parent)];
+            if (whole[u(n)] == cluster_tree::none || triangles[u(n)] > most) continue;
+            parts[u(n)] = 1;
+            double& left = quota[u(whole[u(n)])]; // every so many triangles one part, so that all regions are looked at
+            left += share * triangles[u(n)];
+            if (left < triangles[u(n)] || 4 * triangles[u(n)] < most) continue;
+            left -= triangles[u(n)];
+            some[u(n)] = 1;
+        }
+        if (std::count(some.begin(), some.end(), char(1)) == 0) return;
+        flatten_some(m, f, tree, parts, some,
+                     [&](idx n, double energy, bool crosses)
+                     {
+                         const auto chart = u(whole[u(n)]);
+                         seen[chart] += tree.area[u(n)];
+                         if (!(energy <= params_.max_distortion) || crosses) bad[chart] += tree.area[u(n)];
+                     });
+        for (idx n = 0; n < tree.nodes(); ++n)
+        {
+            if (!parts[u(n)] || !(bad[u(whole[u(n)])] > spoiled * seen[u(whole[u(n)])])) continue;
+            chosen[u(n)] = 1;
+            chosen[u(whole[u(n)])] = 0;
+        }
     }
 
     /// Makes the charts of these triangles anew, from the seams, and their maps.
@@ -133,10 +262,10 @@ private:
         for (idx k = 0; k < part.charts.charts(); ++k) take(part, maps, shapes[u(k)], k);
     }
 
-    std::pair<chart_maps, std::vector<laid_shape>> flatten(const surface_part& part)
+    std::pair<chart_maps, std::vector<laid_shape>> flatten(const surface_part& part, std::span<const vec2> start = {})
     {
         budget_.lap();
-        chart_maps maps = flatten_(part.charts);
+        chart_maps maps = flatten_(part.charts, start);
         report_.flatten_seconds += budget_.lap();
         auto shapes = laid_shapes(part.charts, maps.uv, maps.energy);
         return {std::move(maps), std::move(shapes)};
@@ -145,7 +274,10 @@ private:
     /// Takes over chart k of a part, with its map.
     void take(const surface_part& part, const chart_maps& maps, const laid_shape& shape, idx k)
     {
-        record r{.area = 0, .energy = maps.energy[u(k)], .shape = shape, .triangles = {}};
+        record r{
+            .area = 0, .energy = maps.energy[u(k)], .shape = shape, .triangles = {}, .settled = maps.settled[u(k)]};
+        for (auto& pair : r.shape.meetings)
+            for (idx& c : pair) c = part.triangles[u(c)];
         for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
         {
             const idx c = part.triangles[i];
@@ -176,7 +308,7 @@ private:
             if (charts_[u(k)].triangles.size() > 1)
             {
                 order.push_back(k);
-                if (charts_[u(k)].energy < infinite) excess += charts_[u(k)].excess();
+                excess += to_share(charts_[u(k)]);
             }
         std::stable_sort(order.begin(), order.end(),
                          [&](idx a, idx b) { return charts_[u(a)].excess() > charts_[u(b)].excess(); });
@@ -186,15 +318,17 @@ private:
             const record& r = charts_[u(k)];
             const bool ragged = r.shape.fill < params_.least_fill && r.area > total_area_ / 200;
             if (r.energy <= params_.max_distortion && !r.shape.crosses && !ragged && excess <= allowed()) continue;
+            charts_[u(k)].strained = r.energy > params_.max_distortion || ragged || excess > allowed();
             chosen.push_back(k);
-            if (r.energy < infinite) excess -= 0.6 * r.excess(); // what two halves have less, about
+            excess -= 0.6 * to_share(r); // what two halves have less, about
         }
         if (chosen.empty()) return false;
         cut(chosen);
         return true;
     }
 
-    /// Cuts each of these charts so that the estimated distortion is halved.
+    /// Cuts each of these charts so that what overlaps is apart, and that the estimated distortion of strained ones is
+    /// halved.
     void cut(std::span<const idx> charts)
     {
         report_.cut += static_cast<idx>(charts.size());
@@ -209,7 +343,12 @@ private:
             return result;
         };
         const auto keep = of_part(params_.seams), together = of_part(params_.together);
-        const auto tree = make_cluster_tree(part.charts.surface, f, keep, together);
+        std::vector<std::array<idx, 2>> apart;
+        for (std::size_t i = 0; i < part.triangles.size(); ++i) place_[u(part.triangles[i])] = static_cast<idx>(i);
+        for (const idx k : charts)
+            for (const auto& [a, b] : charts_[u(k)].shape.meetings)
+                if (a != b) apart.push_back({place_[u(a)], place_[u(b)]});
+        const auto tree = make_cluster_tree(part.charts.surface, f, keep, together, apart, &budget_);
 
         // Pieces of a chart are undone in the order from the last.
         std::vector<char> chosen(u(tree.nodes()), 0);
@@ -220,15 +359,26 @@ private:
             const idx parent = tree.parents[u(n)];
             root[u(n)] = parent == cluster_tree::none ? n : root[u(parent)];
         }
-        // A chart may have several roots, where given seams part it.
+        // A chart may have several roots, where given seams part it or what overlaps is apart.
         const auto chart_of = [&](idx n) { return root[u(n)]; };
+        std::vector<idx> roots(charts_.size(), 0);
+        std::vector<idx> first(u(tree.nodes()), cluster_tree::none); // a triangle of each root
+        for (idx n = 0; n < tree.triangles; ++n)
+            if (idx& one = first[u(root[u(n)])]; one == cluster_tree::none)
+            {
+                one = n;
+                ++roots[u(chart_[u(part.triangles[u(n)])])];
+            }
         for (idx n = 0; n < tree.nodes(); ++n)
             if (root[u(n)] == n)
             {
                 chosen[u(n)] = 1;
-                pieces[u(n)] = 1;
                 strain[u(n)] = tree.strain[u(n)];
-                wanted[u(n)] = tree.strain[u(n)] / 2;
+                if (first[u(n)] == cluster_tree::none) continue; // a hole
+                const auto k = u(chart_[u(part.triangles[u(first[u(n)])])]);
+                const bool enough = roots[k] > 1 && !charts_[k].strained;
+                pieces[u(n)] = enough ? 2 : 1;
+                wanted[u(n)] = enough ? infinite : tree.strain[u(n)] / 2;
             }
         for (idx n = tree.nodes(); n-- > tree.leaves;)
         {
@@ -245,19 +395,31 @@ private:
                     pieces[r] += tree.area[u(child)] > 0;
                 }
         }
-        auto seam = tree.seams(f, tree.labels(chosen));
         report_.tree_seconds += budget_.lap();
-        straighten(part.charts.surface, f, seam, keep, together);
+        if (budget_.over()) return; // the charts that there are have maps
+        part_hopeless(part.charts.surface, f, tree, chosen);
+        auto seam = tree.seams(f, tree.labels(chosen));
+        straighten(part.charts.surface, f, seam, keep, together, budget_);
+        if (budget_.over()) return;
         for (std::size_t s = 0; s < seam.size(); ++s)
             if (f.twin[s] >= 0) seam_[part.origin(s)] = seam[s];
         report_.straighten_seconds += budget_.lap();
         renew(triangles);
     }
 
-    /// Flattens pairs of neighbouring charts as one, and keeps those that the bounds allow. False if no pair is left.
-    /// slits: instead of pairs, charts that cross themselves without a slit that may be why
-    bool unite_round(bool slits)
+    /// What is tried as one chart.
+    enum class unions
     {
+        all,   ///< pairs of neighbours
+        small, ///< such pairs of little area: cuts leave many behind, and they cost little
+        slits  ///< charts that cross themselves, without a slit that may be why
+    };
+
+    /// Flattens pairs of neighbouring charts as one, and keeps those that the bounds allow. False if no pair is left.
+    bool unite_round(unions what)
+    {
+        constexpr double little = 0.01; // of all area
+        const bool slits = what == unions::slits;
         struct pair
         {
             double price = 0;
@@ -266,7 +428,10 @@ private:
         };
         const double room = allowed() - total_excess();
         if (!(room > 0)) return false;
-        const csr arcs = seam_arcs(mesh_, facets_, starting_sides(mesh_), seam_);
+        const auto crossing = [](const record& r) { return !r.triangles.empty() && r.shape.crosses; };
+        if (slits && std::none_of(charts_.begin(), charts_.end(), crossing)) return false;
+        if (sides_.items.empty()) sides_ = starting_sides(mesh_);
+        const csr arcs = seam_arcs(mesh_, facets_, sides_, seam_);
         std::vector<chart_moments> moments(charts_.size());
         for (idx c = 0; c < mesh_.cell_count(); ++c)
         {
@@ -294,6 +459,7 @@ private:
             chart_moments sum = moments[u(p)];
             if (p != q) sum += moments[u(q)];
             sum.perimeter -= 2 * shared;
+            if (what == unions::small && sum.area > little * total_area_) continue;
             const double strain = sum.strain();
             // An estimate that is far above the bound is seldom wrong.
             if (strain / sum.area > 4 * (params_.max_distortion - 4)) continue;
@@ -315,13 +481,40 @@ private:
         return !tried.empty() && try_pairs(arcs, tried, room);
     }
 
+    /// Charts that stay although their maps were not finished get maps that are.
+    void settle()
+    {
+        std::vector<idx> some;
+        for (idx k = 0; k < static_cast<idx>(charts_.size()); ++k)
+            if (!charts_[u(k)].settled && !charts_[u(k)].triangles.empty()) some.push_back(k);
+        if (some.empty() || !budget_.proceed()) return;
+        const auto triangles = triangles_of(some);
+        const surface_part part = part_of(mesh_, triangles, seam_, number_);
+        std::vector<vec2> start(part.charts.surface.points().size());
+        for (std::size_t i = 0; i < part.triangles.size(); ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                start[u(part.charts.surface.cells()[i][j])] = uv_[3 * u(part.triangles[i]) + j];
+        const auto [maps, shapes] = flatten(part, start);
+        for (idx k = 0; k < part.charts.charts(); ++k)
+        {
+            record& before = charts_[u(chart_[u(part.triangles[u(part.charts.first_cell[u(k)])])])];
+            if (!(maps.energy[u(k)] <= before.energy)) continue; // the time was over before its turn
+            before.triangles.clear();
+            take(part, maps, shapes[u(k)], k);
+        }
+    }
+
     /// Two charts, or one that is named twice, as they are.
     record before(const std::array<idx, 2>& charts) const
     {
         const record &a = charts_[u(charts[0])], &b = charts_[u(charts[1])];
-        if (charts[0] == charts[1]) return {a.area, a.energy, a.shape, {}};
+        if (charts[0] == charts[1])
+            return {.area = a.area, .energy = a.energy, .shape = {a.shape.crosses, a.shape.fill, {}}, .triangles = {}};
         const double area = a.area + b.area;
-        return {area, 4 + (a.excess() + b.excess()) / area, {false, std::min(a.shape.fill, b.shape.fill)}, {}};
+        return {.area = area,
+                .energy = 4 + (a.excess() + b.excess()) / area,
+                .shape = {false, std::min(a.shape.fill, b.shape.fill), {}},
+                .triangles = {}};
     }
 
     /// Whether a chart is a disk, or one with holes: by Euler, V - E + F = 2 - loops.
@@ -460,7 +653,7 @@ private:
 
     const mesh<triangle>& mesh_;
     const facet_table& facets_;
-    const std::function<chart_maps(const chart_mesh&)>& flatten_;
+    const charts_to_maps& flatten_;
     const segment_params& params_;
     budget budget_;
     segment_report report_;
@@ -468,14 +661,15 @@ private:
     std::vector<vec2> uv_;    // one a corner
     std::vector<idx> chart_;  // one a triangle: its record
     std::vector<idx> number_; // for part_of()
+    csr sides_;               // that start at each vertex, once they are asked for
+    std::vector<idx> place_;  // of triangles in the part that is cut
     std::vector<double> area_;
     double total_area_ = 0;
     std::vector<record> charts_;
     std::vector<std::array<idx, 2>> refused_; // pairs that the bounds did not allow, ascending
 };
 
-TAUT_INLINE segmentation segment_surface(const mesh<triangle>& m, const facet_table& f,
-                                         const std::function<chart_maps(const chart_mesh&)>& flatten,
+TAUT_INLINE segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
                                          const segment_params& params)
 {
     params.validate();
