@@ -165,24 +165,28 @@ private:
         }
         const edge_tree box_tree(boxes, corners);
         std::vector<std::pair<idx, int>> windings; // by charts above the point
+        std::vector<idx> candidates;               // charts whose boxes have it
         for (std::size_t e = 0; e < chart_.size() && found_.all; ++e)
         {
             const idx v = outlines_.edges[e][0];
             if (parts.find(v) != v) continue; // the smallest vertex of a part begins one of its edges
             const vec2 p = uv_[u(v)];
             double top = -std::numeric_limits<double>::max();
+            candidates.clear();
             box_tree.for_each_in(p, p,
                                  [&](std::size_t c)
                                  {
-                                     if (static_cast<idx>(c) != chart_[e]) top = std::max(top, corners[2 * c + 1].y);
+                                     if (static_cast<idx>(c) == chart_[e]) return true;
+                                     candidates.push_back(static_cast<idx>(c));
+                                     top = std::max(top, corners[2 * c + 1].y);
                                      return true;
                                  });
-            if (top < p.y) continue;
+            if (candidates.empty()) continue;
             windings.clear();
             tree.for_each_in(p, {p.x, top},
                              [&](std::size_t i)
                              {
-                                 if (chart_[i] != chart_[e])
+                                 if (std::find(candidates.begin(), candidates.end(), chart_[i]) != candidates.end())
                                      if (const int w = crossing_above(p, i); w != 0)
                                          windings.emplace_back(chart_[i], w);
                                  return spend();

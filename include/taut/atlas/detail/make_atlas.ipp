@@ -50,9 +50,11 @@ public:
         join_polygons();
         lay();
         // Borders that all but touch may meet by the rounding of their places.
-        if (const auto touching = overlapping(uv_); std::count(touching.begin(), touching.end(), char(1)) > 0)
+        for (const std::size_t largest : {1024U, 1U})
         {
-            take_apart(touching);
+            const auto touching = overlapping(uv_);
+            if (std::count(touching.begin(), touching.end(), char(1)) == 0) break;
+            take_apart(touching, largest);
             lay();
         }
         certify_all();
@@ -192,7 +194,8 @@ private:
 
     /// These charts become patches that lie as they are seen, and single triangles where even those overlap; charts
     /// that are to be kept cannot.
-    void take_apart(std::vector<char> bad)
+    /// most: triangles of a patch
+    void take_apart(std::vector<char> bad, std::size_t most = 1024)
     {
         if (!report_.reason.empty()) return;
         const auto first_bad = static_cast<std::size_t>(std::find(bad.begin(), bad.end(), char(1)) - bad.begin());
@@ -207,6 +210,7 @@ private:
         const idx charts = charts_->charts();
         for (const std::size_t largest : {1024U, 64U, 8U, 1U})
         {
+            if (largest > most) continue;
             lay_patches(bad, largest);
             bad = overlapping(flat_);
             if (std::count(bad.begin(), bad.end(), char(1)) == 0) break;
