@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import shutil
 import signal
 import subprocess
@@ -230,6 +231,28 @@ def polygons_and_several_surfaces():
     judge("one.obj", both[0], got_faces)
 
 
+def polygons_of_any_outline():
+    """Letters: flat polygons that are far from convex, and one that is bent."""
+    letters = [[(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (2.5, 2), (2.5, 3), (1, 3), (1, 4), (3, 4), (3, 5), (0, 5)],
+               [(0, 0), (1, 0), (1, 3), (2.5, 1.5), (4, 3), (4, 0), (5, 0), (5, 5), (4, 5), (2.5, 3), (1, 5), (0, 5)],
+               [(r * math.cos(a / 6), r * math.sin(a / 6)) for r, some in ((3, range(34)), (2, range(33, -1, -1)))
+                for a in some]]
+    for k, outline in enumerate(letters + letters[2:]):
+        n = len(outline)
+        points = [[float(x), float(y), z + (0.3 * math.sin(1.7 * x) * math.cos(1.3 * y) if k == 3 else 0.0)]
+                  for z in (0.0, 1.0) for x, y in outline]
+        faces = [list(range(n))[::-1], list(range(n, 2 * n))]
+        faces += [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+        write("letter.obj", points, faces)
+        run("atlas", "letter.obj", "-o", "out.obj", "--repair", "--stats", "s.json")
+        stats("s.json")
+        got, uv, got_faces, texcoords = read("out.obj")
+        assert got == points and got_faces == faces
+        area = [sum(uv[t[i - 1]][0] * uv[t[i]][1] - uv[t[i]][0] * uv[t[i - 1]][1] for i in range(len(t)))
+                for t in texcoords]
+        assert min(area) > 0, f"letter {k}: face {area.index(min(area))} is turned over"
+
+
 def wrong_usage():
     points, faces = ball(4)
     write("ball.obj", points, faces)
@@ -246,24 +269,40 @@ def wrong_usage():
 
 
 def stops():
+    """What ends early leaves an atlas behind, at whatever time."""
     points, faces = ball(60, bumps=0.2)
-    pathlib.Path("out.obj").unlink(missing_ok=True)
     write("large.obj", points, faces)
-    began = time.monotonic()
-    done = subprocess.Popen([TAUT, "atlas", "large.obj", "-o", "out.obj", "--progress", "json"],
-                            stderr=subprocess.PIPE, text=True)
-    stage = ""
-    for line in done.stderr:
-        if line.startswith("{"):
-            stage = json.loads(line)["phase"]
-            if stage == "flatten":
-                break
-    assert stage == "flatten", stage
-    os.kill(done.pid, signal.SIGINT)
-    done.communicate()
-    assert done.returncode == 130, (done.returncode, time.monotonic() - began)
-    if pathlib.Path("out.obj").exists():
+    for arguments, wanted in ((["--progress", "json"], "charts"), (["--progress", "json"], "flatten"),
+                              (["--progress", "json"], "pack")):
+        pathlib.Path("out.obj").unlink(missing_ok=True)
+        done = subprocess.Popen([TAUT, "atlas", "large.obj", "-o", "out.obj", *arguments], stderr=subprocess.PIPE,
+                                text=True)
+        stage = ""
+        for line in done.stderr:
+            if line.startswith("{"):
+                stage = json.loads(line)["phase"]
+                if stage == wanted:
+                    break
+        assert stage == wanted, stage
+        os.kill(done.pid, signal.SIGINT)
+        done.communicate()
+        assert done.returncode in (130, 0) and (wanted == "pack" or done.returncode == 130), done.returncode
         judge("out.obj", points, faces)
+
+    # Rough all over: a box of jagged quads, none of whose charts are large. It takes longer than that.
+    rng = random.Random(1)
+    points, faces = ball(90)
+    points = [[c * (1 + 0.02 * (rng.random() - 0.5)) for c in p] for p in points]
+    write("rough.obj", points, faces)
+    for limit in (0.4, 0.8):
+        done = subprocess.run([TAUT, "atlas", "rough.obj", "-o", "rough.out.obj", "--time-limit", str(limit), "--stats",
+                               "s.json"], capture_output=True, text=True, check=False)
+        if done.returncode == 6: # it was still being read
+            assert "time limit" in done.stderr
+            continue
+        assert done.returncode in (8, 0), done.stderr
+        assert stats("s.json")["complete"] == (done.returncode == 0)
+        judge("rough.out.obj", points, faces, samples=128)
 
 
 def main():
@@ -271,7 +310,8 @@ def main():
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
     for case in (closed_surfaces, parts_holes_and_padding, repairs, kept_charts_and_seams,
-                 polygons_and_several_surfaces, wrong_usage, stops):
+                 polygons_and_several_surfaces, polygons_of_any_outline,
+                 wrong_usage, stops):
         begin = time.monotonic()
         case()
         print(f"{case.__name__}: {time.monotonic() - begin:.1f} s", flush=True)

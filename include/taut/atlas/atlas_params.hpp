@@ -42,7 +42,8 @@ struct atlas_params
     /// What a file makes of a coordinate, as by rounding to floats: the certificate is of these. Null: nothing.
     vec2 (*stored)(vec2) = nullptr;
 
-    /// Wall-clock limit of the whole call. What is not flattened by then is as it began.
+    /// Wall-clock limit of the whole call. What has no good map by then is laid in patches, as it is seen from one
+    /// side.
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
     /// Asked several times a second whether to go on.

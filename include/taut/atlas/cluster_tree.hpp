@@ -16,6 +16,7 @@
 #include <taut/atlas/detail/arc_graph.hpp>
 #include <taut/atlas/detail/chart_moments.hpp>
 #include <taut/atlas/detail/seam_weights.hpp>
+#include <taut/core/budget.hpp>
 
 namespace taut
 {
@@ -74,8 +75,9 @@ class clustering
 {
 public:
     /// keep: one flag a side, edges that remain seams, or empty; together: those that go before all others, or empty
+    /// apart: pairs of triangles that no piece has both of
     clustering(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep,
-               std::span<const char> together)
+               std::span<const char> together, std::span<const std::array<idx, 2>> apart)
         : mesh_(m),
           facets_(f),
           together_(together),
@@ -84,8 +86,14 @@ public:
           pieces_(u(graph_.polygons())),
           arcs_(u(graph_.half_arcs())),
           stamp_(arcs_.size(), 0),
-          after_(f.twin.size(), -1)
+          after_(f.twin.size(), -1),
+          rivals_(apart.empty() ? 0 : pieces_.size())
     {
+        for (const auto& [a, b] : apart)
+        {
+            rivals_[u(a)].push_back(b);
+            rivals_[u(b)].push_back(a);
+        }
         tree_.triangles = m.cell_count();
         tree_.leaves = graph_.polygons();
         tree_.sewn.assign(f.twin.size(), cluster_tree::never);
@@ -117,8 +125,11 @@ public:
             }
     }
 
-    cluster_tree run()
+    /// limits: asked now and then; where it says no, pieces remain as they are by then
+    cluster_tree run(budget* limits)
     {
+        constexpr int often = 4096; // some milliseconds
+        int until_asked = 0;
         for (idx h = 0; h < sides_; ++h)
             if (graph_.arc(h) == h)
             {
@@ -129,6 +140,11 @@ public:
             }
         while (!queue_.empty())
         {
+            if (limits != nullptr && until_asked-- == 0)
+            {
+                until_asked = often;
+                if (!limits->proceed()) break;
+            }
             const offered e = queue_.top();
             queue_.pop();
             if (!graph_.alive(e.arc) || stamp_[u(e.arc)] != e.stamp) continue;
@@ -227,7 +243,7 @@ private:
         double cost = -p.strain;
         if (arcs_[u(h)].border || leaves_one_edge(h))
             return infinite;
-        else if (graph_.parts(h))
+        else if (graph_.parts(h) && !are_rivals(graph_.polygon(h), graph_.polygon(t)))
             cost -= pieces_[u(graph_.polygon(t))].strain;
         else if (graph_.dangles(h) || graph_.dangles(t))
             cost += p.moments.area * corner_[u(graph_.start(graph_.dangles(h) ? t : h))];
@@ -241,6 +257,15 @@ private:
     {
         const idx last = graph_.last_without(h);
         return last >= 0 && arcs_[u(last)].first == arcs_[u(last)].last;
+    }
+
+    /// Whether two pieces, by their polygons, have triangles that are to be apart.
+    bool are_rivals(idx p, idx q)
+    {
+        if (rivals_.empty()) return false;
+        if (rivals_[u(p)].size() > rivals_[u(q)].size()) std::swap(p, q);
+        const auto& some = rivals_[u(p)];
+        return std::any_of(some.begin(), some.end(), [&](idx c) { return graph_.polygon(3 * c) == q; });
     }
 
     void push(idx h, double price) { queue_.push({price, h, ++stamp_[u(h)]}); }
@@ -280,8 +305,19 @@ private:
         tree_.area.push_back(result.moments.area);
         tree_.strain.push_back(std::max(0.0, result.strain - result.noise));
 
+        std::vector<idx> rivals;
+        if (!rivals_.empty() && graph_.parts(h))
+        {
+            auto &a = rivals_[u(graph_.polygon(h))], &b = rivals_[u(graph_.polygon(graph_.twin(h)))];
+            if (a.size() < b.size()) std::swap(a, b);
+            a.insert(a.end(), b.begin(), b.end());
+            rivals = std::move(a);
+        }
+        const bool parted = children[1] != cluster_tree::none;
         const auto [one, other] = graph_.remove(h);
-        pieces_[u(graph_.polygon(one >= 0 ? one : other))] = result;
+        const auto polygon = u(graph_.polygon(one >= 0 ? one : other));
+        pieces_[polygon] = result;
+        if (!rivals_.empty() && parted) rivals_[polygon] = std::move(rivals);
         const idx before = one >= 0 ? graph_.prev(one) : -1;
         if (one >= 0) settle(one);
         // Where both ends were those of one arc, that one has gone with the first.
@@ -310,12 +346,13 @@ private:
     std::span<const char> together_;
     arc_graph graph_;
     idx sides_;
-    std::vector<piece> pieces_;  // one a polygon
-    std::vector<arc> arcs_;      // one an arc, by its number
-    std::vector<int> stamp_;     // of the offer that counts
-    std::vector<idx> after_;     // next side of an arc
-    std::vector<double> corner_; // one a node that stays the end of arcs: distortion if it is inside; 0: none
-    std::vector<char> open_;     // holes
+    std::vector<piece> pieces_;            // one a polygon
+    std::vector<arc> arcs_;                // one an arc, by its number
+    std::vector<int> stamp_;               // of the offer that counts
+    std::vector<idx> after_;               // next side of an arc
+    std::vector<double> corner_;           // one a node that stays the end of arcs: distortion if it is inside; 0: none
+    std::vector<char> open_;               // holes
+    std::vector<std::vector<idx>> rivals_; // one a polygon: triangles that its piece is to be without; or empty
     std::priority_queue<offered> queue_;
     cluster_tree tree_;
 };
@@ -326,10 +363,13 @@ private:
 /// m:    an oriented manifold; several components, handles and holes are welcome; f: its facets
 /// keep: one flag a side, edges that are to remain seams, the same on both sides; or empty
 /// together: edges whose triangles are united before all others, in the same way
+/// apart: pairs of triangles that no piece is to have both of
+/// limits: asked now and then, or null; where it says no, what is united by then is the tree
 inline cluster_tree make_cluster_tree(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep = {},
-                                      std::span<const char> together = {})
+                                      std::span<const char> together = {},
+                                      std::span<const std::array<idx, 2>> apart = {}, budget* limits = nullptr)
 {
-    return detail::clustering(m, f, keep, together).run();
+    return detail::clustering(m, f, keep, together, apart).run(limits);
 }
 
 } // namespace taut

@@ -65,6 +65,8 @@ struct chart_report
     bool multigrid = false; ///< it went to `parameterize`
     chart_outcome outcome = chart_outcome::stopped;
     std::string reason = {}; ///< why there is no valid map
+
+    bool settled() const { return outcome != chart_outcome::iterations; } ///< more steps would be of no use
 };
 
 /// Wall-clock seconds of the stages.

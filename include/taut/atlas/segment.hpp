@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -38,13 +39,14 @@ struct segment_params
     /// At most so many times charts are cut further, 0 to 100. Each time those that were cut are flattened.
     int cut_rounds = 8;
 
-    /// At most so many times neighbours are united, 0 to 100. Each time, most of the surface is flattened anew.
+    /// At most so many times neighbours are united, 0 to 100. Each time, most of the surface is flattened anew. Small
+    /// ones are tried once more, unless it is 0.
     int unite_rounds = 1;
 
-    /// Time limit of the whole call: no round begins afterwards.
+    /// Time limit of the whole call: charts are then what they are, or pieces without maps.
     budget::seconds time_limit = budget::unlimited;
 
-    /// Asked before each round: go on?
+    /// Asked before each round and within it: go on?
     taut::observer observer = {};
 
     /// Throws parameter_error with the name of a field outside its domain.
@@ -89,13 +91,17 @@ struct chart_maps
 {
     std::vector<vec2> uv;       ///< one a vertex
     std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
+    std::vector<char> settled;  ///< one a chart; 0: the map could be better, for want of effort
 };
 
 namespace detail
 {
 
-segmentation segment_surface(const mesh<triangle>& m, const facet_table& f,
-                             const std::function<chart_maps(const chart_mesh&)>& flatten, const segment_params& params);
+/// Maps of charts; of those that are given a map to begin with, all that effort can do.
+using charts_to_maps = std::function<chart_maps(const chart_mesh&, std::span<const vec2>)>;
+
+segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
+                             const segment_params& params);
 
 } // namespace detail
 
@@ -108,7 +114,9 @@ segmentation segment_surface(const mesh<triangle>& m, const facet_table& f,
 /// beside that of `flatten`.
 ///
 /// m: an oriented manifold without flat triangles; f: its facets
-/// flatten: callable with a chart_mesh, returns uv (one a vertex), and charts with `valid` and `energy` each
+/// flatten: callable with a chart_mesh, returns uv (one a vertex), and charts with `valid` and `energy` each. It may
+///    take a second argument, std::span<const vec2>, and say settled() of charts: then it need not make much effort for
+///    charts that most often are cut anyway. Those that stay and are not settled come again with the maps so far.
 /// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).
 template <class Flatten>
 segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& flatten,
@@ -116,12 +124,25 @@ segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& fl
 {
     return detail::segment_surface(
         m, f,
-        [&](const chart_mesh& charts)
+        [&](const chart_mesh& charts, std::span<const vec2> start)
         {
-            auto flat = flatten(charts);
-            chart_maps maps{std::move(flat.uv), {}};
+            constexpr bool in_steps = std::is_invocable_v<Flatten&, const chart_mesh&, std::span<const vec2>>;
+            auto flat = [&]
+            {
+                if constexpr (in_steps)
+                    return flatten(charts, start);
+                else
+                    return flatten(charts);
+            }();
+            chart_maps maps{std::move(flat.uv), {}, {}};
             for (const auto& chart : flat.charts)
+            {
                 maps.energy.push_back(chart.valid ? chart.energy : std::numeric_limits<double>::infinity());
+                if constexpr (in_steps)
+                    maps.settled.push_back(!chart.valid || chart.settled());
+                else
+                    maps.settled.push_back(1);
+            }
             return maps;
         },
         params);

@@ -148,17 +148,45 @@ private:
     {
         disjoint_sets parts(static_cast<idx>(uv_.size()));
         for (const auto& [a, b] : outlines_.edges) parts.join(a, b);
+        // A ray need not lead further than the charts whose boxes have its beginning.
+        std::vector<vec2> corners;
+        std::vector<std::array<idx, 2>> boxes;
+        for (std::size_t c = 0; c + 1 < outlines_.first.size(); ++c)
+        {
+            boxes.push_back({static_cast<idx>(2 * c), static_cast<idx>(2 * c + 1)});
+            vec2 low(std::numeric_limits<double>::max()), high = -low;
+            for (auto e = u(outlines_.first[c]); e < u(outlines_.first[c + 1]); ++e)
+                for (const idx v : outlines_.edges[e])
+                {
+                    low = glm::min(low, uv_[u(v)]);
+                    high = glm::max(high, uv_[u(v)]);
+                }
+            corners.insert(corners.end(), {low, high});
+        }
+        const edge_tree box_tree(boxes, corners);
         std::vector<std::pair<idx, int>> windings; // by charts above the point
+        std::vector<idx> candidates;               // charts whose boxes have it
         for (std::size_t e = 0; e < chart_.size() && found_.all; ++e)
         {
             const idx v = outlines_.edges[e][0];
             if (parts.find(v) != v) continue; // the smallest vertex of a part begins one of its edges
             const vec2 p = uv_[u(v)];
+            double top = -std::numeric_limits<double>::max();
+            candidates.clear();
+            box_tree.for_each_in(p, p,
+                                 [&](std::size_t c)
+                                 {
+                                     if (static_cast<idx>(c) == chart_[e]) return true;
+                                     candidates.push_back(static_cast<idx>(c));
+                                     top = std::max(top, corners[2 * c + 1].y);
+                                     return true;
+                                 });
+            if (candidates.empty()) continue;
             windings.clear();
-            tree.for_each_in(p, {p.x, std::numeric_limits<double>::max()},
+            tree.for_each_in(p, {p.x, top},
                              [&](std::size_t i)
                              {
-                                 if (chart_[i] != chart_[e])
+                                 if (std::find(candidates.begin(), candidates.end(), chart_[i]) != candidates.end())
                                      if (const int w = crossing_above(p, i); w != 0)
                                          windings.emplace_back(chart_[i], w);
                                  return spend();

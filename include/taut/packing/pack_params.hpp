@@ -39,7 +39,7 @@ struct pack_params
 
     /// When it is over the best layout so far is returned; one of shelves costs next to nothing and is made first.
     budget::seconds time_limit = budget::unlimited;
-    taut::observer observer; ///< asked every 64 charts of a layout
+    taut::observer observer; ///< asked every 8 charts of a layout
 
     /// Throws parameter_error.
     void validate(idx charts) const

@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <vector>
 
 #include <support/chart_checks.hpp>
 #include <support/closed_meshes.hpp>
@@ -106,4 +108,40 @@ TEST_CASE("cluster_tree: strain of a piece is that of its normals, and nothing o
     CHECK(strain(test::grid(20, 20)) < 1e-9);
     CHECK(strain(test::cap(24, 0.3)) < 1e-3);
     CHECK(strain(test::cap(24)) > 0.02);
+}
+
+TEST_CASE("cluster_tree: triangles that are to be apart are in different pieces, and pieces remain disks")
+{
+    for (const auto& m : {test::ball(8), test::bumpy(16), test::torus(12, true)})
+    {
+        const auto f = facets(m);
+        std::vector<std::array<idx, 2>> apart;
+        for (idx c = 0; c + 40 < m.cell_count(); c += 41) apart.push_back({c, c + 40});
+        const auto tree = make_cluster_tree(m, f, {}, {}, apart);
+        std::vector<char> roots;
+        for (const idx parent : tree.parents) roots.push_back(parent == cluster_tree::none);
+        const auto label = tree.labels(roots);
+        for (const auto& [a, b] : apart)
+            CHECK(label[static_cast<std::size_t>(a)] != label[static_cast<std::size_t>(b)]);
+        const idx charts = test::check_flattenable(m, f, tree.seams(f, label));
+        CHECK(charts >= 2);
+        CHECK(charts < m.cell_count() / 4);
+    }
+}
+
+TEST_CASE("cluster_tree: what is united when the time is over can be flattened")
+{
+    const auto m = test::bumpy(80);
+    const auto f = facets(m);
+    for (const int questions : {0, 1, 3})
+    {
+        int asked = 0;
+        budget limits(budget::unlimited, [&](const progress&) { return ++asked <= questions; });
+        const auto tree = make_cluster_tree(m, f, {}, {}, {}, &limits);
+        CHECK(limits.over());
+        CHECK(asked == questions + 1);
+        std::vector<char> roots;
+        for (const idx parent : tree.parents) roots.push_back(parent == cluster_tree::none);
+        CHECK(test::check_flattenable(m, f, tree.seams(f, tree.labels(roots))) > 1);
+    }
 }

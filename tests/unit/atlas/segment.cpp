@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
 
 #include <support/closed_meshes.hpp>
 #include <support/host_flatten.hpp>
@@ -167,4 +171,74 @@ TEST_CASE("segment: a parameter outside its domain is named")
     CHECK(field({.mean_distortion = 3}) == "mean_distortion");
     CHECK(field({.cut_rounds = -1}) == "cut_rounds");
     CHECK(field({.unite_rounds = 101}) == "unite_rounds");
+}
+
+TEST_CASE("segment: a ramp that winds over itself is cut where it does")
+{
+    constexpr int around = 40, turns = 3;
+    std::vector<vec3> points;
+    std::vector<std::array<idx, 3>> cells;
+    for (int i = 0; i <= around * turns; ++i)
+        for (const double r : {2.0, 2.5, 3.0})
+        {
+            const double a = 2 * std::numbers::pi * i / around;
+            points.emplace_back(r * std::cos(a), r * std::sin(a), 0.05 * a);
+        }
+    for (idx i = 0; i < around * turns; ++i)
+        for (const idx k : {0, 1})
+        {
+            const idx a = 3 * i + k;
+            cells.push_back({a, a + 1, a + 4});
+            cells.push_back({a, a + 4, a + 3});
+        }
+    const auto ramp = check_segmentation(mesh<triangle>(points, cells), {.least_fill = 0});
+    CHECK(ramp.charts.charts() <= 2 * turns);
+}
+
+TEST_CASE("segment: charts that stay and whose maps were not finished come again with these")
+{
+    const auto m = test::bumpy(16);
+    struct report
+    {
+        double energy;
+        bool valid, done;
+        bool settled() const { return done; }
+    };
+    struct maps
+    {
+        std::vector<vec2> uv;
+        std::vector<report> charts;
+    };
+    idx hasty = 0, thorough = 0;
+    const auto result = segment(m, facets(m),
+                                [&](const chart_mesh& charts, std::span<const vec2> start)
+                                {
+                                    const bool again = !start.empty();
+                                    if (again) CHECK(start.size() == charts.surface.points().size());
+                                    (again ? thorough : hasty) += charts.charts();
+                                    const auto flat = test::flatten_on_host(charts);
+                                    maps given{again ? std::vector<vec2>(start.begin(), start.end()) : flat.uv, {}};
+                                    for (const auto& c : flat.charts)
+                                        given.charts.push_back({c.energy, c.valid, again});
+                                    return given;
+                                });
+    CHECK(thorough == result.charts.charts());
+    CHECK(hasty >= thorough);
+    CHECK(result.report.unmapped == 0);
+}
+
+TEST_CASE("segment: who stops it at once gets pieces without maps")
+{
+    const auto m = test::bumpy(80);
+    idx flattened = 0;
+    const auto flatten = [&](const chart_mesh& charts)
+    {
+        flattened += charts.charts();
+        return test::flatten_on_host(charts);
+    };
+    const auto result = segment(m, facets(m), flatten, {.observer = [](const progress&) { return false; }});
+    CHECK(flattened == 0);
+    CHECK(result.report.unmapped == result.charts.charts());
+    CHECK(test::check_flattenable(m, facets(m), result.seam) == result.charts.charts());
+    CHECK(result.charts.surface.cell_count() == m.cell_count());
 }

@@ -224,6 +224,7 @@ private:
             report.outcome = !map                                      ? chart_outcome::no_map
                              : solve::converged(map.report.solve.stop) ? chart_outcome::converged
                              : clock_.over()                           ? chart_outcome::stopped
+                             : steps >= params_.max_iterations         ? chart_outcome::iterations
                                                                        : chart_outcome::stuck;
             if (map) work_[k].uv = std::move(map.uv);
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -18,8 +19,9 @@ namespace taut::detail
 /// What a chart is like in the plane.
 struct laid_shape
 {
-    bool crosses = false; ///< it overlaps itself
-    double fill = 1;      ///< its area by that of its convex hull
+    bool crosses = false;                     ///< it overlaps itself
+    double fill = 1;                          ///< its area by that of its convex hull
+    std::vector<std::array<idx, 2>> meetings; ///< pairs of triangles whose sides on the border meet: most of them
 };
 
 inline double cross(const vec2& a, const vec2& b, const vec2& c)
@@ -46,6 +48,38 @@ inline double hull_area(std::vector<vec2> points)
     return twice / 2;
 }
 
+/// The triangles at the sides of a chart's border that meet.
+inline std::vector<std::array<idx, 2>> meeting_triangles(const chart_mesh& charts, std::size_t chart,
+                                                         std::span<const std::vector<idx>> loops,
+                                                         std::span<const vec2> uv)
+{
+    constexpr std::size_t enough = 8; // of a side
+    const auto edges = edges_of(loops);
+    const auto sorted = [](idx a, idx b) { return std::array{std::min(a, b), std::max(a, b)}; };
+    std::vector<std::pair<std::array<idx, 2>, idx>> sides; // of all triangles
+    for (idx c = charts.first_cell[chart]; c < charts.first_cell[chart + 1]; ++c)
+    {
+        const auto& t = charts.surface.cells()[static_cast<std::size_t>(c)];
+        for (std::size_t k = 0; k < 3; ++k) sides.push_back({sorted(t[k], t[(k + 1) % 3]), c});
+    }
+    std::sort(sides.begin(), sides.end());
+    const auto triangle = [&](const std::array<idx, 2>& e)
+    { return std::lower_bound(sides.begin(), sides.end(), std::pair(sorted(e[0], e[1]), idx(0)))->second; };
+    std::vector<std::array<idx, 2>> meetings;
+    std::vector<std::size_t> count(edges.size(), 0);
+    for_each_meeting(
+        edges, uv,
+        [&](std::size_t i, std::size_t j)
+        {
+            if (std::min(count[i], count[j]) < enough) meetings.push_back({triangle(edges[i]), triangle(edges[j])});
+            ++count[i];
+            ++count[j];
+            return true;
+        },
+        1000 * edges.size());
+    return meetings;
+}
+
 /// The shapes of charts, one each; of those without a map, whose energy is infinite, nothing is known.
 inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<const vec2> uv,
                                            std::span<const double> energy)
@@ -67,6 +101,7 @@ inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<c
             {
                 if (!(energy[i] < std::numeric_limits<double>::infinity())) continue;
                 shapes[i].crosses = overlaps_itself(loops[i], uv);
+                if (shapes[i].crosses) shapes[i].meetings = meeting_triangles(charts, i, loops[i], uv);
                 std::vector<vec2> rim;
                 for (const auto& loop : loops[i])
                     for (const idx v : loop) rim.push_back(uv[u(v)]);

@@ -14,8 +14,11 @@
 #include <vector>
 
 #include <taut/atlas/detail/crossing_charts.hpp>
+#include <taut/atlas/detail/seen_patches.hpp>
+#include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/make_atlas.hpp>
 #include <taut/core/budget.hpp>
+#include <taut/core/disjoint_sets.hpp>
 #include <taut/energy/isometric.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/mesh/ideal.hpp>
@@ -44,11 +47,14 @@ public:
         else
             make_charts();
         mend(overlapping(flat_));
+        join_polygons();
         lay();
         // Borders that all but touch may meet by the rounding of their places.
-        if (const auto touching = overlapping(uv_); std::count(touching.begin(), touching.end(), char(1)) > 0)
+        for (const std::size_t largest : {1024U, 1U})
         {
-            take_apart(touching);
+            const auto touching = overlapping(uv_);
+            if (std::count(touching.begin(), touching.end(), char(1)) == 0) break;
+            take_apart(touching, largest);
             lay();
         }
         certify_all();
@@ -74,10 +80,11 @@ private:
         };
     }
 
-    /// All charts at once.
-    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial = {})
+    /// All charts at once. steps: of each, at most
+    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps)
     {
         auto params = params_.flattening;
+        params.max_iterations = std::min(params.max_iterations, steps);
         params.initial = initial;
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("flatten");
@@ -90,11 +97,17 @@ private:
 
     void make_charts()
     {
+        usable_ = true; // whatever there is by the end of the time is laid as it is seen
         auto params = params_.charts;
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("charts");
+        // What takes more steps at first is mostly cut after all of them.
+        constexpr int few = 25;
         auto made = segment(
-            mesh_, facets_, [this](const chart_mesh& charts) { return flatten(charts); }, params);
+            mesh_, facets_,
+            [this](const chart_mesh& charts, std::span<const vec2> start)
+            { return flatten(charts, start, start.empty() ? few : std::numeric_limits<int>::max()); },
+            params);
         report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
         seam_ = std::move(made.seam);
         charts_.emplace(std::move(made.charts));
@@ -111,7 +124,7 @@ private:
         if (!initial.empty())
             for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
                             { initial[v] = params_.initial[cell][corner]; });
-        auto flat = flatten(*charts_, initial);
+        auto flat = flatten(*charts_, initial, std::numeric_limits<int>::max());
         report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
         for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
         flat_ = std::move(flat.uv);
@@ -125,12 +138,14 @@ private:
             for (std::size_t k = 0; k < 3; ++k) f(u(charts_->cell_origins[i]), k, u(charts_->surface.cells()[i][k]));
     }
 
-    /// One flag a chart: 1 where it has no map, or overlaps itself.
+    /// One flag a chart: 1 where it has no map, or overlaps itself, or is far from done where the run ended early.
     std::vector<char> overlapping(std::span<const vec2> uv) const
     {
+        const double most = report_.complete || params_.keep_charts
+                                ? std::numeric_limits<double>::max()
+                                : std::max(seen_patches::most_energy, params_.charts.max_distortion);
         auto bad = crossing_charts(*charts_, uv);
-        for (std::size_t k = 0; k < bad.size(); ++k)
-            bad[k] = bad[k] != 0 || !(energy_[k] < std::numeric_limits<double>::infinity());
+        for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] != 0 || !(energy_[k] <= most);
         return bad;
     }
 
@@ -177,8 +192,10 @@ private:
         if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
     }
 
-    /// These charts become single triangles; charts that are to be kept cannot.
-    void take_apart(const std::vector<char>& bad)
+    /// These charts become patches that lie as they are seen, and single triangles where even those overlap; charts
+    /// that are to be kept cannot.
+    /// most: triangles of a patch
+    void take_apart(std::vector<char> bad, std::size_t most = 1024)
     {
         if (!report_.reason.empty()) return;
         const auto first_bad = static_cast<std::size_t>(std::find(bad.begin(), bad.end(), char(1)) - bad.begin());
@@ -189,36 +206,105 @@ private:
                              " has no map, or none without overlaps, and cannot be kept; let charts be made";
             return;
         }
-        std::vector<char> apart(mesh_.cells().size(), 0);
-        std::vector<double> energy(mesh_.cells().size(), 4);
-        std::vector<std::array<vec2, 3>> uv(mesh_.cells().size());
+        const auto count = std::count(bad.begin(), bad.end(), char(1));
+        const idx charts = charts_->charts();
+        for (const std::size_t largest : {1024U, 64U, 8U, 1U})
+        {
+            if (largest > most) continue;
+            lay_patches(bad, largest);
+            bad = overlapping(flat_);
+            if (std::count(bad.begin(), bad.end(), char(1)) == 0) break;
+        }
+        report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") + " without a map became " +
+                                std::to_string(charts_->charts() - charts + count) + ", laid as they are seen");
+    }
+
+    /// These charts become patches of so many triangles at most.
+    void lay_patches(const std::vector<char>& bad, std::size_t largest)
+    {
+        std::vector<char> wanted(mesh_.cells().size(), 0);
         for (std::size_t k = 0; k < bad.size(); ++k)
             for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
-            {
-                const auto c = u(charts_->cell_origins[i]);
-                apart[c] = bad[k];
-                if (!bad[k]) energy[c] = energy_[k];
-            }
+                wanted[u(charts_->cell_origins[i])] = bad[k];
+        const auto laid = patch_growing(mesh_, facets_, wanted, params_.charts.seams).run(largest);
+        renew([&](std::size_t c) { return laid.patch[c]; }, [&](idx patch) { return laid.energy[u(patch)]; },
+              [&](std::size_t c, std::size_t k) { return laid.uv[c][k]; });
+    }
+
+    /// Makes new charts of some triangles. label(triangle): of its chart, -1 where all stays; energy(label),
+    /// uv(triangle, corner): of the new ones
+    template <class Label, class Energy, class Map>
+    void renew(Label&& label, Energy&& energy_of, Map&& uv_of)
+    {
+        std::vector<double> energy(mesh_.cells().size());
+        std::vector<std::array<vec2, 3>> uv(mesh_.cells().size());
+        for (std::size_t k = 0; k < energy_.size(); ++k)
+            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
+                energy[u(charts_->cell_origins[i])] = energy_[k];
         for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v) { uv[cell][corner] = flat_[v]; });
-        for (std::size_t c = 0; c < apart.size(); ++c)
+        for (std::size_t c = 0; c < uv.size(); ++c)
         {
-            if (!apart[c]) continue;
-            const auto x = mesh_.rest(static_cast<idx>(c));
-            const mat2 W = stiff_ideal(x[1] - x[0], x[2] - x[0]);
-            uv[c] = {vec2(0.0), W[0], W[1]};
+            if (label(c) < 0) continue;
+            energy[c] = energy_of(label(c));
+            for (std::size_t k = 0; k < 3; ++k) uv[c][k] = uv_of(c, k);
         }
         for (std::size_t s = 0; s < seam_.size(); ++s)
-            seam_[s] =
-                seam_[s] != 0 || apart[s / 3] != 0 || (facets_.twin[s] >= 0 && apart[u(facets_.twin[s]) / 3] != 0);
+        {
+            if (facets_.twin[s] < 0) continue;
+            const idx a = label(s / 3), b = label(u(facets_.twin[s]) / 3);
+            const bool given = !params_.charts.seams.empty() && params_.charts.seams[s] != 0;
+            if (a >= 0 || b >= 0) seam_[s] = given || a != b;
+        }
         charts_.emplace(cut_charts(mesh_, facets_, seam_));
         flat_.assign(charts_->surface.points().size(), vec2(0.0));
         for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v) { flat_[v] = uv[cell][corner]; });
         energy_.clear();
         for (std::size_t k = 0; k + 1 < charts_->first_cell.size(); ++k)
             energy_.push_back(energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
-        const auto count = std::count(bad.begin(), bad.end(), char(1));
-        report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") +
-                                " without a map became single triangles");
+    }
+
+    /// Polygons that several charts have parts of become charts by themselves.
+    void join_polygons()
+    {
+        const auto& together = params_.charts.together;
+        if (together.empty() || params_.keep_charts || !report_.reason.empty()) return;
+        disjoint_sets polygons(mesh_.cell_count());
+        for (std::size_t s = 0; s < together.size(); ++s)
+            if (together[s] != 0 && facets_.twin[s] >= 0) polygons.join(static_cast<idx>(s) / 3, facets_.twin[s] / 3);
+        std::vector<char> parted(mesh_.cells().size(), 0);
+        for (std::size_t s = 0; s < together.size(); ++s)
+            if (together[s] != 0 && facets_.twin[s] >= 0 && seam_[s] != 0)
+                parted[u(polygons.find(static_cast<idx>(s) / 3))] = 1;
+        if (std::count(parted.begin(), parted.end(), char(1)) == 0) return;
+        const auto label = [&](std::size_t c)
+        {
+            const idx p = polygons.find(static_cast<idx>(c));
+            return parted[u(p)] ? p : -1;
+        };
+        renew(
+            label, [](idx) { return std::numeric_limits<double>::infinity(); },
+            [](std::size_t, std::size_t) { return vec2(0.0); });
+        std::vector<idx> triangles, number(mesh_.points().size(), -1);
+        for (std::size_t c = 0; c < parted.size(); ++c)
+            if (label(c) >= 0) triangles.push_back(static_cast<idx>(c));
+        const surface_part part = part_of(mesh_, triangles, seam_, number);
+        flatten_params few = params_.flattening;
+        few.initial = {};
+        few.max_iterations = report_.complete ? few.max_iterations : 0; // their starts are made at once
+        const auto maps = flatten_charts(queue_, part.charts, few);
+        std::vector<std::array<vec2, 3>> uv(mesh_.cells().size());
+        std::vector<double> energy(mesh_.cells().size());
+        for (idx k = 0; k < part.charts.charts(); ++k)
+            for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
+            {
+                const auto c = u(part.triangles[i]);
+                energy[u(polygons.find(part.triangles[i]))] = maps.charts[u(k)].energy;
+                for (std::size_t j = 0; j < 3; ++j) uv[c][j] = maps.uv[u(part.charts.surface.cells()[i][j])];
+            }
+        renew(
+            label, [&](idx p) { return energy[u(p)]; }, [&](std::size_t c, std::size_t k) { return uv[c][k]; });
+        report_.notes.push_back("polygons that were in several charts became charts by themselves");
+        mend(overlapping(flat_));
     }
 
     void lay()

@@ -3,21 +3,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <numeric>
-#include <queue>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <taut/atlas/cluster_tree.hpp>
+#include <taut/atlas/detail/chart_moments.hpp>
 #include <taut/atlas/detail/laid_shape.hpp>
 #include <taut/atlas/detail/seam_arcs.hpp>
 #include <taut/atlas/detail/straighten.hpp>
+#include <taut/atlas/detail/surface_charts.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/segment.hpp>
 
@@ -25,90 +23,48 @@ namespace taut::detail
 {
 
 /// The charts of a surface while they are cut and united.
-class segmenting
+class segmenting : surface_charts
 {
 public:
-    segmenting(const mesh<triangle>& m, const facet_table& f,
-               const std::function<chart_maps(const chart_mesh&)>& flatten, const segment_params& params)
-        : mesh_(m),
-          facets_(f),
-          flatten_(flatten),
-          params_(params),
-          budget_(params.time_limit, params.observer),
-          seam_(f.twin.size(), 0),
-          uv_(f.twin.size(), vec2(0.0)),
-          chart_(m.cells().size(), 0),
-          number_(m.points().size(), -1),
-          area_(m.cells().size())
-    {
-        for (std::size_t c = 0; c < area_.size(); ++c)
-        {
-            const auto x = m.rest(static_cast<idx>(c));
-            area_[c] = glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
-        }
-        total_area_ = std::accumulate(area_.begin(), area_.end(), 0.0);
-    }
+    using surface_charts::surface_charts;
 
     segmentation run()
     {
         cut_by_estimate();
+        if (budget_.over()) // pieces without maps, and without records of their own
+        {
+            charts_.push_back({.area = total_area_, .energy = infinite, .shape = {}, .triangles = {}});
+            return result();
+        }
         std::vector<idx> all(chart_.size());
         std::iota(all.begin(), all.end(), idx(0));
         renew(all);
         for (int round = 0; round < params_.cut_rounds && proceed(round); ++round)
         {
-            const bool sewn = unite_round(true);
+            const bool sewn = unite_round(unions::slits);
             if (!cut_round() && !sewn) break;
         }
-        for (int round = 0; round < params_.unite_rounds && proceed(round) && unite_round(false); ++round)
+        for (int round = 0; round < params_.unite_rounds && proceed(round) && unite_round(unions::all); ++round)
         {
         }
+        if (params_.unite_rounds > 0 && proceed(params_.unite_rounds)) unite_round(unions::small);
+        settle();
         return result();
     }
 
 private:
-    static constexpr double infinite = std::numeric_limits<double>::infinity();
-
-    struct record
-    {
-        double area = 0, energy = 4;
-        laid_shape shape;
-        std::vector<idx> triangles; // ascending; none: there is no such chart any more
-
-        double excess() const { return area * (energy - 4); }
-    };
-
-    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
-
-    bool proceed(int round) { return budget_.proceed({.iteration = round, .value = 4 + total_excess() / total_area_}); }
-
-    double allowed() const { return (params_.mean_distortion - 4) * total_area_; }
-
-    /// Of the charts that have a map.
-    double total_excess() const
-    {
-        double sum = 0;
-        for (const record& r : charts_)
-            if (!r.triangles.empty() && r.energy < infinite) sum += r.excess();
-        return sum;
-    }
-
-    /// The seams of a first set of charts. The estimate is about twice the distortion of maps.
+    /// The seams of a first set of charts. The estimate is about twice the distortion of maps on smooth surfaces; on
+    /// others some charts say what it is.
     void cut_by_estimate()
     {
         budget_.lap();
-        const auto tree = make_cluster_tree(mesh_, facets_, params_.seams, params_.together);
+        const auto tree = make_cluster_tree(mesh_, facets_, params_.seams, params_.together, {}, &budget_);
         std::vector<char> chosen(u(tree.nodes()), 0);
+        for (idx n = 0; n < tree.nodes(); ++n) chosen[u(n)] = tree.parents[u(n)] == cluster_tree::none;
         double strain = 0;
-        for (idx n = 0; n < tree.nodes(); ++n)
-            if (tree.parents[u(n)] == cluster_tree::none)
-            {
-                chosen[u(n)] = 1;
-                strain += tree.strain[u(n)];
-            }
-        for (idx n = tree.nodes(); n-- > tree.leaves && strain > 2 * allowed();)
+        const auto undo = [&](idx n)
         {
-            chosen[u(n)] = 0; // those behind are no more: it is a chart
+            chosen[u(n)] = 0;
             strain -= tree.strain[u(n)];
             for (const idx child : tree.children[u(n - tree.leaves)])
                 if (child != cluster_tree::none)
@@ -116,55 +72,99 @@ private:
                     chosen[u(child)] = 1;
                     strain += tree.strain[u(child)];
                 }
+        };
+        double ratio = 0.5; // of distortion to its estimate
+        for (int pass = 0; pass < 3 && !budget_.over(); ++pass)
+        {
+            strain = 0;
+            for (idx n = 0; n < tree.nodes(); ++n) strain += chosen[u(n)] ? tree.strain[u(n)] : 0;
+            for (idx n = tree.nodes(); n-- > tree.leaves && ratio * strain > allowed();)
+                if (chosen[u(n)]) undo(n);
+            report_.tree_seconds += budget_.lap();
+            if (pass == 0) part_hopeless(mesh_, facets_, tree, chosen);
+            const double found = found_ratio(tree, chosen);
+            if (!(found > 1.25 * ratio)) break;
+            ratio = found;
         }
         seam_ = tree.seams(facets_, tree.labels(chosen));
-        report_.tree_seconds += budget_.lap();
-        straighten(mesh_, facets_, seam_, params_.seams, params_.together);
+        straighten(mesh_, facets_, seam_, params_.seams, params_.together, budget_);
         report_.straighten_seconds += budget_.lap();
     }
 
-    /// Makes the charts of these triangles anew, from the seams, and their maps.
-    void renew(std::span<const idx> triangles)
+    /// The distortion of charts to its estimate, where there are so many that a small share of them says it; else 0.
+    double found_ratio(const cluster_tree& tree, const std::vector<char>& chosen)
     {
-        for (const idx c : triangles)
-            if (!charts_.empty()) charts_[u(chart_[u(c)])].triangles.clear();
-        const surface_part part = part_of(mesh_, triangles, seam_, number_);
-        const auto [maps, shapes] = flatten(part);
-        for (idx k = 0; k < part.charts.charts(); ++k) take(part, maps, shapes[u(k)], k);
-    }
-
-    std::pair<chart_maps, std::vector<laid_shape>> flatten(const surface_part& part)
-    {
-        budget_.lap();
-        chart_maps maps = flatten_(part.charts);
-        report_.flatten_seconds += budget_.lap();
-        auto shapes = laid_shapes(part.charts, maps.uv, maps.energy);
-        return {std::move(maps), std::move(shapes)};
-    }
-
-    /// Takes over chart k of a part, with its map.
-    void take(const surface_part& part, const chart_maps& maps, const laid_shape& shape, idx k)
-    {
-        record r{.area = 0, .energy = maps.energy[u(k)], .shape = shape, .triangles = {}};
-        for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
+        constexpr double share = 0.05;         // of the triangles
+        constexpr idx largest = 1000, few = 8; // triangles of a chart; charts
+        const auto triangles = triangles_below(tree);
+        std::vector<char> some(chosen.size(), 0);
+        double quota = 0;
+        idx count = 0;
+        for (idx n = 0; n < tree.nodes(); ++n)
         {
-            const idx c = part.triangles[i];
-            chart_[u(c)] = static_cast<idx>(charts_.size());
-            r.area += area_[u(c)];
-            r.triangles.push_back(c);
-            for (std::size_t j = 0; j < 3; ++j) uv_[3 * u(c) + j] = maps.uv[u(part.charts.surface.cells()[i][j])];
+            if (!chosen[u(n)] || triangles[u(n)] > largest || triangles[u(n)] < 2) continue;
+            quota += share * triangles[u(n)];
+            if (quota < triangles[u(n)]) continue;
+            quota -= triangles[u(n)];
+            some[u(n)] = 1;
+            ++count;
         }
-        charts_.push_back(std::move(r));
+        if (count < few) return 0;
+        double distortion = 0, estimate = 0;
+        flatten_some(mesh_, facets_, tree, chosen, some,
+                     [&](idx n, double energy, bool)
+                     {
+                         // What is above the bound is to be cut in any case.
+                         distortion += tree.area[u(n)] * (std::min(energy, params_.max_distortion) - 4);
+                         estimate += tree.strain[u(n)];
+                     });
+        return estimate > 0 ? distortion / estimate : 0;
     }
 
-    /// The triangles of charts, ascending.
-    std::vector<idx> triangles_of(std::span<const idx> charts) const
+    /// Large charts cost most where no map is any good. The distortion of a map is no less than the one that its parts
+    /// have by themselves, so some of these are flattened first, and charts of which too many are above the bound, or
+    /// overlap themselves, become their parts.
+    /// chosen: nodes of the tree of a surface, changed
+    void part_hopeless(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
+                       std::vector<char>& chosen)
     {
-        std::vector<idx> triangles;
-        for (const idx k : charts)
-            triangles.insert(triangles.end(), charts_[u(k)].triangles.begin(), charts_[u(k)].triangles.end());
-        std::sort(triangles.begin(), triangles.end());
-        return triangles;
+        constexpr idx large = 2500, most = 1000; // triangles of a chart that is looked at, of a part
+        constexpr double share = 0.1;            // of the triangles that are flattened
+        constexpr double spoiled = 0.25;         // of their area
+        const auto triangles = triangles_below(tree);
+        std::vector<idx> whole(u(tree.nodes()), cluster_tree::none);
+        std::vector<char> parts(u(tree.nodes()), 0), some(u(tree.nodes()), 0); // parts of large charts, those looked at
+        std::vector<double> seen(u(tree.nodes()), 0), bad(u(tree.nodes()), 0); // of a chart: area of these
+        std::vector<double> quota(u(tree.nodes()), 0);
+        for (idx n = tree.nodes(); n-- > 0;)
+        {
+            const idx parent = tree.parents[u(n)];
+            if (chosen[u(n)])
+                whole[u(n)] = triangles[u(n)] > large ? n : cluster_tree::none;
+            else if (parent != cluster_tree::none && triangles[u(parent)] > most)
+                whole[u(n)] = whole[u(parent)];
+            if (whole[u(n)] == cluster_tree::none || triangles[u(n)] > most) continue;
+            parts[u(n)] = 1;
+            double& left = quota[u(whole[u(n)])]; // every so many triangles one part, so that all regions are looked at
+            left += share * triangles[u(n)];
+            if (left < triangles[u(n)] || 4 * triangles[u(n)] < most) continue;
+            left -= triangles[u(n)];
+            some[u(n)] = 1;
+        }
+        if (std::count(some.begin(), some.end(), char(1)) == 0) return;
+        flatten_some(m, f, tree, parts, some,
+                     [&](idx n, double energy, bool crosses)
+                     {
+                         const auto chart = u(whole[u(n)]);
+                         seen[chart] += tree.area[u(n)];
+                         if (!(energy <= params_.max_distortion) || crosses) bad[chart] += tree.area[u(n)];
+                     });
+        for (idx n = 0; n < tree.nodes(); ++n)
+        {
+            if (!parts[u(n)] || !(bad[u(whole[u(n)])] > spoiled * seen[u(whole[u(n)])])) continue;
+            chosen[u(n)] = 1;
+            chosen[u(whole[u(n)])] = 0;
+        }
     }
 
     /// Cuts the charts that are above the bound, and the worst ones where the whole is. False if there are none.
@@ -176,7 +176,7 @@ private:
             if (charts_[u(k)].triangles.size() > 1)
             {
                 order.push_back(k);
-                if (charts_[u(k)].energy < infinite) excess += charts_[u(k)].excess();
+                excess += to_share(charts_[u(k)]);
             }
         std::stable_sort(order.begin(), order.end(),
                          [&](idx a, idx b) { return charts_[u(a)].excess() > charts_[u(b)].excess(); });
@@ -186,15 +186,17 @@ private:
             const record& r = charts_[u(k)];
             const bool ragged = r.shape.fill < params_.least_fill && r.area > total_area_ / 200;
             if (r.energy <= params_.max_distortion && !r.shape.crosses && !ragged && excess <= allowed()) continue;
+            charts_[u(k)].strained = r.energy > params_.max_distortion || ragged || excess > allowed();
             chosen.push_back(k);
-            if (r.energy < infinite) excess -= 0.6 * r.excess(); // what two halves have less, about
+            excess -= 0.6 * to_share(r); // what two halves have less, about
         }
         if (chosen.empty()) return false;
         cut(chosen);
         return true;
     }
 
-    /// Cuts each of these charts so that the estimated distortion is halved.
+    /// Cuts each of these charts so that what overlaps is apart, and that the estimated distortion of strained ones is
+    /// halved.
     void cut(std::span<const idx> charts)
     {
         report_.cut += static_cast<idx>(charts.size());
@@ -209,7 +211,12 @@ private:
             return result;
         };
         const auto keep = of_part(params_.seams), together = of_part(params_.together);
-        const auto tree = make_cluster_tree(part.charts.surface, f, keep, together);
+        std::vector<std::array<idx, 2>> apart;
+        for (std::size_t i = 0; i < part.triangles.size(); ++i) place_[u(part.triangles[i])] = static_cast<idx>(i);
+        for (const idx k : charts)
+            for (const auto& [a, b] : charts_[u(k)].shape.meetings)
+                if (a != b) apart.push_back({place_[u(a)], place_[u(b)]});
+        const auto tree = make_cluster_tree(part.charts.surface, f, keep, together, apart, &budget_);
 
         // Pieces of a chart are undone in the order from the last.
         std::vector<char> chosen(u(tree.nodes()), 0);
@@ -220,15 +227,26 @@ private:
             const idx parent = tree.parents[u(n)];
             root[u(n)] = parent == cluster_tree::none ? n : root[u(parent)];
         }
-        // A chart may have several roots, where given seams part it.
+        // A chart may have several roots, where given seams part it or what overlaps is apart.
         const auto chart_of = [&](idx n) { return root[u(n)]; };
+        std::vector<idx> roots(charts_.size(), 0);
+        std::vector<idx> first(u(tree.nodes()), cluster_tree::none); // a triangle of each root
+        for (idx n = 0; n < tree.triangles; ++n)
+            if (idx& one = first[u(root[u(n)])]; one == cluster_tree::none)
+            {
+                one = n;
+                ++roots[u(chart_[u(part.triangles[u(n)])])];
+            }
         for (idx n = 0; n < tree.nodes(); ++n)
             if (root[u(n)] == n)
             {
                 chosen[u(n)] = 1;
-                pieces[u(n)] = 1;
                 strain[u(n)] = tree.strain[u(n)];
-                wanted[u(n)] = tree.strain[u(n)] / 2;
+                if (first[u(n)] == cluster_tree::none) continue; // a hole
+                const auto k = u(chart_[u(part.triangles[u(first[u(n)])])]);
+                const bool enough = roots[k] > 1 && !charts_[k].strained;
+                pieces[u(n)] = enough ? 2 : 1;
+                wanted[u(n)] = enough ? infinite : tree.strain[u(n)] / 2;
             }
         for (idx n = tree.nodes(); n-- > tree.leaves;)
         {
@@ -245,19 +263,31 @@ private:
                     pieces[r] += tree.area[u(child)] > 0;
                 }
         }
-        auto seam = tree.seams(f, tree.labels(chosen));
         report_.tree_seconds += budget_.lap();
-        straighten(part.charts.surface, f, seam, keep, together);
+        if (budget_.over()) return; // the charts that there are have maps
+        part_hopeless(part.charts.surface, f, tree, chosen);
+        auto seam = tree.seams(f, tree.labels(chosen));
+        straighten(part.charts.surface, f, seam, keep, together, budget_);
+        if (budget_.over()) return;
         for (std::size_t s = 0; s < seam.size(); ++s)
             if (f.twin[s] >= 0) seam_[part.origin(s)] = seam[s];
         report_.straighten_seconds += budget_.lap();
         renew(triangles);
     }
 
-    /// Flattens pairs of neighbouring charts as one, and keeps those that the bounds allow. False if no pair is left.
-    /// slits: instead of pairs, charts that cross themselves without a slit that may be why
-    bool unite_round(bool slits)
+    /// What is tried as one chart.
+    enum class unions
     {
+        all,   ///< pairs of neighbours
+        small, ///< such pairs of little area: cuts leave many behind, and they cost little
+        slits  ///< charts that cross themselves, without a slit that may be why
+    };
+
+    /// Flattens pairs of neighbouring charts as one, and keeps those that the bounds allow. False if no pair is left.
+    bool unite_round(unions what)
+    {
+        constexpr double little = 0.01; // of all area
+        const bool slits = what == unions::slits;
         struct pair
         {
             double price = 0;
@@ -266,7 +296,10 @@ private:
         };
         const double room = allowed() - total_excess();
         if (!(room > 0)) return false;
-        const csr arcs = seam_arcs(mesh_, facets_, starting_sides(mesh_), seam_);
+        const auto crossing = [](const record& r) { return !r.triangles.empty() && r.shape.crosses; };
+        if (slits && std::none_of(charts_.begin(), charts_.end(), crossing)) return false;
+        if (sides_.items.empty()) sides_ = starting_sides(mesh_);
+        const csr arcs = seam_arcs(mesh_, facets_, sides_, seam_);
         std::vector<chart_moments> moments(charts_.size());
         for (idx c = 0; c < mesh_.cell_count(); ++c)
         {
@@ -294,6 +327,7 @@ private:
             chart_moments sum = moments[u(p)];
             if (p != q) sum += moments[u(q)];
             sum.perimeter -= 2 * shared;
+            if (what == unions::small && sum.area > little * total_area_) continue;
             const double strain = sum.strain();
             // An estimate that is far above the bound is seldom wrong.
             if (strain / sum.area > 4 * (params_.max_distortion - 4)) continue;
@@ -312,16 +346,7 @@ private:
             planned += std::max(0.0, p.price);
             tried.push_back(p);
         }
-        return !tried.empty() && try_pairs(arcs, tried, room);
-    }
-
-    /// Two charts, or one that is named twice, as they are.
-    record before(const std::array<idx, 2>& charts) const
-    {
-        const record &a = charts_[u(charts[0])], &b = charts_[u(charts[1])];
-        if (charts[0] == charts[1]) return {a.area, a.energy, a.shape, {}};
-        const double area = a.area + b.area;
-        return {area, 4 + (a.excess() + b.excess()) / area, {false, std::min(a.shape.fill, b.shape.fill)}, {}};
+        return !tried.empty() && try_pairs(arcs, tried, room, what);
     }
 
     /// Whether a chart is a disk, or one with holes: by Euler, V - E + F = 2 - loops.
@@ -347,7 +372,7 @@ private:
 
     /// True if one was kept.
     template <class Pairs>
-    bool try_pairs(const csr& arcs, const Pairs& tried, double room)
+    bool try_pairs(const csr& arcs, const Pairs& tried, double room, unions what)
     {
         auto seam = seam_;
         std::vector<idx> involved;
@@ -384,7 +409,8 @@ private:
             std::size_t pair = 0;
             idx chart = 0; // of the part
         };
-        constexpr double slimmest = 0.6; // slim charts do not pack well
+        // Slim charts do not pack well, and small ones are what fills the gaps.
+        const double slimmest = what == unions::small ? 0.85 : 0.6;
         std::vector<trial> trials;
         for (idx k = 0; k < part.charts.charts(); ++k)
         {
@@ -423,59 +449,9 @@ private:
         for (const idx old : charts) charts_[u(old)].triangles.clear();
         take(part, maps, shape, k);
     }
-
-    double length(std::size_t side) const
-    {
-        const auto [a, b] = side_vertices(mesh_, static_cast<idx>(side));
-        return glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
-    }
-
-    segmentation result()
-    {
-        segmentation r{seam_, cut_charts(mesh_, facets_, seam_), {}, {}, {}};
-        r.uv.resize(r.charts.surface.points().size());
-        for (std::size_t i = 0; i < r.charts.cell_origins.size(); ++i)
-            for (std::size_t j = 0; j < 3; ++j)
-                r.uv[u(r.charts.surface.cells()[i][j])] = uv_[3 * u(r.charts.cell_origins[i]) + j];
-        double area = 0;
-        for (idx k = 0; k < r.charts.charts(); ++k)
-        {
-            const idx first = r.charts.cell_origins[u(r.charts.first_cell[u(k)])];
-            const record& one = charts_[u(chart_[u(first)])];
-            r.energy.push_back(one.energy);
-            report_.unmapped += !(one.energy < infinite);
-            report_.above += one.energy > params_.max_distortion;
-            report_.crossing += one.shape.crosses;
-            if (!(one.energy < infinite)) continue;
-            area += one.area;
-            report_.largest_distortion = std::max(report_.largest_distortion, one.energy);
-        }
-        if (area > 0) report_.distortion = 4 + total_excess() / area;
-        for (std::size_t s = 0; s < seam_.size(); ++s)
-            if (facets_.twin[s] > static_cast<idx>(s) && seam_[s]) report_.seam_length += length(s);
-        report_.total_seconds = budget_.total();
-        r.report = report_;
-        return r;
-    }
-
-    const mesh<triangle>& mesh_;
-    const facet_table& facets_;
-    const std::function<chart_maps(const chart_mesh&)>& flatten_;
-    const segment_params& params_;
-    budget budget_;
-    segment_report report_;
-    std::vector<char> seam_;  // one a side
-    std::vector<vec2> uv_;    // one a corner
-    std::vector<idx> chart_;  // one a triangle: its record
-    std::vector<idx> number_; // for part_of()
-    std::vector<double> area_;
-    double total_area_ = 0;
-    std::vector<record> charts_;
-    std::vector<std::array<idx, 2>> refused_; // pairs that the bounds did not allow, ascending
 };
 
-TAUT_INLINE segmentation segment_surface(const mesh<triangle>& m, const facet_table& f,
-                                         const std::function<chart_maps(const chart_mesh&)>& flatten,
+TAUT_INLINE segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
                                          const segment_params& params)
 {
     params.validate();

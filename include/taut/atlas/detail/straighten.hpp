@@ -12,6 +12,7 @@
 
 #include <taut/atlas/detail/seam_arcs.hpp>
 #include <taut/atlas/detail/seam_weights.hpp>
+#include <taut/core/budget.hpp>
 #include <taut/core/disjoint_sets.hpp>
 
 namespace taut::detail
@@ -49,7 +50,8 @@ public:
                 for (const idx v : side_vertices(m, static_cast<idx>(s))) on_seam_[u(v)] = 1;
     }
 
-    void run()
+    /// limits: asked now and then; where it says no, the other seams stay
+    void run(budget& limits)
     {
         // Piece by piece, since the shortest way between the ends of a long arc may be another one altogether: around
         // the foot of a finger instead of over its tip. Then again, where pieces met.
@@ -59,6 +61,7 @@ public:
             const csr arcs = seam_arcs(mesh_, facets_, sides_, seam_);
             for (idx a = 0; a < arcs.rows(); ++a)
             {
+                if (a % 256 == 0 && !limits.proceed()) return;
                 const auto arc = arcs.row(a);
                 for (std::size_t begin = 0, end = std::min(first, arc.size()); begin < end;
                      begin = end, end = std::min(end + piece, arc.size()))
@@ -248,11 +251,11 @@ private:
     idx left_ = 0, right_ = 0;
 };
 
-/// Straightens seams in place.
+/// Straightens seams in place, as many as the budget allows.
 inline void straighten(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam,
-                       std::span<const char> kept = {}, std::span<const char> together = {})
+                       std::span<const char> kept, std::span<const char> together, budget& limits)
 {
-    straightening(m, f, seam, kept, together).run();
+    straightening(m, f, seam, kept, together).run(limits);
 }
 
 } // namespace taut::detail

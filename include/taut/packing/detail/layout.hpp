@@ -68,7 +68,7 @@ inline layout lay_out(std::span<const piece> pieces, std::span<const std::vector
     std::map<std::pair<int, int>, idx> starts;
     for (std::size_t placed = 0; const idx i : order)
     {
-        if (placed++ % 64 == 0 && !limits.proceed()) return out;
+        if (placed++ % 8 == 0 && !limits.proceed()) return out;
         const auto c = static_cast<std::size_t>(i);
         spot best;
         idx lowest = 0; // top of the best

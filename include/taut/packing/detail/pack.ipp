@@ -48,6 +48,8 @@ public:
     packing run()
     {
         on_shelves();
+        packed_.complete = limits_.proceed();
+        if (!packed_.complete) return std::move(packed_);
         // Of many pieces quarter turns are enough; few, or one that is longer than a tile could be, need more.
         double longest = 0;
         for (const piece& p : pieces_) longest = std::max({longest, p.box.x, p.box.y});

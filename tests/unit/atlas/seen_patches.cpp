@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <support/chart_checks.hpp>
+#include <support/closed_meshes.hpp>
+#include <support/meshes.hpp>
+#include <taut/atlas/detail/seen_patches.hpp>
+#include <taut/exact/certify.hpp>
+
+using namespace taut;
+
+namespace
+{
+
+/// Lays patches of so many triangles at most, and checks what is promised of them. Returns how many there are.
+idx check_patches(const mesh<triangle>& m, std::size_t largest)
+{
+    const auto f = facets(m);
+    const std::vector<char> wanted(m.cells().size(), 1);
+    const auto laid = detail::patch_growing(m, f, wanted, {}).run(largest);
+    std::vector<std::size_t> size(laid.energy.size(), 0);
+    for (const idx p : laid.patch)
+    {
+        REQUIRE(p >= 0);
+        ++size[static_cast<std::size_t>(p)];
+    }
+    CHECK(*std::max_element(size.begin(), size.end()) <= largest);
+    for (const double e : laid.energy) CHECK((e >= 4 - 1e-9 && e <= detail::seen_patches::most_energy));
+    const auto seam = seams_between(f, laid.patch);
+    const idx charts = test::check_flattenable(m, f, seam);
+    CHECK(charts == static_cast<idx>(laid.energy.size()));
+    const auto cut = cut_charts(m, f, seam);
+    std::vector<vec2> uv(cut.surface.points().size());
+    for (std::size_t i = 0; i < cut.cell_origins.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            uv[static_cast<std::size_t>(cut.surface.cells()[i][k])] =
+                laid.uv[static_cast<std::size_t>(cut.cell_origins[i])][k];
+    CHECK(bool(certify<2>(cut.surface.cells(), std::span<const vec2>(uv))));
+    return charts;
+}
+
+} // namespace
+
+TEST_CASE("seen_patches: disks without flips, of any surface")
+{
+    for (const auto& m : {test::ball(10), test::torus(16, false), test::box(5), test::bumpy(24),
+                          test::noisy(test::ball(10), 0.1), test::pierced_plate(2, 3), test::single_triangle()})
+    {
+        CHECK(check_patches(m, 1) == m.cell_count());
+        CHECK(check_patches(m, 8) * 8 >= m.cell_count());
+        check_patches(m, 1000);
+    }
+    CHECK(check_patches(test::grid(10, 10), 1000) == 1);
+    CHECK(check_patches(test::ball(12), 10000) <= 12);
+}
+
+TEST_CASE("seen_patches: only what is wanted, and not over borders")
+{
+    const auto m = test::grid(8, 8);
+    const auto f = facets(m);
+    std::vector<char> wanted(m.cells().size(), 0), keep(f.twin.size(), 0);
+    for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = c % 5 != 0;
+    const auto some = detail::patch_growing(m, f, wanted, {}).run(1000);
+    for (std::size_t c = 0; c < wanted.size(); ++c) CHECK((some.patch[c] >= 0) == (wanted[c] != 0));
+    std::fill(wanted.begin(), wanted.end(), char(1));
+    for (std::size_t s = 0; s < keep.size(); ++s) keep[s] = f.twin[s] >= 0;
+    const auto single = detail::patch_growing(m, f, wanted, keep).run(1000);
+    CHECK(single.energy.size() == m.cells().size());
+}
