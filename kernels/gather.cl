@@ -52,7 +52,7 @@
         for (int c = 0; c < D; ++c) sum[c] = 0;                                                                        \
         for (int j = offsets[slice] + first % ROWS; j < end; j += ROWS)                                                \
         {                                                                                                              \
-            const SLOTS slot = LOAD_SLOTS(j), place = max(slot, 0);                                                    \
+            const SLOTS slot = LOAD_SLOTS(j), place = max(slot, (SLOTS)(0));                                           \
             for (int c = 0; c < D; ++c) sum[c] += PART_OF(TERM, MASK, place + c * cells, slot < 0);                    \
         }                                                                                                              \
         for (int c = 0; c < D; ++c) STORE_SUM(sum[c], c * vertices + first);                                           \

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/edit_meshes.hpp>
+#include <support/meshes.hpp>
 #include <taut/edit/parameterize_feature.hpp>
 #include <taut/edit/tessellate.hpp>
 #include <taut/edit/write_feature_map.hpp>
@@ -33,6 +34,40 @@ vec3 weights_at(const vec2& a, const vec2& b, const vec2& c, const vec2& p)
     return {1 - v - w, v, w};
 }
 
+/// Holds each texel against the triangle that is deepest at its middle; how many are covered.
+idx covered_as_on_host(const feature_map& map, const feature& part, const std::vector<vec2>& uv)
+{
+    const auto& cells = part.region.surface.cells();
+    const mat3 to_frame = glm::transpose(part.frame());
+    idx covered = 0;
+    for (idx j = 0; j < map.height; ++j)
+        for (idx i = 0; i < map.width; ++i)
+        {
+            const vec2 p = map.low + map.texel * vec2(i + 0.5, j + 0.5);
+            double deepest = -1e9;
+            vec3 expected(0.0);
+            for (const auto& t : cells)
+            {
+                const auto at = [&](std::size_t k) { return uv[std::size_t(t[k])]; };
+                const vec3 w = weights_at(at(0), at(1), at(2), p);
+                const double least = std::min({w.x, w.y, w.z});
+                if (least <= deepest) continue;
+                deepest = least;
+                expected = vec3(0.0);
+                for (int k = 0; k < 3; ++k)
+                    expected += w[k] * part.region.surface.points()[std::size_t(t[std::size_t(k)])];
+            }
+            if (deepest > 1e-3) REQUIRE(map.covers(i, j)); // no hole
+            if (deepest < -1e-2) REQUIRE_FALSE(map.covers(i, j));
+            if (!map.covers(i, j)) continue;
+            ++covered;
+            const float* v = &map.values[4 * std::size_t(j * map.width + i)];
+            const vec3 drawn{double(v[0]), double(v[1]), double(v[2])};
+            if (deepest > 1e-3) REQUIRE(glm::distance(drawn, to_frame * (expected - part.centre)) < 1e-4);
+        }
+    return covered;
+}
+
 } // namespace
 
 TEST_CASE("parameterize feature: the rim bit for bit at its correspondences, nothing flipped; contradictions have ids")
@@ -55,35 +90,7 @@ TEST_CASE("feature map: the device draws what the host says, without holes or bl
     const auto& part = m.pasted.part();
     const auto map = make_feature_map(m.q, part, m.map.uv, {.resolution = 128});
     CHECK(std::max(map.width, map.height) <= 130);
-    const auto& cells = part.region.surface.cells();
-    const mat3 to_frame = glm::transpose(part.frame());
-    taut::idx covered = 0;
-    for (taut::idx j = 0; j < map.height; ++j)
-        for (taut::idx i = 0; i < map.width; ++i)
-        {
-            const vec2 p = map.low + map.texel * vec2(i + 0.5, j + 0.5);
-            double deepest = -1e9;
-            vec3 expected(0.0);
-            for (const auto& t : cells)
-            {
-                const auto at = [&](std::size_t k) { return m.map.uv[std::size_t(t[k])]; };
-                const vec3 w = weights_at(at(0), at(1), at(2), p);
-                const double least = std::min({w.x, w.y, w.z});
-                if (least <= deepest) continue;
-                deepest = least;
-                expected = vec3(0.0);
-                for (int k = 0; k < 3; ++k)
-                    expected += w[k] * part.region.surface.points()[std::size_t(t[std::size_t(k)])];
-            }
-            if (deepest > 1e-3) REQUIRE(map.covers(i, j)); // no hole
-            if (deepest < -1e-2) REQUIRE_FALSE(map.covers(i, j));
-            if (!map.covers(i, j)) continue;
-            ++covered;
-            const float* v = &map.values[4 * std::size_t(j * map.width + i)];
-            const vec3 drawn{double(v[0]), double(v[1]), double(v[2])};
-            if (deepest > 1e-3) REQUIRE(glm::distance(drawn, to_frame * (expected - part.centre)) < 1e-4);
-        }
-    CHECK(covered > 5000);
+    CHECK(covered_as_on_host(map, part, m.map.uv) > 5000);
     CHECK(map.round_trip_rms < map.footprint);
     CHECK(map.round_trip < 8 * map.footprint);
     const auto finer = make_feature_map(m.q, part, m.map.uv, {.resolution = 512});
@@ -98,6 +105,18 @@ TEST_CASE("feature map: the device draws what the host says, without holes or bl
 
     CHECK_THROWS_AS(make_feature_map(m.q, part, points), parameter_error);
     CHECK_THROWS_AS(make_feature_map(m.q, part, m.map.uv, {.resolution = 4}), parameter_error);
+}
+
+TEST_CASE("feature map: of a part that is seen from above, drawn and sampled")
+{
+    queue q;
+    const auto part = make_feature(geodesic_disk(test::bumpy(8, 0.3), 40, 0.4));
+    std::vector<vec2> uv;
+    for (const vec3& p : part.region.surface.points()) uv.emplace_back(p.x, p.y);
+    const auto map = make_feature_map(q, part, uv, {.resolution = 24});
+    CHECK(covered_as_on_host(map, part, uv) > 100);
+    const auto sampled = sample(q, map, uv);
+    for (std::size_t n = 0; n < uv.size(); ++n) CHECK(glm::distance(sampled[n], map(uv[n])) < 1e-4);
 }
 
 TEST_CASE("tessellate: a feature of about as many triangles as wanted, on the map, its rim as it was")
