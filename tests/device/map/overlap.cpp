@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -10,6 +11,7 @@
 #include <support/size.hpp>
 #include <support/strips.hpp>
 
+#include <taut/core/budget.hpp>
 #include <taut/energy/shape.hpp>
 #include <taut/map/detail/overlap/scaffold.hpp>
 #include <taut/map/detail/overlap/start_apart.hpp>
@@ -118,6 +120,24 @@ TEST_CASE("no_overlap: who stops it gets a map without crossings all the same")
         const auto r = parameterize(q, m, {.no_overlap = true, .observer = stop});
         check_apart(m, r);
         CHECK(r.report.solve.stop == solve::stop::user);
+    }
+}
+
+TEST_CASE("no_overlap: where time ends it, it is time that is told")
+{
+    queue q;
+    const auto m = winding_ramp();
+    const budget clock;
+    const auto whole = parameterize(q, m, {.no_overlap = true});
+    REQUIRE(whole.report.overlap->rounds > 1);
+    const double total = clock.total(), apart = whole.report.seconds.overlap;
+    for (const double part : {0.1, 0.2, 0.4, 0.6, 0.8})
+    {
+        const std::chrono::duration<double> limit(total - (1 - part) * apart);
+        const auto r = parameterize(q, m, {.no_overlap = true, .time_limit = limit});
+        if (!r || r.report.solve.value < 1.001 * whole.report.solve.value) continue; // none yet, or all of it
+        CAPTURE(part);
+        CHECK(r.report.solve.stop == solve::stop::time);
     }
 }
 

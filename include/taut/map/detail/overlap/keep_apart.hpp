@@ -80,6 +80,7 @@ private:
             stop_ = solve::stop::line_search;
             return false;
         }
+        if (r.stopped) run_.clock.proceed(); // if it was a limit, what is gained is no measure of convergence
         ++rounds_;
         left_ -= std::min(left_, r.steps);
         moved.x.resize(x_.size());
