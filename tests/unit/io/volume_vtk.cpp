@@ -31,6 +31,12 @@ TEST_CASE("VTK, VTU: integers of points and cells are groups by value")
             CHECK(file.find_group("side:1").dimension == 0);
             CHECK(file.notes.empty());
         }
+
+    // By the names of types of a fixed width, as VTK 5.1 files have them.
+    const auto wide = test::vtk_text(s, {}, 5);
+    for (const auto& [name, fixed] : {std::pair("part int", "part vtktypeint32"), {"part int", "part vtktypeuint32"}})
+        CHECK(io::parse_volume(exchange(wide, name, fixed), volume_format::vtk).find_group("part:7").vertices.size() ==
+              3);
 }
 
 TEST_CASE("VTK: attributes that are not known, or number things, make no groups, which is said")

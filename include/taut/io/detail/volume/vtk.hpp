@@ -89,7 +89,7 @@ private:
 
     static std::optional<number_type> type_of(std::string_view name)
     {
-        static constexpr std::array<std::pair<std::string_view, number_type>, 14> known = {{
+        static constexpr std::array<std::pair<std::string_view, number_type>, 22> known = {{
             {"char", number_type::int8},
             {"signed_char", number_type::int8},
             {"unsigned_char", number_type::uint8},
@@ -102,6 +102,14 @@ private:
             {"vtktypeint64", number_type::int64},
             {"unsigned_long", number_type::uint64},
             {"vtktypeuint64", number_type::uint64},
+            {"vtktypeint8", number_type::int8}, // as VTK writes arrays of a fixed width
+            {"vtktypeuint8", number_type::uint8},
+            {"vtktypeint16", number_type::int16},
+            {"vtktypeuint16", number_type::uint16},
+            {"vtktypeint32", number_type::int32},
+            {"vtktypeuint32", number_type::uint32},
+            {"vtktypefloat32", number_type::float32},
+            {"vtktypefloat64", number_type::float64},
             {"float", number_type::float32},
             {"double", number_type::float64},
         }};
