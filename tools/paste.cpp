@@ -51,7 +51,6 @@ struct paste_options
     int at = -1, onto = -1, triangles = 0, texels = feature_map_params{}.resolution;
     double radius = 0, degrees = 0, reach = paste_params{}.reach;
     paste_pose pose;
-    bool folds = false;
     double time_limit = std::numeric_limits<double>::infinity();
     bool quiet = false;
 };
@@ -116,7 +115,7 @@ public:
                 soften(softness);
             });
         if (!options_.map.empty() || options_.triangles > 0) map_seconds_ = clock_.timed([&] { draw_map(*q); });
-        if (!options_.folds) require_unfolded();
+        paste_->unfold(); // what is left of folds is told
         look();
         write();
         return exit_code::valid;
@@ -136,19 +135,6 @@ private:
         catch (const paste_error&) // the report tells which softness it has
         {
         }
-    }
-
-    /// With another softness if need be.
-    void require_unfolded()
-    {
-        if (paste_->unfold()) return;
-        const auto folds = paste_->folds();
-        const auto& c = paste_->cells()[static_cast<std::size_t>(folds[0][1])];
-        const vec3& p = paste_->points()[static_cast<std::size_t>(c[0])];
-        throw paste_error("the surface would fold back on itself at " + count(folds.size(), "edge", "edges") +
-                          " of the seam, as near (" + number(p.x, 4) + ", " + number(p.y, 4) + ", " + number(p.z, 4) +
-                          "), at each softness" +
-                          "; choose another vertex, radius or scale, or write it all the same with --folds");
     }
 
     /// The feature's map, and its tessellation if that is asked for.
@@ -348,8 +334,7 @@ private:
                                   ", which did not before: another pose, scale or softness may help");
         lines.add("time", duration(clock_.now()) + ": read " + duration(read_seconds_) + ", device " +
                               duration(device_seconds_) + ", paste " + duration(paste_seconds_));
-        lines.add("wrote", options_.output + (options_.picture.empty() ? "" : ", " + options_.picture) +
-                               (options_.stats.empty() ? "" : ", " + options_.stats));
+        lines.add_written({options_.output, options_.map, options_.picture, options_.stats});
         return (std::ostringstream() << lines).str();
     }
 
@@ -420,7 +405,6 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
            "0: the feature keeps its shape, the target bends; 1: its rim is laid on the target, the feature bends")
         ->type_name("0..1")
         ->check(number_that([](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1"));
-    app.add_flag("--folds", options->folds, "Write it also where the seam folds back on itself at each softness");
     app.add_option("--reach", options->reach, "Radius of what may bend on the target, by that of the feature")
         ->type_name("1.2..")
         ->check(number_that([](double x) { return x >= 1.2 && std::isfinite(x); }, "is not 1.2 or more"));

@@ -88,7 +88,6 @@ public:
     void keep() override
     {
         if (!paste_) throw error("the feature is nowhere: click where it is to be");
-        require_unfolded();
         auto kept = std::make_shared<const mesh<triangle>>(paste_->surface());
         paste_.reset();
         target_ = std::move(kept);
@@ -130,7 +129,6 @@ public:
 
     saved write() const override
     {
-        require_unfolded();
         return {std::filesystem::path(name_).stem().string() + "-pasted.obj", obj_of(points(), cells())};
     }
 
@@ -162,14 +160,6 @@ private:
 
     const std::vector<mesh<triangle>::cell>& cells() const { return paste_ ? paste_->cells() : target_->cells(); }
     const std::vector<vec3>& points() const { return paste_ ? paste_->points() : target_->points(); }
-
-    void require_unfolded() const
-    {
-        const auto folds = paste_ ? paste_->folds().size() : 0;
-        if (folds > 0)
-            throw error("the seam folds back on itself at " + std::to_string(folds) +
-                        (folds == 1 ? " edge" : " edges") + "; make it less soft, smaller, or move it");
-    }
 
     /// Whether the rim may stay attached to what it is attached to.
     bool is_near(const paste_pose& pose) const
