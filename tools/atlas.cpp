@@ -89,8 +89,22 @@ private:
             told.mapped = s.surface().cell_count();
             told.repairs.assign(s.repairs().begin(), s.repairs().end());
             report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());
+            if (options_.inputs.size() > 1) require_valid(s.surface(), options_.inputs[i]);
         }
         joined_.emplace(join(sources_));
+    }
+
+    /// As make_atlas() does for all surfaces together, with the numbers of one file.
+    static void require_valid(const mesh<triangle>& m, const std::string& path)
+    {
+        try
+        {
+            validate(m, facets(m), atlas_requirements);
+        }
+        catch (const mesh_error& e)
+        {
+            throw mesh_error(e.fault(), e.ids(), path + ": " + e.what());
+        }
     }
 
     void make()

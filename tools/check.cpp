@@ -278,7 +278,8 @@ std::string lines_of(const check_report& r, const check_options& options)
     std::size_t wrong = 0;
     for (const auto& f : r.findings)
     {
-        lines.add(f.wrong ? "error" : "warning", f.message + (f.repair.empty() ? "" : "; --repair: " + f.repair));
+        lines.add(f.wrong ? "error" : "warning",
+                  f.message + (f.repair.empty() ? "" : "; taut atlas --repair: " + f.repair));
         wrong += f.wrong ? 1 : 0;
     }
     lines.add("result", wrong == 0 ? "nothing wrong" : count(wrong, "error", "errors") + ": " + describe(r.code));

@@ -65,7 +65,7 @@ void outputs::add(const std::string& option, const fs::path& path, std::vector<s
     }
     if (!fs::is_character_file(path, ignored)) // a terminal and /dev/null take anything
         for (const auto& other : outputs_)
-            if (same_file(other.path, path)) refuse("is also the file of " + other.option);
+            if (same_file(other.path, path)) refuse("is also the file of " + other.option + "; name another one");
     outputs_.push_back({option, path});
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared_options.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "choices.hpp"
@@ -14,7 +15,7 @@ CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
     return {[=](const std::string& text)
             {
                 double x = 0;
-                if (!CLI::detail::lexical_cast(text, x)) return text + " is no number";
+                if (!CLI::detail::lexical_cast(text, x) || std::isnan(x)) return text + " is no number";
                 return holds(x) ? std::string() : text + ' ' + otherwise;
             },
             ""};
@@ -31,15 +32,31 @@ CLI::Validator whole_number()
             ""};
 }
 
+namespace
+{
+
+CLI::Validator dash_for(const char* stream)
+{
+    return {[=](std::string& given)
+            {
+                if (given == "-") given = stream;
+                return std::string();
+            },
+            ""};
+}
+
+} // namespace
+
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& path, const char* stream,
                       const std::string& help)
 {
-    const auto dash = [=](std::string& given)
-    {
-        if (given == "-") given = stream;
-        return std::string();
-    };
-    return app.add_option(name, path, help)->transform(CLI::Validator(dash, ""));
+    return app.add_option(name, path, help)->transform(dash_for(stream));
+}
+
+CLI::Option* add_path(CLI::App& app, const std::string& name, std::vector<std::string>& paths, const char* stream,
+                      const std::string& help)
+{
+    return app.add_option(name, paths, help)->transform(dash_for(stream));
 }
 
 void require_one_standard_input(const std::string& input, const std::string& pins)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -18,8 +19,10 @@ namespace taut::tools
 CLI::Validator number_that(bool (*holds)(double), const char* otherwise);
 CLI::Validator whole_number();
 
-/// The name of a file; - stands for `stream`, standard_input or standard_output.
+/// The name of a file, or of several; - stands for `stream`, standard_input or standard_output.
 CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& path, const char* stream,
+                      const std::string& help);
+CLI::Option* add_path(CLI::App& app, const std::string& name, std::vector<std::string>& paths, const char* stream,
                       const std::string& help);
 
 /// Throws usage_error if both are standard input.

@@ -252,8 +252,7 @@ std::string shell_run::text() const
                            number(100 * edges_.largest) + " %");
     lines.add("areas", number(run_.flips.min_det) + " .. " + number(run_.flips.max_det) + " of those at rest");
     lines.add("time", duration(total_) + ": read " + duration(read_) + ", solve " + duration(solve_));
-    lines.add("wrote", options_.output + (options_.picture.empty() ? "" : ", " + options_.picture) +
-                           (options_.stats.empty() ? "" : ", " + options_.stats));
+    lines.add_written({options_.output, options_.picture, options_.stats});
     return (std::ostringstream() << lines).str();
 }
 

@@ -28,6 +28,14 @@ std::string duration(double seconds)
     return seconds < 0.1 ? number(1000 * seconds, 2) + " ms" : number(seconds, 3) + " s";
 }
 
+void labelled_lines::add_written(const std::vector<std::string>& files)
+{
+    std::string list;
+    for (const auto& file : files)
+        if (!file.empty()) list += (list.empty() ? "" : ", ") + file;
+    if (!list.empty()) add("wrote", std::move(list));
+}
+
 std::ostream& operator<<(std::ostream& out, const labelled_lines& lines)
 {
     std::size_t width = 0;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace taut::tools
@@ -25,6 +26,9 @@ class labelled_lines
 {
 public:
     void add(std::string label, std::string text) { lines_.push_back({std::move(label), std::move(text)}); }
+
+    /// A line of the files that were written, without empty names; none if all are empty.
+    void add_written(const std::vector<std::string>& files);
     friend std::ostream& operator<<(std::ostream& out, const labelled_lines& lines);
 
 private:

@@ -14,6 +14,7 @@
 #include "progress.hpp"
 #include "run_clock.hpp"
 #include "shared_options.hpp"
+#include "shell_run.hpp"
 #include "untangle_run.hpp"
 
 namespace taut::tools
@@ -46,6 +47,9 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
         return with_case(*file, [&]<class Element>(const volume_case<Element>& input)
                          { return untangled(problem_of(input, options, report), &input); });
     }
+    if (names_surface(options.input))
+        throw io::io_error(options.input, "is a surface in space, of which no element is inverted; `taut deform` moves "
+                                          "one, `taut unwrap` maps it to the plane");
     std::optional<decltype(io::read_any_prob({}))> file;
     report.seconds.read = clock.timed([&] { file = io::read_any_prob(options.input); });
     return std::visit(

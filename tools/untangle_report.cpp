@@ -87,11 +87,8 @@ std::string text_of(const untangle_report& r, const untangle_options& o)
     lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", check " +
                           duration(r.seconds.check) + ", device " + duration(r.seconds.device) + ", solve " +
                           duration(r.seconds.solve) + ", write " + duration(r.seconds.write));
-    std::string files = r.written;
     const std::string table = r.code == exit_code::valid ? o.refined_map : "";
-    for (const auto& file : {o.picture, table, o.stats})
-        if (!file.empty()) files += (files.empty() ? "" : ", ") + file;
-    if (!files.empty()) lines.add("wrote", files);
+    lines.add_written({r.written, o.picture, table, o.stats});
     return (std::ostringstream() << lines).str();
 }
 

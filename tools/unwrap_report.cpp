@@ -213,10 +213,7 @@ std::string text_of(const unwrap_report& r, const unwrap_options& o)
                           (r.seconds.draw > 0 ? ", draw " + duration(r.seconds.draw) : "") + ", write " +
                           duration(r.seconds.write));
     lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
-    std::string files = o.output;
-    for (const auto& file : {o.picture, o.render, o.stats})
-        if (!file.empty()) files += ", " + file;
-    lines.add("wrote", files);
+    lines.add_written({o.output, o.picture, o.render, o.stats});
     std::ostringstream out;
     out << lines;
     print(out, r.after);

@@ -102,7 +102,10 @@ command add_view(CLI::App& program)
         ->needs(source);
     app.add_flag("--holes", options->from.holes, "Take surfaces with holes");
     app.add_flag("--shell", options->from.shell, "Deform the surface in space, as a thin shell");
-    app.add_option("--port", options->port, "Port of 127.0.0.1; 0: a free one")->type_name("N")->capture_default_str();
+    app.add_option("--port", options->port, "Port of 127.0.0.1; 0: a free one")
+        ->type_name("N")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
     app.add_option("--frame", options->frame, "Milliseconds of work between two pictures")
         ->type_name("MS")
         ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))

@@ -204,6 +204,21 @@ def kept_charts_and_seams():
         for k in range(3):
             sides.setdefault(tuple(sorted((f[k], f[k - 1]))), []).append({uv[t[k]], uv[t[k - 1]]})
     assert equator and all(sides[e][0] != sides[e][1] for e in equator), "the equator is no seam"
+    # So is the border of a material, with texture coordinates and without.
+    red = [f for f in faces if sum(points[v][2] for v in f) < 0]
+    blue = [f for f in faces if f not in red]
+    text = obj(points, red) + "usemtl blue sky\n" + obj([], blue)
+    border = {e for e in edges if any(set(e) <= set(f) for f in red) and any(set(e) <= set(f) for f in blue)}
+    for source in (text, text.replace("f ", "vt 0.5 0.5\nf ", 1).replace("usemtl", "usemtl red\nusemtl")):
+        pathlib.Path("materials.obj").write_text(source)
+        run("atlas", "materials.obj", "-o", "out.obj", "--keep-seams", "--max-distortion", 8)
+        _, uv, got, texcoords = read("out.obj")
+        sides = {}
+        for f, t in zip(got, texcoords):
+            for k in range(3):
+                sides.setdefault(tuple(sorted((f[k], f[k - 1]))), []).append({uv[t[k]], uv[t[k - 1]]})
+        assert border and all(sides[e][0] != sides[e][1] for e in border), "a material has no border"
+    assert "materials" in run("atlas", "ball.obj", "-o", "x.obj", "--keep-seams", code=4).stderr
     pathlib.Path("seams").write_text("0 399999\n")
     assert "line 1" in run("atlas", "ball.obj", "-o", "x.obj", "--seams", "seams", code=3).stderr
     pathlib.Path("seams").write_text(f"{equator[0][0]} 0\n" if equator[0][0] else f"{equator[0][1]} 1\n")
@@ -229,6 +244,16 @@ def polygons_and_several_surfaces():
     got, _, got_faces, _ = read("one.obj")
     assert got == both[0] and len(got_faces) == len(both[1])
     judge("one.obj", both[0], got_faces)
+
+    # Standard input and output.
+    with open("quads.obj", encoding="utf-8") as text:
+        piped = subprocess.run([TAUT, "atlas", "-", "-o", "-"], stdin=text, capture_output=True, check=True).stdout
+    run("atlas", "quads.obj", "-o", "out.obj")
+    assert piped == pathlib.Path("out.obj").read_bytes()
+    # What is wrong is told with the numbers of the file that it is in.
+    write("turned.obj", more[0], [more[1][0][::-1]] + more[1][1:])
+    done = run("atlas", "quads.obj", "turned.obj", "-o", "x.obj", code=4)
+    assert "turned.obj: " in done.stderr and "(0-" in done.stderr, done.stderr
 
 
 def polygons_of_any_outline():
@@ -259,6 +284,13 @@ def wrong_usage():
     for arguments, words in ((["ball.obj"], "--output"), (["ball.obj", "-o", "x.png"], "must end in"),
                              (["ball.obj", "-o", "x.obj", "--max-distortion", "4"], "not above 4"),
                              (["ball.obj", "-o", "x.obj", "--padding", "-1"], "padding"),
+                             (["ball.obj", "-o", "x.obj", "--padding", "64", "--resolution", "128"], "--padding 64"),
+                             (["ball.obj", "-o", "x.obj", "--padding", "nan"], "no number"),
+                             (["ball.obj", "-o", "x.obj", "--texcoord-set", "1"], "--texcoord-set"),
+                             (["ball.obj", "-o", "x.obj", "--charts", "keep", "--keep-seams"], "--keep-seams"),
+                             (["ball.obj", "-o", "x.obj", "--charts", "keep", "--max-distortion", "5"], "no bound"),
+                             (["ball.obj", "ball.obj", "-o", "x.glb"], "as .obj"),
+                             (["-", "-", "-o", "x.obj"], "standard input"),
                              (["ball.obj", "ball.obj", "ball.obj", "-o", "x.obj", "-o", "y.obj"], "outputs"),
                              (["ball.obj", "ball.obj", "-o", "x.obj", "--seams", "ball.obj"], "--seams")):
         assert words in run("atlas", *arguments, code=2).stderr

@@ -1150,8 +1150,8 @@ test_check()
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 nan\nv 1 1 0\nv 0 1 inf\nv 0 2 0\nf 1 2 3\nf 1 2 4\nf 2 2 4\nf 1 9 2\nf 4 2 1\nf 1 2 6\n' >raw.obj
     expect 3 check raw.obj
     says out '^input .*surface, 6 vertices, 6 triangles' \
-        '^error +raw.obj, line 3: vertex 2 .*; in all 2 vertices \(2, 4\).*; --repair: left out' \
-        '^error +1 triangle \(2\) naming a vertex twice; --repair: left out' '^error +1 triangle \(3\) naming' \
+        '^error +raw.obj, line 3: vertex 2 .*; in all 2 vertices \(2, 4\).*; taut atlas --repair: left out' \
+        '^error +1 triangle \(2\) naming a vertex twice; taut atlas --repair: left out' '^error +1 triangle \(3\) naming' \
         '^error +1 pair \(1-4\) of triangles' '^error +1 triangle \(1\) oriented' \
         '^warning +1 vertex \(4\) without' '^result +5 errors'
     expect 3 check raw.obj --json
@@ -1161,7 +1161,7 @@ test_check()
     # Of one that is a mesh, what is worth knowing besides.
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n' >crack.obj
     expect 4 check crack.obj
-    says out '^error +2 components' '^warning +2 pairs \(1-3, 2-4\) of vertices .*; --repair: welded'
+    says out '^error +2 components' '^warning +2 pairs \(1-3, 2-4\) of vertices .*; taut atlas --repair: welded'
 
     expect 3 check nothing.obj
     says out '^error +nothing.obj: No such file'
@@ -1454,6 +1454,7 @@ test_volumes()
     expect 0 check hex.vtk
     says out '1 wedge, 16 hexahedra' '^insides +all valid, by Bezier bounds'
     expect 0 deform hex.vtk -o out.vtk --fix part:1 --move part:2:rotate:0,0,1,60 --stats stats.json --picture hex.png --cut y
+    says out '^wrote +out.vtk, hex.png, stats.json$'
     keys stats.json element elements inverted insides.negative insides.undecided
     says values '^element=mixed$' '^elements=17$' '^inverted=0$' '^insides.negative=0$'
     png hex.png
@@ -1507,6 +1508,8 @@ test_untangle()
 {
     strip 8 collapsed >in.prob
     cp in.prob copy.prob
+    expect 3 untangle in.obj -o out.txt
+    error_says 'in.obj: is a surface in space'
     expect 0 untangle in.prob -o out.txt --stats stats.json --picture out.png
     says out '^problem .*27 vertices, 32 triangles, 20 vertices pinned' '^inverted +[1-9][0-9]* -> 0 of 32' \
         '^outcome +injective' '^wrote +out.txt'

@@ -73,12 +73,13 @@ void declare_reports(CLI::App& app, atlas_options& o)
 
 void declare(CLI::App& app, atlas_options& o)
 {
-    app.add_option("IN", o.inputs, "Surfaces that share the atlas: OBJ, OFF, PLY, STL, glTF")
+    add_path(app, "IN", o.inputs, standard_input,
+             "Surfaces that share the atlas: OBJ, OFF, PLY, STL, glTF; - is standard input")
         ->required()
         ->type_name("FILE...");
-    app.add_option("-o,--output", o.outputs,
-                   "What to write, once for each surface: the file as it is, with new vt; one for several: all of them "
-                   "as triangles, an object each")
+    add_path(app, "-o,--output", o.outputs, standard_output,
+             "What to write, once for each surface: the file as it is, with new vt; one for several: an OBJ of all of "
+             "them as triangles, an object each; - is standard output")
         ->required()
         ->allow_extra_args(false)
         ->type_name("OUT.obj|.glb");
@@ -103,8 +104,27 @@ outputs check(const atlas_options& o)
     if (!(o.time_limit > 0)) throw usage_error("--time-limit: must be positive");
     if (o.inputs.size() > 1 && !o.seams.empty())
         throw usage_error("--seams names vertices of one surface; map the surfaces one at a time, or use --keep-seams");
+    if (std::count(o.inputs.begin(), o.inputs.end(), standard_input) > 1)
+        throw usage_error("-: standard input is one surface; name the others");
+    const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
+    if (o.texcoord_set > 0 && !gltf && std::none_of(o.outputs.begin(), o.outputs.end(), io::is_gltf))
+        throw usage_error("--texcoord-set is of glTF; leave it out");
+    if (o.keep_charts)
+    {
+        if (o.keep_seams) throw usage_error("--charts keep has the seams of the vt alone; leave out --keep-seams");
+        if (o.max_distortion || o.mean_distortion)
+            throw usage_error("--charts keep cuts no chart, so there is no bound; leave out --max-distortion and "
+                              "--mean-distortion");
+    }
+    if (2 * o.padding >= o.resolution)
+        throw usage_error("--padding " + number(o.padding, 6) + ": must be less than half of --resolution, " +
+                          std::to_string(o.resolution));
     outputs files;
     const bool joined = o.outputs.size() < o.inputs.size();
+    if (joined && io::is_gltf(o.outputs[0]))
+        throw usage_error("-o " + o.outputs[0] +
+                          ": several surfaces become one file as .obj; for glTF give -o once "
+                          "for each surface");
     for (const auto& path : o.outputs)
         files.add("-o", path,
                   joined ? std::vector<std::string>{".obj"} : std::vector<std::string>{".obj", ".glb", ".gltf"});

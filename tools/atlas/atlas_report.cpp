@@ -66,7 +66,7 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
     for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
     const auto& a = r.atlas;
     labelled_lines lines;
-    std::string files;
+    std::vector<std::string> files;
     for (const auto& s : r.surfaces)
     {
         const auto all = static_cast<std::uint64_t>(s.triangles), mapped = static_cast<std::uint64_t>(s.mapped);
@@ -74,7 +74,7 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
                               count(all, "triangle", "triangles") +
                               (mapped < all ? ", " + count(all - mapped) + " left out" : ""));
         describe(lines, s.repairs);
-        if (files.empty() || s.output != r.surfaces.front().output) files += (files.empty() ? "" : ", ") + s.output;
+        if (files.empty() || s.output != files.front()) files.push_back(s.output);
     }
     lines.add("device", r.device_label);
     lines.add("charts", count(a.charts.size(), "chart", "charts") + ", seams of length " + number(a.seam_length));
@@ -92,9 +92,8 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
                           duration(a.seconds.certify) + (r.draw > 0 ? ", draw " + duration(r.draw) : "") + ", write " +
                           duration(r.write));
     lines.add("memory", number(static_cast<double>(peak_memory()) / (1 << 20), 3) + " MiB at most");
-    for (const auto& file : {o.picture, o.render, o.report, o.stats})
-        if (!file.empty()) files += ", " + file;
-    lines.add("wrote", files);
+    files.insert(files.end(), {o.picture, o.render, o.report, o.stats});
+    lines.add_written(files);
     return (std::ostringstream() << lines).str();
 }
 

@@ -2,8 +2,11 @@
 #include "atlas_source.hpp"
 
 #include <limits>
+#include <map>
+#include <string_view>
 
 #include <taut/gltf/gltf.hpp>
+#include <taut/io/detail/obj_statements.hpp>
 #include <taut/io/write_obj.hpp>
 
 #include "../failure.hpp"
@@ -14,6 +17,24 @@ namespace taut::tools
 
 namespace
 {
+
+/// A number for the material of each face of OBJ text; empty if it names none.
+std::vector<idx> face_materials(std::string_view text)
+{
+    std::map<std::string_view, idx> numbers{{"", 0}}; // of faces before the first name
+    std::vector<idx> materials;
+    idx now = 0;
+    io::detail::scanner in(text, {});
+    io::detail::for_each_statement(
+        in,
+        [&](std::string_view key, const char*)
+        {
+            if (key == "f") materials.push_back(now);
+            if (key == "usemtl")
+                now = numbers.emplace(in.rest_of_line(), static_cast<idx>(numbers.size())).first->second;
+        });
+    return numbers.size() > 1 ? materials : std::vector<idx>();
+}
 
 /// OBJ, OFF, PLY or STL; written as OBJ, or as a new glTF document.
 class surface_source : public atlas_source
@@ -34,12 +55,15 @@ public:
     std::vector<idx> polygons() const override
     {
         if (file_.faces.triangles.empty()) return {};
-        std::vector<idx> polygon(file_.faces.corners.size());
-        std::size_t corner = 0;
-        for (std::size_t f = 0; f < file_.faces.sizes.size(); ++f)
-            for (idx k = 0; k < file_.faces.sizes[f]; ++k) polygon[corner++] = static_cast<idx>(f);
-        std::vector<idx> result(surface().cells().size());
-        for (std::size_t c = 0; c < result.size(); ++c) result[c] = polygon[file_.faces.corner(origin(c, 0).first, 0)];
+        return faces();
+    }
+
+    std::vector<idx> parts() const override
+    {
+        const auto materials = face_materials(file_.obj.bytes);
+        if (materials.size() != file_.faces.sizes.size()) return {}; // none, or a face that is none
+        auto result = faces();
+        for (idx& face : result) face = materials[static_cast<std::size_t>(face)];
         return result;
     }
 
@@ -63,6 +87,18 @@ public:
     }
 
 private:
+    /// The face of the file that each triangle is of.
+    std::vector<idx> faces() const
+    {
+        std::vector<idx> face(file_.faces.corners.size());
+        std::size_t corner = 0;
+        for (std::size_t f = 0; f < file_.faces.sizes.size(); ++f)
+            for (idx k = 0; k < file_.faces.sizes[f]; ++k) face[corner++] = static_cast<idx>(f);
+        std::vector<idx> result(surface().cells().size());
+        for (std::size_t c = 0; c < result.size(); ++c) result[c] = face[file_.faces.corner(origin(c, 0).first, 0)];
+        return result;
+    }
+
     std::optional<vec2> texcoord(std::size_t cell, std::size_t corner) const override
     {
         const idx t = file_.texcoord_cells.empty() ? -1 : file_.texcoord_cells[cell][corner];

@@ -27,8 +27,9 @@ std::vector<std::array<idx, 2>> read_edges(const std::string& path, idx vertices
     const std::string text = io::read_file(path);
     std::vector<std::array<idx, 2>> edges;
     std::size_t line = 1;
-    const auto fail = [&](const std::string& what)
-    { throw io::io_error(path, "line " + std::to_string(line) + ": " + what); };
+    const auto fail = [&](const std::string& what) {
+        throw io::io_error(path, what, io::file_place{io::file_place::line, line});
+    };
     for (std::size_t begin = 0; begin < text.size(); ++line)
     {
         const std::size_t end = std::min(text.find('\n', begin), text.size());

@@ -71,7 +71,7 @@ std::string text_of(const deform_report& r, const shape_options& o)
     lines.add("after", shapes_text(r.after.shapes));
     lines.add("time", duration(r.seconds.total) + ": read " + duration(r.seconds.read) + ", device " +
                           duration(r.seconds.device) + ", solve " + duration(r.seconds.solve));
-    lines.add("wrote", o.output + (o.stats.empty() ? "" : ", " + o.stats));
+    lines.add_written({o.output, o.refined_map, o.picture, o.stats});
     return (std::ostringstream() << lines).str();
 }
 

@@ -7,6 +7,7 @@
 
 #include <taut/atlas/atlas_params.hpp>
 #include <taut/atlas/atlas_report.hpp>
+#include <taut/mesh/validate.hpp>
 #include <taut/packing/pack.hpp>
 
 namespace taut
@@ -32,6 +33,10 @@ struct atlas
     /// True if it is certified: no triangle is flipped, no two overlap, and charts are as far apart as asked.
     explicit operator bool() const { return report.reason.empty(); }
 };
+
+/// What make_atlas() asks of a surface.
+inline constexpr mesh_requirements atlas_requirements{
+    .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
 
 /// Makes an atlas of any surface: cuts it into charts that can be flattened within a bound of distortion, flattens all
 /// of them at once on the queue's device, packs them, and certifies the result in exact arithmetic.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <thread>
 #include <vector>
 
 #include <taut/core/parallel.hpp>
@@ -19,8 +18,7 @@ template <class Bucket, class Place>
 std::vector<idx> counting_sort(std::size_t n, std::size_t buckets, Bucket bucket, Place place, unsigned threads = 0)
 {
     // Each part of the range counts for itself; more parts would cost more memory than they gain time.
-    const unsigned cores = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-    const std::size_t parts = std::clamp<std::size_t>(n / 32768, 1, std::min(cores, 4U));
+    const std::size_t parts = std::clamp<std::size_t>(n / 32768, 1, threads > 0 ? std::min(threads, 4U) : 4U);
     const auto for_each_part = [&](const auto& body)
     {
         parallel_for(

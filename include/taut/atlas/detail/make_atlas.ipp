@@ -39,8 +39,7 @@ public:
 
     atlas run()
     {
-        validate(mesh_, facets_,
-                 {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
+        validate(mesh_, facets_, atlas_requirements);
         report_.seconds.setup = budget_.lap();
         if (params_.keep_charts)
             keep_charts();
