@@ -34,7 +34,7 @@ struct segment_params
 
     /// Charts of more than a 200th of the area that take less of their convex hull in the plane are cut, 0 to 1: limbs
     /// go their own ways, for the sake of packing.
-    double least_fill = 0.8;
+    double least_fill = 0.82;
 
     /// At most so many times charts are cut further, 0 to 100. Each time those that were cut are flattened.
     int cut_rounds = 8;

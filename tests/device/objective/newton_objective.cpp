@@ -312,7 +312,9 @@ TEST_CASE_TEMPLATE("newton objective: few waits an iteration, and the minimum th
     CHECK(r.stop == solve::stop::gradient);
     CHECK(r.iterations >= 2);
     CHECK(r.waits == waits);
-    CHECK(static_cast<int>(waits) <= 2.5 * r.iterations + 1); // 2, and 3 where the systems become harder; the start
+    // 2, one more where the systems become harder, one to make directions conjugate, one for the norm of the gradient
+    // near the end of those; the start
+    CHECK(static_cast<int>(waits) <= 4 * r.iterations + 1);
     CHECK(r.gradient_norm <= 1e-6);
 
     map_objective<triangle> g(s.q, s.levels.make_layout(0), energy::isometric{}, energy::weighting::measure);

@@ -410,7 +410,7 @@ private:
             idx chart = 0; // of the part
         };
         // Slim charts do not pack well, and small ones are what fills the gaps.
-        const double slimmest = what == unions::small ? 0.85 : 0.6;
+        const double slimmest = what == unions::small ? 0.85 : 0.72;
         std::vector<trial> trials;
         for (idx k = 0; k < part.charts.charts(); ++k)
         {
