@@ -241,14 +241,11 @@ private:
         const idx t = graph_.twin(h);
         const piece& p = pieces_[u(graph_.polygon(h))];
         double cost = -p.strain;
-        if (arcs_[u(h)].border || leaves_one_edge(h))
-            return infinite;
-        else if (graph_.parts(h) && !are_rivals(graph_.polygon(h), graph_.polygon(t)))
-            cost -= pieces_[u(graph_.polygon(t))].strain;
-        else if (graph_.dangles(h) || graph_.dangles(t))
-            cost += p.moments.area * corner_[u(graph_.start(graph_.dangles(h) ? t : h))];
-        else
-            return infinite;
+        const bool parts = graph_.parts(h) && !are_rivals(graph_.polygon(h), graph_.polygon(t));
+        const bool slit = !parts && (graph_.dangles(h) || graph_.dangles(t));
+        if (arcs_[u(h)].border || leaves_one_edge(h) || (!parts && !slit)) return infinite;
+        if (parts) cost -= pieces_[u(graph_.polygon(t))].strain;
+        if (slit) cost += p.moments.area * corner_[u(graph_.start(graph_.dangles(h) ? t : h))];
         return (cost + without(h).strain()) / arcs_[u(h)].worth;
     }
 

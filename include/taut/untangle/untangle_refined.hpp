@@ -157,7 +157,7 @@ std::vector<char> within_rings(const mesh<Element>& m, std::span<const idx> cell
 
 /// Takes another map as the best one, if it has fewer defects.
 template <class Element>
-void take_better(const untangle_problem<Element>& p, std::vector<vec<Element::dimension>> map, std::string stage,
+void take_better(const untangle_problem<Element>& p, std::vector<vec<Element::dimension>> map, const std::string& stage,
                  untangle_result<Element>& found)
 {
     constexpr int D = Element::dimension;
@@ -166,7 +166,7 @@ void take_better(const untangle_problem<Element>& p, std::vector<vec<Element::di
     found.map = std::move(map);
     found.flips = std::move(flips);
     found.ids = found.flips.ids;
-    found.stage = std::move(stage);
+    found.stage = stage;
 }
 
 /// The stages of a short try: in space those that end soon.

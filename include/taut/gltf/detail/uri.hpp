@@ -34,10 +34,10 @@ inline std::optional<std::string> from_base64(std::string_view text)
 {
     static constexpr auto values = []
     {
-        std::array<signed char, 256> v{};
+        std::array<int, 256> v{};
         v.fill(-1);
         for (std::size_t i = 0; i < 64; ++i)
-            v[static_cast<unsigned char>(base64_digits[i])] = static_cast<signed char>(i);
+            v[static_cast<unsigned char>(base64_digits[i])] = static_cast<int>(i);
         return v;
     }();
     while (text.ends_with('=')) text.remove_suffix(1);
