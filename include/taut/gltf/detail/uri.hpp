@@ -36,8 +36,7 @@ inline std::optional<std::string> from_base64(std::string_view text)
     {
         std::array<int, 256> v{};
         v.fill(-1);
-        for (std::size_t i = 0; i < 64; ++i)
-            v[static_cast<unsigned char>(base64_digits[i])] = static_cast<int>(i);
+        for (std::size_t i = 0; i < 64; ++i) v[static_cast<unsigned char>(base64_digits[i])] = static_cast<int>(i);
         return v;
     }();
     while (text.ends_with('=')) text.remove_suffix(1);
