@@ -26,7 +26,7 @@ namespace detail
 {
 
 /// The loop of newton(). Truncated Newton's method with a line search (Nocedal & Wright, Algorithm 7.1): the direction
-/// by preconditioned conjugate gradients, then the best of four trial steps that meets the Armijo condition.
+/// by preconditioned conjugate gradients, then the best of the trial steps that meets the Armijo condition.
 ///
 /// Where the Hessian is indefinite the stand-in may be much too stiff: its directions are then those of steepest
 /// descent in its metric, and too short. So they are made conjugate to each other, and tried at up to four times their
