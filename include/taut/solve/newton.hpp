@@ -67,6 +67,7 @@ public:
           last_g_(f.space().make()),
           last_d_(f.space().make()),
           full_gradient_(f.space().make()),
+          system_steps_(params.pcg.max_steps),
           waits_(f_.waits())
     {
     }
@@ -87,7 +88,8 @@ public:
     }
 
 private:
-    static constexpr int patience = 3; // gradients fall fast or not at all
+    static constexpr int patience = 3;       // gradients fall fast or not at all
+    static constexpr int longest_system = 8; // times pcg.max_steps
 
     std::optional<solve::stop> start()
     {
@@ -128,7 +130,7 @@ private:
         model_ = pcg_.solve(
             g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
             [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_,
-            [this] { return monitor_.proceed(); });
+            [this] { return monitor_.proceed(); }, exact ? system_steps_ : 0);
         report_.products += model_.steps;
         exact_ = exact;
         if (!exact_ && along_stand_in_) conjugate();
@@ -220,6 +222,11 @@ private:
     {
         const bool full = full_square_ && t.step == 1;
         along_stand_in_ = !exact_;
+        // Where the Hessian has proved right, a system that ends for want of steps would begin anew from what is left.
+        if (!exact_ || t.step < 1)
+            system_steps_ = params_.pcg.max_steps;
+        else if (model_.steps >= system_steps_)
+            system_steps_ = std::min(2 * system_steps_, longest_system * params_.pcg.max_steps);
         std::swap(g_, last_g_);
         std::swap(x_, previous_);
         if (full)
@@ -304,6 +311,7 @@ private:
     bool along_stand_in_ = false;       // last_d_ is of the stand-in
     bool near_end_ = true;              // the norm of the next gradient will be wanted
     bool pending_ = false;              // the last step has no gradient norm yet
+    int system_steps_ = 0;              // of PCG at most; more where the Hessian has proved right
     std::uint64_t waits_;               // before the start
     report report_;
 };

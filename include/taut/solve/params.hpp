@@ -248,7 +248,8 @@ struct conjugate_gradient_params
 /// How exactly a Newton system is solved.
 struct pcg_params
 {
-    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000.
+    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000. Newton's method doubles it, up to
+    /// eightfold, after each full step along the Hessian itself whose system took them all.
     int max_steps = 40;
 
     /// Steps between two looks at the result, at most; each look is a host wait. The first system is looked at after

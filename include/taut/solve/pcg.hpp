@@ -59,18 +59,21 @@ public:
     }
 
     /// A(v, out) and M(v, out) are the products, M symmetric positive definite on the space of g. proceed() is asked
-    /// between blocks of steps; where it says no, d is what there is.
+    /// between blocks of steps; where it says no, d is what there is. max_steps: in the place of
+    /// pcg_params::max_steps, unless it is 0.
     template <class Product, class Preconditioner, class Proceed = always>
-    pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d, Proceed&& proceed = {})
+    pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d, Proceed&& proceed = {},
+                     int max_steps = 0)
     {
+        if (max_steps == 0) max_steps = params_.max_steps;
         pcg_result result;
         std::size_t needed = 0; // steps until the last one brought little
         space_.copy(g, r_);
-        for (bool more = true; more && result.steps < params_.max_steps;)
+        for (bool more = true; more && result.steps < max_steps;)
         {
             const bool first = result.steps == 0;
             if (!first && !proceed()) break;
-            const std::size_t s = std::min(size_, static_cast<std::size_t>(params_.max_steps - result.steps));
+            const std::size_t s = std::min(size_, static_cast<std::size_t>(max_steps - result.steps));
             make_block(s, A, M);
             const products in = multiply(first);
             ++result.looks;
@@ -120,7 +123,7 @@ public:
             }
             add(c, B, d, first);
             if (!first) last = gained / double(s);
-            more = more && last > params_.gain * result.decrease / result.steps && result.steps < params_.max_steps;
+            more = more && last > params_.gain * result.decrease / result.steps && result.steps < max_steps;
             if (more) advance(c, B, K);
         }
         // Who needed more than was expected will need yet more: systems are solved the better, the nearer the end.

@@ -276,6 +276,45 @@ TEST_CASE("newton: a stand-in that is much too stiff takes few iterations, too")
     for (std::size_t k = 1; k < r.history.size(); ++k) CHECK(r.history[k].step <= 4);
 }
 
+TEST_CASE("newton: where full steps succeed, systems may take more steps than at first")
+{
+    // A chain of springs, held at one end and drawn at the other: conjugate gradients need a step a spring, and what is
+    // begun anew every four steps crawls.
+    constexpr std::size_t n = 60;
+    auto chain = host_objective(n,
+                                [](std::span<const double> x, std::span<double> g)
+                                {
+                                    double f = 1 - x[n - 1];
+                                    for (std::size_t i = 0; i < n; ++i) g[i] = 0;
+                                    g[n - 1] = -1;
+                                    for (std::size_t i = 0; i < n; ++i)
+                                    {
+                                        const double d = x[i] - (i > 0 ? x[i - 1] : 0);
+                                        f += 0.5 * d * d;
+                                        g[i] += d;
+                                        if (i > 0) g[i - 1] -= d;
+                                    }
+                                    return f + 100;
+                                });
+    auto f = with_hessian(std::move(chain),
+                          [](const std::vector<double>&, bool)
+                          {
+                              matrix H(n, std::vector<double>(n, 0.0));
+                              for (std::size_t i = 0; i < n; ++i)
+                              {
+                                  H[i][i] = i + 1 < n ? 2 : 1;
+                                  if (i > 0) H[i][i - 1] = H[i - 1][i] = -1;
+                              }
+                              return H;
+                          });
+    std::vector<double> x(n, 0.0);
+    const auto r = newton(f, x, {.pcg = {.max_steps = 4, .gain = 1e-6}, .exact_below = 0.9},
+                          {.stopping = {.gradient_tolerance = 1e-6, .max_iterations = 1000}});
+    CHECK(r.stop == stop::gradient);
+    CHECK(r.iterations <= 40); // hundreds with four steps each
+    CHECK(x.back() == doctest::Approx(double(n)).epsilon(1e-3));
+}
+
 TEST_CASE("newton: finds the minimum of Rosenbrock's function in few iterations")
 {
     for (const std::size_t n : {2, 10, 30})
