@@ -73,6 +73,12 @@ struct mended_draft
     std::vector<untangle_stage_report> stages; ///< of its untangling
 };
 
+/// Whether a gradient inverts, or shrinks to less than `least` in some direction.
+inline bool shrinks(const mat3& F, double least)
+{
+    return !(glm::determinant(F) > 0 && norm2(glm::inverse(F)) < 2 + 1 / (least * least));
+}
+
 /// One flag a vertex: it is at most four edges from an element that is inverted, or has shrunk to less than 0.3 in some
 /// direction; nothing where there is no such element.
 inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
@@ -84,8 +90,7 @@ inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson,
     bool any = false;
     for (std::size_t c = 0; c < m.cells().size(); ++c)
     {
-        const mat3 F = poisson.gradient(c, x);
-        if (glm::determinant(F) > 0 && norm2(glm::inverse(F)) < 2 + 1 / (least * least)) continue;
+        if (!shrinks(poisson.gradient(c, x), least)) continue;
         any = true;
         for (const idx v : m.cells()[c]) inside[at(v)] = 1;
     }
@@ -127,7 +132,7 @@ inline mended_draft draft_of(const queue& q, const untangle_problem<tetrahedron>
         if (!certified(part->problem.rest, start))
         {
             how.rounds = 1;
-            how.first_round = 30; // `operator` soon succeeds, or `lead` does
+            how.stages = {"lead"}; // others leave elements next to flat, which cut the steps that follow
             how.time_limit = clock.left();
             auto untangled = untangle(q, part->problem, how);
             found.stages = std::move(untangled.stages);
@@ -145,6 +150,9 @@ inline mended_draft draft_of(const queue& q, const untangle_problem<tetrahedron>
                 if (!part->problem.held.test(k, i))
                     found.x[static_cast<std::size_t>(part->vertices[k])][i] = mended[k][i];
     }
+    constexpr double flat = 0.03; // such elements would cut the steps of all for long
+    for (std::size_t c = 0; c < here.cells().size(); ++c)
+        if (shrinks(poisson.gradient(c, found.x), flat)) return none();
     return certified(here, found.x) ? found : none();
 }
 
