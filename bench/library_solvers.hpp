@@ -36,7 +36,7 @@ inline solver_run run_library(taut::queue& q, const std::filesystem::path& path,
 {
     solver_run run;
     const peak_memory memory;
-    const auto cpu = std::clock();
+    const double cpu = cpu_seconds();
     const auto begin = clock::now();
     const auto m = taut::io::read_surface(path);
     run.seconds.read = std::chrono::duration<double>(clock::now() - begin).count();
@@ -45,7 +45,7 @@ inline solver_run run_library(taut::queue& q, const std::filesystem::path& path,
     { return !(at.iterate && at.level == 0 && at.value <= limits.enough && at.value > 0); };
     const auto [uv, r] = taut::parameterize(q, m, p);
     const double wall = std::chrono::duration<double>(clock::now() - begin).count();
-    run.cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+    run.cpu_seconds = cpu_seconds() - cpu;
     run.peak_bytes = memory.bytes();
     run.bytes_before = memory.before();
 

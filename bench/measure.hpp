@@ -35,6 +35,12 @@ double seconds(F&& work)
     return std::chrono::duration<double>(clock::now() - begin).count();
 }
 
+/// Processor seconds of all threads of the process so far, those of a device that is the processor included.
+inline double cpu_seconds()
+{
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
 /// Seconds of repeated work. The median is what one gets; the least is what the work costs on an idle machine.
 struct timing
 {

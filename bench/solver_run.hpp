@@ -19,8 +19,9 @@ namespace bench
 struct sample
 {
     int iteration = 0;
-    double value = 0;   ///< mean symmetric Dirichlet energy, by rest area
-    double seconds = 0; ///< since the file was opened, all set-up included, less start-up of the device
+    double value = 0;       ///< mean symmetric Dirichlet energy, by rest area
+    double seconds = 0;     ///< since the file was opened, all set-up included, less start-up of the device
+    double cpu_seconds = 0; ///< of all threads meanwhile; 0: not counted
 };
 
 /// Wall-clock seconds, each counted once.
@@ -75,12 +76,13 @@ struct reached
 {
     int iterations;
     double seconds;
+    double cpu_seconds = 0; ///< 0: not counted
 };
 
 inline std::optional<reached> effort(const solver_run& run, double best, double error)
 {
     for (const sample& s : run.history)
-        if (s.value - best <= error * best) return reached{s.iteration, s.seconds};
+        if (s.value - best <= error * best) return reached{s.iteration, s.seconds, s.cpu_seconds};
     return std::nullopt;
 }
 

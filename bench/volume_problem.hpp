@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -71,27 +73,27 @@ struct volume_problem
     }
 };
 
-/// A bar of 1 by 1 by 5, n cubes across, its vertices jittered inside and along the sides.
-inline volume_problem bar(int n)
+/// A bar of nx by ny by nz cubes of six tetrahedra, 1 wide along x, its vertices jittered inside and along the sides.
+inline volume_problem bar(int nx, int ny, int nz)
 {
     std::vector<taut::vec3> points;
     std::vector<taut::mesh<taut::tetrahedron>::cell> cells;
     std::mt19937 random(1);
     std::uniform_real_distribution<double> move(-0.2, 0.2);
-    const auto at = [n](int i, int j, int k) { return static_cast<taut::idx>((k * (n + 1) + j) * (n + 1) + i); };
-    for (int k = 0; k <= 5 * n; ++k)
-        for (int j = 0; j <= n; ++j)
-            for (int i = 0; i <= n; ++i)
+    const auto at = [=](int i, int j, int k) { return static_cast<taut::idx>((k * (ny + 1) + j) * (nx + 1) + i); };
+    for (int k = 0; k <= nz; ++k)
+        for (int j = 0; j <= ny; ++j)
+            for (int i = 0; i <= nx; ++i)
             {
                 taut::vec3 p(i, j, k);
-                const int last[] = {n, n, 5 * n};
+                const int last[] = {nx, ny, nz};
                 for (int c = 0; c < 3; ++c)
                     if (p[c] > 0 && p[c] < last[c]) p[c] += move(random);
-                points.push_back(p / double(n));
+                points.push_back(p / double(nx));
             }
-    for (int k = 0; k < 5 * n; ++k)
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
+    for (int k = 0; k < nz; ++k)
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i)
             {
                 const taut::idx a = at(i, j, k), b = at(i + 1, j + 1, k + 1);
                 const taut::idx ring[] = {at(i + 1, j, k),     at(i + 1, j + 1, k), at(i, j + 1, k),
@@ -99,6 +101,16 @@ inline volume_problem bar(int n)
                 for (int s = 0; s < 6; ++s) cells.push_back({a, ring[s], ring[(s + 1) % 6], b});
             }
     return {"bar", {std::move(points), std::move(cells)}, 0};
+}
+
+/// The bar of a name, "8x8x40", or "8" for that of 1 by 1 by 5; nothing where it is none.
+inline std::optional<volume_problem> bar_of(const std::string& name)
+{
+    int n[3] = {}, end = 0;
+    const int found = std::sscanf(name.c_str(), "%dx%dx%d%n", n, n + 1, n + 2, &end);
+    if (found == 1 && name.find_first_not_of("0123456789") == std::string::npos) return bar(n[0], n[0], 5 * n[0]);
+    if (found == 3 && end == int(name.size())) return bar(n[0], n[1], n[2]);
+    return std::nullopt;
 }
 
 } // namespace bench

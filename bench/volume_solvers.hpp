@@ -52,13 +52,13 @@ public:
     solver_run library()
     {
         solver_run run;
-        const auto begin = clock::now();
+        const stopwatch watch;
         taut::deform_params<tetrahedra> params;
         params.constraints = pins_;
         params.initial = start_;
         params.observer = [&](const taut::progress& p)
         {
-            if (p.iterate) run.history.push_back({p.iteration, p.value, since(begin)});
+            if (p.iterate) run.history.push_back(watch.at(p.iteration, p.value));
             return true;
         };
         const auto r = taut::deform(queue_, mesh_, params);
@@ -67,7 +67,23 @@ public:
         run.energy = r.report.energy;
         run.flipped = r.report.flips.flipped;
         run.stop = r.report.converged ? "converged" : "not converged";
-        run.seconds.solve = since(begin);
+        watch.stop(run);
+        return run;
+    }
+
+    /// The same from the shape at rest, whose ends are led to their places; as its history the end alone.
+    solver_run library_from_rest()
+    {
+        solver_run run;
+        const stopwatch watch;
+        const auto r = taut::deform(queue_, mesh_, taut::deform_params<tetrahedra>{.constraints = pins_});
+        run.valid = r && r.report.pins_held;
+        run.iterations = r.report.steps;
+        run.energy = r.report.energy;
+        run.flipped = r.report.flips.flipped;
+        run.stop = r.report.converged ? "converged" : "not converged";
+        run.history.push_back(watch.at(run.iterations, run.energy));
+        watch.stop(run);
         return run;
     }
 
@@ -75,7 +91,7 @@ public:
     solver_run lbfgs(double enough)
     {
         solver_run run;
-        const auto begin = clock::now();
+        const stopwatch watch;
         taut::map_objective<tetrahedra> f(queue_, std::make_shared<const taut::layout<tetrahedra>>(mesh_),
                                           taut::energy::isometric{}, taut::energy::weighting::measure,
                                           taut::types_of(taut::precision::mixed));
@@ -89,14 +105,14 @@ public:
                                              [&](const taut::progress& p)
                                              {
                                                  if (!p.iterate) return true;
-                                                 run.history.push_back({p.iteration, p.value, since(begin)});
+                                                 run.history.push_back(watch.at(p.iteration, p.value));
                                                  return p.value > enough;
                                              });
         run.valid = true;
         run.iterations = r.iterations;
         run.energy = r.value;
         run.stop = taut::solve::to_string(r.stop);
-        run.seconds.solve = since(begin);
+        watch.stop(run);
         return run;
     }
 
@@ -104,7 +120,7 @@ public:
     solver_run direct_newton(double enough)
     {
         solver_run run;
-        const auto begin = clock::now();
+        const stopwatch watch;
         taut::map_evaluator<tetrahedra> f(queue_, mesh_, taut::energy::isometric{});
         auto x = start_;
         shape g(x.size()), d(x.size());
@@ -112,8 +128,8 @@ public:
         for (std::size_t v = 0; v < x.size(); ++v) free[v] = !held_.any(v);
         double value = f.value_gradient(x, g);
         std::unique_ptr<direct_solver> solver;
-        run.history.push_back({0, value, since(begin)});
-        while (value > enough && since(begin) < limit_ && run.iterations < 200)
+        run.history.push_back(watch.at(0, value));
+        while (value > enough && watch.seconds() < limit_ && run.iterations < 200)
         {
             const auto H = f.hessian(x, taut::definiteness::projected);
             if (!solver) solver = make_direct_solver(H, free);
@@ -131,17 +147,35 @@ public:
             if (a < 1e-9) break;
             x = std::move(next);
             value = f.value_gradient(x, g);
-            run.history.push_back({++run.iterations, value, since(begin)});
+            run.history.push_back(watch.at(++run.iterations, value));
         }
         run.valid = true;
         run.energy = value;
         run.stop = value <= enough ? "low enough" : "time";
-        run.seconds.solve = since(begin);
+        watch.stop(run);
         return run;
     }
 
 private:
-    static double since(clock::time_point begin) { return std::chrono::duration<double>(clock::now() - begin).count(); }
+    /// Wall-clock and processor time since it was made.
+    class stopwatch
+    {
+    public:
+        double seconds() const { return std::chrono::duration<double>(clock::now() - begin_).count(); }
+        sample at(int iteration, double value) const
+        {
+            return {iteration, value, seconds(), bench::cpu_seconds() - cpu_};
+        }
+        void stop(solver_run& run) const
+        {
+            run.seconds.solve = seconds();
+            run.cpu_seconds = bench::cpu_seconds() - cpu_;
+        }
+
+    private:
+        clock::time_point begin_ = clock::now();
+        double cpu_ = bench::cpu_seconds();
+    };
 
     taut::queue& queue_;
     const taut::mesh<tetrahedra>& mesh_;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,7 @@ public:
                 images.push_back(to[v]);
                 body_[v] = static_cast<idx>(motions_.size());
             }
+            sizes_.push_back(body.size());
             motions_.push_back(fit_rigid_motion(std::span<const vec<D>>(points), std::span<const vec<D>>(images)));
         }
     }
@@ -49,6 +51,15 @@ public:
         double largest = 0;
         for (const auto& m : motions_) largest = std::max(largest, std::abs(m.angle));
         return std::max(1, static_cast<int>(std::ceil(largest / most - 1e-9)));
+    }
+
+    /// The turn of the body that vertex v is a part of, axis times angle; none where it is of none, or of one of fewer
+    /// than D vertices, whose turn is open.
+    std::optional<vec3> turn(std::size_t v) const
+    {
+        if (body_[v] < 0 || sizes_[static_cast<std::size_t>(body_[v])] < D) return std::nullopt;
+        const auto& m = motions_[static_cast<std::size_t>(body_[v])];
+        return m.angle * m.axis;
     }
 
     /// Held coordinates of x where they are when a share t of the way is done; to the last bit where it is 1.
@@ -114,6 +125,7 @@ private:
     map from_, to_;
     std::vector<idx> body_; ///< of each vertex, or -1
     std::vector<rigid_motion<D>> motions_;
+    std::vector<std::size_t> sizes_; ///< of the bodies, in vertices
 };
 
 } // namespace taut

@@ -97,6 +97,65 @@ TEST_CASE("deform: a bar is twisted, stretched and bent without an inverted elem
     }
 }
 
+TEST_CASE("deform: handles that turn are brought to their places at once, and what that squeezes is mended by itself")
+{
+    const auto m = bar();
+    queue q;
+    const auto stage = [](const session_result<tetrahedron>& r, const std::string& name)
+    {
+        const auto& all = r.report.stages;
+        const auto found = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.stage == name; });
+        return found == all.end() ? nullptr : &*found;
+    };
+    deform_params<tetrahedron> params;
+    const auto twist = turn(std::numbers::pi / 2), bend = turn(std::numbers::pi / 2, {1, 0, 0});
+    for (const bool twisted : {true, false})
+    {
+        params.constraints = taut::constraints(m).fix(bottom(m)).move(
+            top(m), [&](const vec3& p) { return twisted ? twist(p) : bend(p) - vec3(0, 1, 1); });
+        const auto r = deform(q, m, params);
+        check_promises(m, params.constraints, r);
+        CHECK(r.report.converged);
+        REQUIRE(stage(r, "draft"));
+        CHECK(stage(r, "draft")->stop == "injective");
+        CHECK(!stage(r, "follow"));
+        CHECK(r.report.steps < 10);
+    }
+
+    // Around a small handle elements shrink or turn over.
+    const auto cube = test::jittered_cube(14, 11);
+    const auto handle =
+        where(cube, [](const vec3& p) { return p.z == 1 && glm::distance(p, vec3(0.5, 0.5, 1)) < 0.16; });
+    deform_params<tetrahedron> local;
+    local.constraints =
+        taut::constraints(cube)
+            .fix(bottom(cube))
+            .move(handle, rigid_motion<3>{.from = vec3(0.5, 0.5, 1), .to = vec3(0.5, 0.5, 1), .angle = 1.5});
+    const auto sharp = deform(q, cube, local);
+    check_promises(cube, local.constraints, sharp);
+    CHECK(sharp.report.converged);
+    REQUIRE(stage(sharp, "draft"));
+    CHECK(stage(sharp, "draft")->stop == "injective");
+    CHECK(stage(sharp, "draft")->iterations > 0);
+    CHECK(stage(sharp, "draft")->vertices < cube.points().size());
+
+    // What turns as a whole is where it should be.
+    params.constraints = taut::constraints(m).move(bottom(m), turn(1, {0, 1, 0})).move(top(m), turn(1, {0, 1, 0}));
+    const auto whole = deform(q, m, params);
+    check_promises(m, params.constraints, whole);
+    CHECK(whole.report.energy == doctest::Approx(2));
+    CHECK(whole.report.steps <= 2);
+
+    // With slides steps lead.
+    params.constraints = taut::constraints(m).fix(bottom(m)).move(top(m), turn(1));
+    const auto inner = where(m, [](const vec3& p) { return glm::distance(p, vec3(0.5, 0.5, 1.5)) < 0.6; });
+    REQUIRE(!inner.empty());
+    params.slides = {slide<3>::across(inner[0], {0, 1, 0})};
+    const auto sliding = deform(q, m, params);
+    check_promises(m, params.constraints, sliding);
+    CHECK(!stage(sliding, "draft"));
+}
+
 TEST_CASE("deform: an energy that is 0 at rest takes steps from there, in any precision")
 {
     const auto m = bar();
@@ -265,7 +324,8 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
 {
     const auto m = bar();
     queue q;
-    const auto pins = taut::constraints(m).fix(bottom(m)).move(top(m), turn(3.0));
+    const auto pins =
+        taut::constraints(m).fix(bottom(m)).move(top(m), [](const vec3& p) { return p - vec3(0, 0, 1.8); });
     int asked = 0;
     deform_params<tetrahedron> params{.constraints = pins, .observer = [&](const progress&) { return ++asked < 3; }};
     const auto r = deform(q, m, params);

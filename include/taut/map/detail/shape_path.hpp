@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -17,6 +16,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <taut/core/linalg.hpp>
+#include <taut/map/detail/gradient_fit.hpp>
 #include <taut/measure/rigid_motion.hpp>
 #include <taut/mesh/facets.hpp>
 
@@ -82,15 +82,15 @@ public:
 
     /// Both shapes without inverted elements.
     shape_path(const mesh<Element>& from, const shape& to)
-        : cells_(from.cells()), start_(from.points().begin(), from.points().end()), end_(to)
+        : cells_(from.cells()), start_(from.points().begin(), from.points().end()), end_(to), poisson_(from, start_)
     {
         const auto fit = fit_rigid_motion(std::span<const vec<D>>(start_), std::span<const vec<D>>(end_));
         whole_ = fit.angle * fit.axis;
         std::vector<mat<D>> turns;
-        for (const auto& cell : cells_)
+        for (std::size_t c = 0; c < cells_.size(); ++c)
         {
-            edges_.push_back(edges(cell, start_));
-            const mat<D> F = edges(cell, end_) * glm::inverse(edges_.back());
+            edges_.push_back(poisson_.edges(c, start_));
+            const mat<D> F = poisson_.gradient(c, end_);
             turns.push_back(nearest_rotation<D>(F));
             stretch_.push_back(glm::transpose(turns.back()) * F);
         }
@@ -123,73 +123,14 @@ public:
     /// each coordinate); its middle is where it would be on a straight line. Elements may be inverted.
     shape draft(double t) const
     {
-        // Gradients of the basis functions: rows of A^-1 for corners 1 .. D, minus their sum for corner 0.
-        const std::size_t n = start_.size();
-        shape x(n), r(n, vec<D>(0.0)), z(n), p(n), Ap(n);
-        std::vector<double> diagonal(n, 0.0);
-        for (std::size_t v = 0; v < n; ++v) x[v] = start_[v] + t * (end_[v] - start_[v]);
-        std::vector<std::array<vec<D>, D + 1>> basis;
-        std::vector<double> weight;
-        for (std::size_t c = 0; c < edges_.size(); ++c)
-        {
-            const mat<D> inverse = glm::transpose(glm::inverse(edges_[c]));
-            auto& b = basis.emplace_back();
-            for (int k = 0; k < D; ++k) b[static_cast<std::size_t>(k) + 1] = inverse[k], b[0] -= inverse[k];
-            weight.push_back(glm::determinant(edges_[c]));
-            const auto& cell = cells_[c];
-            const mat<D> F = gradient(c, t) - edges(cell, x) * glm::inverse(edges_[c]);
-            for (std::size_t k = 0; k < b.size(); ++k)
-            {
-                r[at(cell[k])] += weight.back() * (F * b[k]);
-                diagonal[at(cell[k])] += weight.back() * glm::dot(b[k], b[k]);
-            }
-        }
-        const auto multiply = [&](const shape& v, shape& out)
-        {
-            out.assign(n, vec<D>(0.0));
-            for (std::size_t c = 0; c < edges_.size(); ++c)
-            {
-                const auto& cell = cells_[c];
-                mat<D> G(0.0);
-                for (std::size_t k = 0; k < basis[c].size(); ++k) G += glm::outerProduct(v[at(cell[k])], basis[c][k]);
-                for (std::size_t k = 0; k < basis[c].size(); ++k) out[at(cell[k])] += weight[c] * (G * basis[c][k]);
-            }
-        };
-        const auto dot = [n](const shape& u, const shape& v)
-        {
-            double sum = 0;
-            for (std::size_t k = 0; k < n; ++k) sum += glm::dot(u[k], v[k]);
-            return sum;
-        };
-        const auto precondition = [&]
-        {
-            for (std::size_t v = 0; v < n; ++v) z[v] = diagonal[v] > 0 ? r[v] / diagonal[v] : vec<D>(0.0);
-        };
-        precondition();
-        p = z;
-        double rz = dot(r, z);
-        const double enough = 1e-20 * rz; // 10 digits
-        for (int step = 0; step < 10000 && rz > enough; ++step)
-        {
-            multiply(p, Ap);
-            const double a = rz / dot(p, Ap);
-            for (std::size_t v = 0; v < n; ++v) x[v] += a * p[v], r[v] -= a * Ap[v];
-            precondition();
-            const double next = dot(r, z), b = next / std::exchange(rz, next);
-            for (std::size_t v = 0; v < n; ++v) p[v] = z[v] + b * p[v];
-        }
+        shape x(start_.size());
+        for (std::size_t v = 0; v < x.size(); ++v) x[v] = start_[v] + t * (end_[v] - start_[v]);
+        poisson_.fit([&](std::size_t c) { return gradient(c, t); }, {}, 1e-10, x);
         return x;
     }
 
 private:
     static std::size_t at(idx v) { return static_cast<std::size_t>(v); }
-
-    static mat<D> edges(const typename mesh<Element>::cell& cell, const shape& x)
-    {
-        mat<D> A;
-        for (int k = 0; k < D; ++k) A[k] = x[at(cell[static_cast<std::size_t>(k) + 1])] - x[at(cell[0])];
-        return A;
-    }
 
     mat<D> gradient(std::size_t c, double t) const
     {
@@ -261,6 +202,7 @@ private:
 
     std::vector<typename mesh<Element>::cell> cells_;
     shape start_, end_;
+    gradient_fit<Element> poisson_;       ///< by the measure at the start
     vec3 whole_;                          ///< axis times angle of Q
     std::vector<mat<D>> edges_, stretch_; ///< at the start; S
     std::vector<vec3> turn_;              ///< axis times angle of R

@@ -17,6 +17,7 @@
 #include <taut/map/detail/run_clock.hpp>
 #include <taut/map/detail/session/held_map.hpp>
 #include <taut/map/detail/session/repair.hpp>
+#include <taut/map/detail/session/turned_draft.hpp>
 #include <taut/measure/describe_defects.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 #include <taut/untangle/untangle.hpp>
@@ -125,6 +126,7 @@ protected:
     /// Brings held coordinates nearer to their places.
     void follow(run_clock& clock)
     {
+        if (draft(clock)) return;
         bool arrived = follow_parts(clock, last.x);
         // In the plane steps stick where pins are in each other's way, which no arithmetic changes.
         if (D == 3 && !arrived && stuck_ && may_step(clock) && in_double())
@@ -142,6 +144,35 @@ protected:
                   .iterations = last.report.steps - before,
                   .stop = repaired ? "injective" : "stuck"});
         }
+    }
+
+    /// Where bodies of held vertices turn in space: takes a shape with them at their places that is made at once, if
+    /// there is one and the budget lasts for some twenty steps. Whether it did.
+    bool draft(run_clock& clock)
+    {
+        if constexpr (D == 3 && Element::oriented)
+        {
+            if (!held_.slides().empty() || !lasts(clock, 20)) return false;
+            const held_paths<D> paths(rest().cells(), marks(), scaled(last.x), scaled(held_.places()));
+            if (paths.parts() == 1) return false;
+            auto how = untangling_;
+            how.time_limit = clock.left();
+            how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
+            auto found = draft_of(queue_, problem(last.x, true), paths, how,
+                                  queue_.device().has_fp64() ? precision::mixed : precision::fp32);
+            clock.stages.append(found.stages);
+            book(clock, &session_seconds::follow,
+                 {.stage = "draft",
+                  .vertices = found.vertices,
+                  .iterations = found.steps,
+                  .stop = found.x.empty() ? "stuck" : "injective"});
+            if (found.x.empty()) return false;
+            load(found.x);
+            on_way_ = false;
+            return true;
+        }
+        else
+            return false;
     }
 
     /// From a map, in parts where bodies of held vertices turn; whether they have arrived.
@@ -220,16 +251,20 @@ protected:
         return found;
     }
 
+    /// Whether the budget would last for so many steps.
+    bool lasts(const run_clock& clock, int steps) const
+    {
+        return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_;
+    }
+
     /// Untangling, where steps do not bring held coordinates any nearer, if the budget would last for some twenty steps
     /// more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps. Whether
     /// it did.
     bool repair(run_clock& clock)
     {
-        const auto lasts = [&](int steps)
-        { return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_; };
-        if (!lasts(20)) return false;
+        if (!lasts(clock, 20)) return false;
         int before = 0, now = 0; // iterations of untanglings that have ended, and of the one at work
-        const repair_limits limits{.whole = lasts(100),
+        const repair_limits limits{.whole = lasts(clock, 100),
                                    .time = std::min(clock.left(), std::chrono::duration<double>(1000 * step_seconds_)),
                                    .ask = [&](const progress& p)
                                    {
@@ -326,7 +361,7 @@ protected:
     void book(run_clock& clock, double session_seconds::*phase, stage_report did)
     {
         seconds_.*phase += clock.lap();
-        did.vertices = rest().points().size();
+        if (did.vertices == 0) did.vertices = rest().points().size();
         clock.stages.add(std::move(did));
     }
 
