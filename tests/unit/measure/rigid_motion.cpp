@@ -56,7 +56,7 @@ TEST_CASE_TEMPLATE_INVOKE(of_space, vec2, vec3);
 
 TEST_CASE("rigid motion: two points and points on a line turn no more than they have to")
 {
-    for (int seed = 1; seed < 20; ++seed)
+    for (unsigned seed = 1; seed < 20; ++seed)
     {
         const auto ends = some_points<3>(2, seed);
         const rigid_motion<3> turn{.to = {1, 2, 3},
