@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """page.py TAUT MESH [SECONDS [PINS]]: pictures a second of the page of `taut view` in a headless Chromium, while PINS vertices (1) are led along
-circles of a twentieth of the map: those that the browser shows, and those with another state. Milliseconds between the latter: median, 95 %, most."""
+circles of a twentieth of the map: those that the browser shows, and those with another state. Milliseconds between the latter: median, 95 %, most.
+Load of the machine at the end."""
+import os
 import pathlib
 import shutil
 import statistics
@@ -43,7 +45,7 @@ def main():
         gaps = sorted(b - a for a, b in zip(states, states[1:]))
         print(f"{pathlib.Path(mesh).name}, {pins} pins: {len(pictures) / seconds:.1f} pictures a second, {len(states) / seconds:.1f} with another state; "
               f"median {statistics.median(gaps):.0f}, 95 % {gaps[int(0.95 * len(gaps))]:.0f}, most {gaps[-1]:.0f} ms between these; "
-              f"{b.evaluate('taut.state.flipped')} flipped")
+              f"{b.evaluate('taut.state.flipped')} flipped; load {os.getloadavg()[0]:.1f}")
 
 
 main()

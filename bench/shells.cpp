@@ -12,6 +12,9 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <iterator>
+#include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -110,15 +113,113 @@ double edge_change(const mesh<triangle>& m, const std::vector<vec3>& x)
     return 100 * std::sqrt(sum / (3.0 * static_cast<double>(m.cells().size())));
 }
 
-void run(const std::string& path, double share, std::chrono::duration<double> frame)
+/// Frames of a session: milliseconds, and how the shape moves.
+class frames
+{
+public:
+    explicit frames(session<hinge>& s) : session_(s), before_(s.solve().x) {}
+
+    session_result<hinge> solve(std::chrono::duration<double> time)
+    {
+        const double begin = now();
+        auto r = session_.solve({.time = time});
+        seconds_.push_back(now() - begin);
+        late += r.report.pins_held ? 0 : 1;
+        for (std::size_t v = 0; v < r.x.size(); ++v) farthest = std::max(farthest, glm::distance(r.x[v], before_[v]));
+        least_area = std::min(least_area, r.report.flips.min_det);
+        before_ = r.x;
+        return r;
+    }
+
+    double median() const { return sorted()[seconds_.size() / 2]; }
+    double longest() const { return sorted().back(); }
+    std::size_t count() const { return seconds_.size(); }
+
+    double farthest = 0, least_area = INFINITY;
+    int late = 0;
+
+private:
+    std::vector<double> sorted() const
+    {
+        auto all = seconds_;
+        std::sort(all.begin(), all.end());
+        for (double& t : all) t *= 1e3;
+        return all;
+    }
+
+    session<hinge>& session_;
+    std::vector<vec3> before_;
+    std::vector<double> seconds_;
+};
+
+struct setting
+{
+    double thickness = 0.013;
+    std::chrono::duration<double> frame{0.05};
+    int pins = 0, frames = 60;
+    double waves = 0.05;
+};
+
+void lead_many(queue& q, const mesh<triangle>& m, const thin_shell& shell, const handled& handles, const setting& how)
+{
+    vec3 low = m.points()[0], high = low;
+    for (const vec3& p : m.points()) low = glm::min(low, p), high = glm::max(high, p);
+    const vec3 size = high - low;
+    const double amplitude = how.waves * std::min({size.x, size.y, size.z});
+    std::vector<idx> all(m.points().size()), who;
+    std::iota(all.begin(), all.end(), 0);
+    std::sample(all.begin(), all.end(), std::back_inserter(who), how.pins, std::mt19937(1));
+    session<hinge> s(q, shell, {.thickness = how.thickness * handles.length});
+    std::vector<vec3> where;
+    const auto lead = [&](double part)
+    {
+        where.clear();
+        for (const idx v : who)
+        {
+            vec3 p = m.points()[static_cast<std::size_t>(v)];
+            const vec3 at = (p - low) / size * 9.0;
+            p += part * amplitude * vec3(std::sin(at.y), std::sin(at.z), std::sin(at.x));
+            where.push_back(p);
+        }
+        s.move(who, where);
+    };
+    lead(0);
+    frames f(s);
+    const int moved = how.frames, most = moved + 400;
+    std::printf("  %d pins, ahead by the amplitude:", how.pins);
+    for (int k = 1; k <= moved; ++k)
+    {
+        lead(double(k) / moved);
+        const auto r = f.solve(how.frame);
+        if (k % 10 == 0 || moved < 10) std::printf(" %.2g", r.report.distance / amplitude);
+    }
+    const int late = f.late;
+    session_result<hinge> r;
+    do r = f.solve(how.frame);
+    while (!r.report.pins_held && static_cast<int>(f.count()) < most);
+    std::printf(
+        "\n  pins behind in %d of %d frames, %s after %d at rest, there at energy %.6g; median %.1f ms, longest %.1f "
+        "ms; areas from %.2g\n",
+        late, moved, r.report.pins_held ? "there" : "NOT there", static_cast<int>(f.count()) - moved, r.report.energy,
+        f.median(), f.longest(), f.least_area);
+    int steps = 0;
+    const double begin = now();
+    while (!r.report.converged && now() < begin + 60) steps += (r = s.solve()).report.steps;
+    std::printf("  %s after %d steps more, energy %.6g\n", r.report.converged ? "converged" : "NOT converged", steps,
+                r.report.energy);
+}
+
+void run(const std::string& path, const setting& how)
 {
     const auto m = io::read_surface(path);
     queue q;
     const thin_shell shell(m);
+    const double share = how.thickness;
     const handled handles(m);
     std::printf("%s: %d vertices, %d triangles, thickness %.2f mean edges\n",
                 std::filesystem::path(path).filename().c_str(), m.vertex_count(), m.cell_count(),
                 share * handles.length / shell.mean_edge());
+    if (how.pins > 0) return lead_many(q, m, shell, handles, how);
     std::vector<idx> who;
     std::vector<vec3> where;
     deform(q, shell, {.thickness = share * handles.length}); // what drivers compile
@@ -150,26 +251,17 @@ void run(const std::string& path, double share, std::chrono::duration<double> fr
         s.move(who, where);
     };
     lead(0);
-    auto before = s.solve().x;
-    std::vector<double> seconds;
-    double farthest = 0;
-    int late = 0;
-    constexpr int frames = 60;
-    for (int f = 1; f <= frames; ++f)
+    frames f(s);
+    constexpr int count = 60;
+    for (int k = 1; k <= count; ++k)
     {
-        lead(double(f) / frames);
-        const double begin = now();
-        const auto r = s.solve({.time = frame});
-        seconds.push_back(now() - begin);
-        late += r.report.pins_held ? 0 : 1;
-        for (std::size_t v = 0; v < r.x.size(); ++v) farthest = std::max(farthest, glm::distance(r.x[v], before[v]));
-        before = r.x;
+        lead(double(k) / count);
+        f.solve(how.frame);
     }
-    std::sort(seconds.begin(), seconds.end());
     std::printf(
         "  drag  %d frames of bending: median %.1f ms, longest %.1f ms, handles behind in %d, farthest move in a "
         "frame %.3f of the length\n",
-        frames, 1e3 * seconds[frames / 2], 1e3 * seconds.back(), late, farthest / handles.length);
+        count, f.median(), f.longest(), f.late, f.farthest / handles.length);
 }
 
 } // namespace
@@ -177,17 +269,23 @@ void run(const std::string& path, double share, std::chrono::duration<double> fr
 int main(int argc, char** argv)
 try
 {
-    double share = 0.013;
-    std::chrono::duration<double> frame(0.05);
+    setting how;
     for (int i = 1; i < argc; ++i)
     {
         const std::string a = argv[i];
-        if (a == "--thickness" && i + 1 < argc)
-            share = std::atof(argv[++i]);
-        else if (a == "--frame" && i + 1 < argc)
-            frame = std::chrono::duration<double>(std::atof(argv[++i]) / 1000);
+        const auto is = [&](const char* name) { return a == name && i + 1 < argc; };
+        if (is("--thickness"))
+            how.thickness = std::atof(argv[++i]);
+        else if (is("--frame"))
+            how.frame = std::chrono::duration<double>(std::atof(argv[++i]) / 1000);
+        else if (is("--pins"))
+            how.pins = std::atoi(argv[++i]);
+        else if (is("--frames"))
+            how.frames = std::atoi(argv[++i]);
+        else if (is("--waves"))
+            how.waves = std::atof(argv[++i]);
         else
-            run(a, share, frame);
+            run(a, how);
     }
     return 0;
 }

@@ -70,6 +70,19 @@ def visit(dark):
         assert flipped == 0 and pins == 2 and after > energy
         b.screenshot(f"{folder}/drag-{'dark' if dark else 'light'}.png")
 
+        # Where pictures take long those of a motion have fewer pixels and no edges, and the last one has all.
+        value = "taut.left.geometry.getAttribute('value').version"
+        b.wait("taut.right.wires.visible")
+        b.evaluate("taut.right.isLate = true")
+        whole = b.evaluate(f"[taut.right.canvas.width, {value}]")
+        b.evaluate(f"taut.pin({v}, taut.position({v}).map((x) => 1.01 * x))")
+        b.wait(f"taut.right.canvas.width < {whole[0]} && !taut.right.wires.visible")
+        at_rest(b)
+        b.wait(f"taut.right.canvas.width === {whole[0]} && taut.right.wires.visible")
+        b.wait(f"{value} > {whole[1]}")
+        click(b, "undo")
+        b.wait("!document.getElementById('redo').disabled && !taut.state.working")
+
         # By keyboard: the current pin, then back by undo.
         moved = b.evaluate(f"taut.state.pins.get({v}).x[0]")
         b.key("ArrowRight")

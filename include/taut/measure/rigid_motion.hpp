@@ -39,7 +39,7 @@ struct rigid_motion
 };
 
 /// The rigid motion that brings points closest to their images, in the sum of squares. Points on a line leave the turn
-/// about it open; a single one is shifted. The two are of one length, at least 1.
+/// about it open: of all that are as close it is the one that turns least. The two are of one length, at least 1.
 inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<const vec2> images)
 {
     rigid_motion<2> m;
@@ -80,14 +80,19 @@ inline rigid_motion<3> fit_rigid_motion(std::span<const vec3> points, std::span<
     double scale = size(N);
     if (!(scale > 0)) return m;
     for (int i = 0; i < 4; ++i) N[i][i] += 4 * scale; // no eigenvalue is negative
-    for (int step = 0; step < 60; ++step)
+    // So often that eigenvalues that are equal but for roundings stay so.
+    for (int step = 0; step < 30; ++step)
     {
         N *= 1 / size(N);
         N = N * N;
     }
+    // The projection on the eigenvectors of that eigenvalue; its first column is that of no turn, unless all of them
+    // turn by pi.
+    constexpr double least = 1e-8;
     int column = 0;
-    for (int j = 1; j < 4; ++j)
-        if (N[j][j] > N[column][column]) column = j;
+    if (!(N[0][0] > least * size(N)))
+        for (int j = 1; j < 4; ++j)
+            if (N[j][j] > N[column][column]) column = j;
     glm::dvec4 q = glm::normalize(N[column]);
     if (q[0] < 0) q = -q;
     const vec3 axis(q[1], q[2], q[3]);

@@ -71,7 +71,8 @@ struct prescribed_report
 ///
 /// d_p towards the values, but at most as long as a radius that grows after full steps and shrinks after short ones,
 /// and 0 where the step before was short, until f falls no more.
-/// The length a is the best of four under min(1, a fraction of the first flip), by the merit function f + nu |what is
+/// The length a is the best of four under min(1, a fraction of the first flip), or of ever shorter ones where none of
+/// these will do, by the merit function f + nu |what is
 /// missing| of sequential quadratic programming (Nocedal & Wright, 18.27), whose nu is such that the step may cost
 /// twice what the model expects (18.33, with rho = 1/2). It keeps its vectors and the radius from run to run.
 template <class Objective>
@@ -118,6 +119,7 @@ public:
 
 private:
     static constexpr int patience = 8;         // steps
+    static constexpr int rounds = 3;           // of four trial steps each, until one will do
     static constexpr double centring = 1e-2;   // part of f that a step must gain for another one
     static constexpr double least_cost = 1e-3; // part of f that is always worth a step
 
@@ -145,9 +147,11 @@ private:
         if (!centring_) radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
         const double fallen = here.value - value;
         centring_ = centring_ ? fallen > centring * f_.size(value) : taken < params_.relax_below;
-        if (taken == 0) return {};
-        f_.step(x, taken, d_, next_);
-        std::swap(x, next_);
+        if (taken > 0)
+        {
+            f_.step(x, taken, d_, next_);
+            std::swap(x, next_);
+        }
         r.arrived = taken == 1 && share == 1;
         if (r.arrived) prescribed_.put(x);
         if (taken < params_.relax_below) f_.relax(x);
@@ -166,20 +170,29 @@ private:
     /// the full step.
     trial longest(const point& x, double value, double rise, double share, double left)
     {
-        constexpr std::array<double, 4> a{1, 0.5, 0.25, 0.125};
-        std::array<double, 4> values;
-        const double unit = f_.capped_values(x, d_, params_.barrier_fraction, a, values);
         const double noise = f_.rounding() * f_.size(value);
         const double steepest = value + params_.most_rise * f_.size(value);
         trial best{0, value};
-        double least = value + noise;
-        for (std::size_t i = 0; i < a.size(); ++i)
+        double least = value + noise, unit = 1;
+        std::array<double, 4> a{1, 0.5, 0.25, 0.125}, values;
+        for (int round = 0; round < rounds && best.step == 0; ++round)
         {
-            const double merit = values[i] - 2 * rise * unit * a[i];
-            if (!(merit < least) || values[i] > std::min(steepest, costliest(left * (1 - share * unit * a[i]))))
-                continue;
-            least = merit;
-            best = {unit * a[i], values[i]};
+            if (round == 0)
+                unit = f_.capped_values(x, d_, params_.barrier_fraction, a, values);
+            else
+            {
+                for (double& shorter : a) shorter *= (round == 1 ? unit : 1) / 16;
+                unit = 1;
+                f_.values(x, d_, a, values);
+            }
+            for (std::size_t i = 0; i < a.size(); ++i)
+            {
+                const double merit = values[i] - 2 * rise * unit * a[i];
+                if (!(merit < least) || values[i] > std::min(steepest, costliest(left * (1 - share * unit * a[i]))))
+                    continue;
+                least = merit;
+                best = {unit * a[i], values[i]};
+            }
         }
         return best;
     }

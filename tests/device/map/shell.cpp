@@ -185,6 +185,25 @@ TEST_CASE(
     check_shell(m, s.constraints(), s.solve());
 }
 
+TEST_CASE("shell: handles that turn far arrive in calls of a step each")
+{
+    const thin_shell shell(strip());
+    const auto& m = shell.surface();
+    const double length = length_of(m);
+    queue q;
+    session<hinge> s(q, shell, {.thickness = 0.1 * length});
+    for (const idx v : end_of(m, false)) s.pin(v, m.points()[static_cast<std::size_t>(v)]);
+    s.solve();
+    const auto away = turn_about({0.8 * length, 0, 0}, {0, 1, 0}, -0.45 * std::numbers::pi);
+    for (idx v = 0; v < m.vertex_count(); ++v) // a body of triangles
+        if (const vec3 p = m.points()[static_cast<std::size_t>(v)]; p.x > 0.8 * length) s.pin(v, away(p));
+    session_result<hinge> r;
+    int calls = 0;
+    do r = s.solve({.steps = 1});
+    while (!r.report.pins_held && ++calls < 40);
+    check_shell(m, s.constraints(), r);
+}
+
 TEST_CASE("shell: what cannot be a shell is refused")
 {
     CHECK_THROWS_WITH_AS(thin_shell(test::single_triangle()), doctest::Contains("without a neighbour"), mesh_error);

@@ -54,6 +54,29 @@ TEST_CASE_TEMPLATE_DEFINE("rigid motion: a turn and a shift are found again, and
 }
 TEST_CASE_TEMPLATE_INVOKE(of_space, vec2, vec3);
 
+TEST_CASE("rigid motion: two points and points on a line turn no more than they have to")
+{
+    for (unsigned seed = 1; seed < 20; ++seed)
+    {
+        const auto ends = some_points<3>(2, seed);
+        const rigid_motion<3> turn{.to = {1, 2, 3},
+                                   .axis = glm::normalize(glm::cross(ends[1] - ends[0], vec3(1, 2, seed))),
+                                   .angle = 0.1 * seed};
+        for (const double angle : {0.0, 0.1 * seed})
+        {
+            std::vector<vec3> line{ends[0], ends[1], ends[0] + 0.3 * (ends[1] - ends[0])}, images;
+            for (const auto& p : line) images.push_back(turn.to + turn.turned(p - ends[0], angle));
+            for (const std::size_t n : {2u, 3u})
+            {
+                const auto found =
+                    fit_rigid_motion(std::span<const vec3>(line).first(n), std::span<const vec3>(images).first(n));
+                CHECK(std::abs(found.angle - angle) < 1e-5);
+                CHECK(worst(found, line, images) < 1e-6);
+            }
+        }
+    }
+}
+
 TEST_CASE("rigid motion: half a turn, single points, points on a line and stretched ones")
 {
     const auto points = some_points<3>(6, 3);

@@ -97,6 +97,16 @@ private:
     std::vector<double> stiffness_;
 };
 
+/// Beads of which no one knows in advance how far they may go: what passes another one has an energy of infinity.
+struct blind_beads : beads
+{
+    using beads::beads;
+    double max_step(const std::vector<double>&, const std::vector<double>&) const
+    {
+        return std::numeric_limits<double>::infinity();
+    }
+};
+
 const prescribed_params thorough{.pcg = {.gain = 1e-6}};
 const auto on = [](const prescribed_report&) { return true; };
 
@@ -135,6 +145,18 @@ TEST_CASE("prescribed: where it lies beyond all others, these are driven on and 
     CHECK(r.arrived);
     CHECK(r.iterations < 60);
     CHECK(x.back() == -2);
+}
+
+TEST_CASE("prescribed: where an eighth of a step is too long, shorter ones are tried")
+{
+    blind_beads f(8, -100);
+    auto x = beads::evenly(8, 7);
+    prescribed_newton<blind_beads> steps(f, thorough);
+    const auto first = steps.run(x, 107, [](const prescribed_report&) { return false; });
+    CHECK(first.iterations == 1);
+    CHECK(first.left < 107);
+    CHECK(first.left == doctest::Approx(x.back() + 100));
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) CHECK(x[i + 1] > x[i]);
 }
 
 TEST_CASE("prescribed: it ends where it is told to, says what is left, and goes on from there")

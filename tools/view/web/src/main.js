@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import * as messages from './messages.js';
 import { Mesh, distortion } from './mesh.js';
-import { Pane } from './pane.js';
+import { Pane, rest } from './pane.js';
 
 const element = (id) => document.getElementById(id);
 const accent = { pin: '#e8590c', ahead: '#d6336c', current: '#7048e8', line: '#2f9e44' };
@@ -17,6 +17,8 @@ class Page {
   pose = { turn: 0, scale: 1, softness: 0 };
   frames = []; // times of the last pictures
   #drag = null;
+  #leftWaits = false; // has another state to show
+  #later = 0; // timer
   #sending = false;
 
   constructor() {
@@ -99,10 +101,14 @@ class Page {
     }
     if (this.model.shows === 'paste') this.values.fill(4);
     else distortion(this.mesh, state.positions, this.model.dimension, this.values);
-    for (const p of this.panes()) p.setFaces('value', this.values);
-    this.left?.setUv(state.positions, this.checks);
+    this.right.setFaces('value', this.values);
+    // Where pictures take long the other view waits until there is no further state for a while.
+    clearTimeout(this.#later);
     if (state.writer && this.#drag?.vertex >= 0) this.#sendDrag();
-    this.#mark();
+    if (first) this.#mark();
+    else this.#markVertices();
+    this.#leftWaits = this.right.isLate;
+    if (!this.#leftWaits) this.#showOnLeft();
     if (this.model.shows === 'paste') return this.#showPaste(state);
     element('energy').textContent = `energy ${state.energy.toPrecision(8)}`;
     element('flips').textContent = `${state.flipped} flipped`;
@@ -111,6 +117,13 @@ class Page {
     element('pins').textContent = `${state.pins.size} pinned${ahead}`;
     element('time').textContent = state.working ? `${(1000 * state.seconds).toFixed(0)} ms a frame` : state.converged ? 'converged' : 'at rest';
     this.#showHistory(state);
+  }
+
+  #showOnLeft() {
+    if (!this.left || !this.state) return;
+    this.left.setFaces('value', this.values);
+    this.left.setUv(this.state.positions, this.checks);
+    this.left.setMarks(this.marks);
   }
 
   #showPaste(state) {
@@ -139,20 +152,26 @@ class Page {
     if (this.frames.length > 240) this.frames.shift();
     this.send(messages.seen(this.#pending));
     this.#pending = null;
+    if (this.#leftWaits) this.#later = setTimeout(() => this.#showOnLeft(), rest);
   }
 
   #mark() {
     if (!this.state) return;
-    const marks = [];
+    this.#markVertices();
+    const chosen = new Float32Array(this.mesh.faceCount);
+    for (const f of this.region) chosen[f] = 1;
+    for (const p of this.panes()) p.setFaces('chosen', chosen);
+    this.left?.setMarks(this.marks);
+  }
+
+  #markVertices() {
+    const marks = (this.marks = []);
     for (const v of this.line) marks.push({ vertex: v, colour: accent.line });
     for (const [v, p] of this.state.pins) {
       const held = p.x.every((x, k) => ((p.held >> k) & 1) === 0 || Math.fround(x) === this.state.positions[this.model.dimension * v + k]);
       marks.push({ vertex: v, colour: v === this.current ? accent.current : held ? accent.pin : accent.ahead });
     }
-    for (const p of this.panes()) p.setMarks(marks);
-    const chosen = new Float32Array(this.mesh.faceCount);
-    for (const f of this.region) chosen[f] = 1;
-    for (const p of this.panes()) p.setFaces('chosen', chosen);
+    this.right.setMarks(marks);
   }
 
   choose(tool) {
@@ -273,7 +292,7 @@ class Page {
 
   #toggleWires() {
     for (const p of this.panes()) {
-      p.wires.visible = !p.wires.visible;
+      p.edges = !p.edges;
       p.draw();
     }
   }

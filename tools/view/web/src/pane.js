@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One canvas with a mesh: flat, seen from above, or in space, seen from anywhere. Drawn only when something changed.
+// One canvas with a mesh: flat, seen from above, or in space, seen from anywhere. Drawn only when something changed. Where
+// a picture takes long, as without a GPU, those of a motion have fewer pixels and no edges; the one at rest has all.
 import {
   BufferAttribute, BufferGeometry, Color, DoubleSide, LinearSRGBColorSpace, LineBasicMaterial, LineSegments, Mesh as Drawn, MOUSE,
   OrthographicCamera, Points, PointsMaterial, Scene, ShaderMaterial, Spherical, TOUCH, Vector3, WebGLRenderer,
@@ -52,16 +53,32 @@ const fragmentShader = `
     gl_FragColor = vec4(colour, 1.0);
   }`;
 
+const late = 40; // milliseconds that a whole picture takes
+export const rest = 500; // milliseconds without another picture
+
+/** Where processors draw, antialiasing by the context costs several times a picture, also in motion; more pixels do it at rest. */
+const drawnBySoftware = (() => {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const name = gl ? String(gl.getParameter(gl.getExtension('WEBGL_debug_renderer_info')?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+})();
+
 export class Pane {
   frame = []; // points that belong to all of it, beside the mesh
-  #waiting = false;
+  edges = false; // are drawn
+  isLate = false; // a whole picture takes long
+  #waiting = false; // for the turn of a picture
+  #drawing = false; // until a picture is there
+  #whole = false; // the next one has all
+  #timer = 0;
 
   /** flat: seen from above, moved but not turned. afterDraw is called when a picture is done. */
   constructor(canvas, { flat, afterDraw = () => {} }) {
     this.canvas = canvas;
     this.afterDraw = afterDraw;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer = new WebGLRenderer({ canvas, antialias: !drawnBySoftware, alpha: true });
+    this.renderer.setPixelRatio(this.#pixels(false));
     this.scene = new Scene();
     this.camera = new OrthographicCamera(-1, 1, 1, -1, -100, 100);
     this.camera.position.set(0, 0, 1);
@@ -96,8 +113,9 @@ export class Pane {
     const wires = new BufferGeometry();
     wires.setAttribute('position', shared);
     wires.setIndex(new BufferAttribute(mesh.edges(), 1));
-    this.wires = new LineSegments(wires, new LineBasicMaterial({ transparent: true, opacity: 0.35 }));
-    this.wires.visible = this.flat && mesh.faceCount < 30000;
+    this.wires = new LineSegments(wires, new LineBasicMaterial({ transparent: true, opacity: drawnBySoftware ? 0.7 : 0.35 }));
+    this.edges = this.flat && mesh.faceCount < 30000;
+    this.isLate = false; // until it is known
     this.marks = new Points(new BufferGeometry(), new PointsMaterial({ size: 9, sizeAttenuation: false, vertexColors: true, depthTest: false }));
     this.marks.renderOrder = 1;
     this.scene.clear();
@@ -267,13 +285,44 @@ export class Pane {
   }
 
   draw() {
-    if (this.#waiting || !this.mesh) return;
+    if (!this.mesh) return;
+    if (!this.#waiting && !this.#drawing) requestAnimationFrame(() => this.#render());
     this.#waiting = true;
-    requestAnimationFrame(() => {
-      this.#waiting = false;
-      this.renderer.render(this.scene, this.camera);
+  }
+
+  #render() {
+    clearTimeout(this.#timer);
+    this.#waiting = false;
+    this.#drawing = true;
+    const brief = this.isLate && !this.#whole, begin = performance.now(), pixels = this.#pixels(brief);
+    this.#whole = false;
+    if (this.renderer.getPixelRatio() !== pixels) this.renderer.setPixelRatio(pixels);
+    this.wires.visible = this.edges && !brief;
+    this.renderer.render(this.scene, this.camera);
+    this.#whenDrawn(() => {
+      if (brief) this.#timer = setTimeout(() => { this.#whole = true; this.draw(); }, rest);
+      else this.isLate = performance.now() - begin > late;
+      this.#drawing = false;
+      if (this.#waiting) requestAnimationFrame(() => this.#render());
       this.afterDraw();
     });
+  }
+
+  /** Of the canvas by those of the page. */
+  #pixels(brief) {
+    const all = Math.min(devicePixelRatio, 2);
+    return brief ? all / 2 : drawnBySoftware ? 2 * all : all;
+  }
+
+  #whenDrawn(f) {
+    const gl = this.renderer.getContext(), fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = () => {
+      if (fence && !gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) return setTimeout(look, 1);
+      gl.deleteSync(fence);
+      f();
+    };
+    setTimeout(look, 0);
   }
 
   #resize() {

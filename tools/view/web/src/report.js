@@ -66,7 +66,7 @@ class Report {
   #pane(id, mesh, flat) {
     const pane = new Pane(element(id), { flat });
     pane.setMesh(mesh);
-    pane.wires.visible = false;
+    pane.edges = false;
     pane.setPositions(mesh.points, 3);
     pane.setFaces('value', this.energy);
     pane.setFaces('label', this.chart);
@@ -184,7 +184,8 @@ class Report {
     const on = element(id).getAttribute('aria-pressed') !== 'true';
     element(id).setAttribute('aria-pressed', String(on));
     this.panes.forEach((pane, i) => {
-      (id === 'seams' ? this.lines[i] : pane.wires).visible = on;
+      if (id === 'seams') this.lines[i].visible = on;
+      else pane.edges = on;
       pane.draw();
     });
   }

@@ -181,14 +181,21 @@ protected:
         const held_paths<D> paths(rest().cells(), marks(), from, held_.places());
         const int parts = paths.parts();
         bool goes_on = true;
-        for (int part = 1; goes_on && part <= parts; ++part)
+        int gone = 0;
+        while (goes_on && gone < parts)
         {
-            if (part > 1 && !may_step(clock)) return stuck_ = false;
+            if (gone > 0 && !may_step(clock))
+            {
+                goes_on = stuck_ = false;
+                break;
+            }
             map way = held_.places();
-            paths.place(static_cast<double>(part) / parts, way);
+            paths.place(static_cast<double>(gone + 1) / parts, way);
             if (parts > 1) live_->aim(scaled(way));
-            goes_on = follow(clock, part == 1 ? from : user_coordinates(), way);
+            goes_on = follow(clock, gone == 0 ? from : user_coordinates(), way);
+            if (goes_on) ++gone;
         }
+        if (parts > 1 && !goes_on) live_->aim(scaled(held_.places())); // where the next call goes
         return goes_on;
     }
 
