@@ -10,7 +10,8 @@
 namespace taut::tools
 {
 
-/// What the program offers, behind a message, where a map of one disk cannot be; empty if the command of that name offers nothing.
+/// What the program offers, behind a message, where a map of one disk cannot be; empty if the command of that name
+/// offers nothing.
 std::string other_way(mesh_fault fault, std::string_view name);
 
 /// The same for a file that a command does not read.
