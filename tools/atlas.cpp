@@ -14,9 +14,8 @@
 #include <atlas/atlas_report.hpp>
 #include <atlas/atlas_source.hpp>
 #include <atlas/joined_surfaces.hpp>
+#include <atlas/pinned_faces.hpp>
 #include <atlas/seam_edges.hpp>
-#include <picture/layout_picture.hpp>
-#include <picture/layout_svg.hpp>
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
 #include <report/atlas_page.hpp>
@@ -28,6 +27,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "layout_file.hpp"
 #include "open_queue.hpp"
 #include "outputs.hpp"
 #include "png.hpp"
@@ -117,6 +117,11 @@ private:
         const auto diagonals = diagonals_of(sources_, f);
         params.charts.together = diagonals;
         if (options_.keep_charts) params.initial = texcoords_of(sources_);
+        if (!options_.pinned.empty())
+        {
+            params.pinned = pinned_of(*sources_[0], f, options_.pinned);
+            params.initial = sources_[0]->known_texcoords();
+        }
         // The certificate is of what the files will have.
         if (std::any_of(options_.outputs.begin(), options_.outputs.end(), io::is_gltf))
             params.stored = io::texcoord_in_gltf;
@@ -132,8 +137,7 @@ private:
         report_.queue = clock_.timed([&] { q = open_queue(options_.device, false); });
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
-        if (std::isfinite(options_.time_limit))
-            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+        params.time_limit = clock_.left(options_.time_limit);
         atlas_ = make_atlas(*q, m, params);
         report_.atlas = atlas_->report;
         report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
@@ -159,25 +163,12 @@ private:
         else
             for (std::size_t i = 0; i < sources_.size(); ++i)
                 for (auto& file : sources_[i]->files(options_.outputs[i], maps.of(i))) files.push_back(std::move(file));
-        if (drawn(options_.picture, report_.notes))
-            files.push_back(
-                {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});
-        if (drawn(options_.render, report_.notes))
-            files.push_back(
-                {options_.render, [&](io::atomic_file& file) { file.write(timed([&] { return render(); })); }});
-        if (drawn(options_.report, report_.notes))
-            files.push_back(
-                {options_.report, [&](io::atomic_file& file) { file.write(timed([&] { return page(); })); }});
+        const auto draw = [&](std::string& path, auto image)
+        { add_picture(files, path, report_.notes, clock_, report_.draw, image); };
+        draw(options_.picture, [this] { return picture(); });
+        draw(options_.render, [this] { return render(); });
+        draw(options_.report, [this] { return page(); });
         write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
-    }
-
-    /// A picture, whose making is no part of the writing.
-    template <class Draw>
-    std::string timed(Draw&& draw)
-    {
-        std::string image;
-        report_.draw += clock_.timed([&] { image = draw(); });
-        return image;
     }
 
     std::string title() const
@@ -200,9 +191,7 @@ private:
                                      .note = std::to_string(report_.atlas.charts.size()) + " charts, " +
                                              std::to_string(static_cast<int>(100 * report_.atlas.utilization)) +
                                              " % of the square used"};
-        if (extension(options_.picture) == ".svg")
-            return io::layout_svg(atlas_->uv, cut.cells(), distortion, loops, style, {});
-        return encode_png(io::layout_picture(atlas_->uv, cut.cells(), distortion, loops, style, {}));
+        return layout_file(options_.picture, atlas_->uv, cut.cells(), distortion, loops, style, {});
     }
 
     std::string render() const

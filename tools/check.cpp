@@ -21,6 +21,7 @@
 #include "check_report.hpp"
 #include "choices.hpp"
 #include "commands.hpp"
+#include "other_way.hpp"
 #include "outputs.hpp"
 #include "repair_report.hpp"
 #include "report_files.hpp"
@@ -226,7 +227,9 @@ check_report examine(const check_options& options)
     }
     catch (const io::io_error& e)
     {
-        report.add({true, "file", "unreadable", {}, e.what()}, exit_code::unreadable_input);
+        const auto other = other_way(e, "check");
+        report.add({true, "file", "unreadable", {}, e.what() + (other.empty() ? other : "; " + other)},
+                   exit_code::unreadable_input);
     }
     catch (const mesh_error& e)
     {

@@ -24,6 +24,7 @@
 #include "failure.hpp"
 #include "help.hpp"
 #include "interrupt.hpp"
+#include "other_way.hpp"
 #include "writing.hpp"
 
 namespace taut::tools
@@ -40,25 +41,8 @@ int fail(exit_code code, const std::string& what, const std::string& remedy = {}
     return to_int(code);
 }
 
-/// What the program offers where a map of one disk cannot be.
-std::string other_way(mesh_fault fault)
-{
-    switch (fault)
-    {
-    case mesh_fault::several_boundaries:
-        return "or take it as it is with --holes, or let --cut join them";
-    case mesh_fault::closed_surface:
-    case mesh_fault::handles:
-        return "or let --cut do so, or `taut atlas` make charts of it";
-    case mesh_fault::several_components:
-        return "or let `taut atlas` make charts of it";
-    default:
-        return {};
-    }
-}
-
-/// Runs a subcommand; every exception becomes one line and an exit code, see docs/errors.md.
-int guarded(const command& run)
+/// Runs a subcommand of that name; every exception becomes one line and an exit code, see docs/errors.md.
+int guarded(const command& run, const std::string& name)
 {
     try
     {
@@ -104,11 +88,11 @@ int guarded(const command& run)
     }
     catch (const io::io_error& e)
     {
-        return fail(exit_code::unreadable_input, e.what());
+        return fail(exit_code::unreadable_input, e.what(), other_way(e, name));
     }
     catch (const mesh_error& e)
     {
-        return fail(code_of(e.fault()), e.what(), other_way(e.fault()));
+        return fail(code_of(e.fault()), e.what(), other_way(e.fault(), name));
     }
     catch (const error& e) // unsuitable_input, texcoord_error and what the library may add
     {
@@ -164,7 +148,8 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
                 program.exit(e, text, std::cerr);
                 write_standard_output(text.str());
                 return exit_code::valid;
-            });
+            },
+            {});
     }
     catch (const CLI::ParseError& e)
     {
@@ -172,7 +157,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     }
     const auto all = program.get_subcommands({});
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k]->parsed()) return guarded(commands[k]);
+        if (all[k]->parsed()) return guarded(commands[k], all[k]->get_name());
     return to_int(exit_code::usage);
 }
 

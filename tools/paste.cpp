@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -24,11 +23,11 @@
 #include <taut/edit/tessellate.hpp>
 #include <taut/edit/write_feature_map.hpp>
 #include <taut/edit/write_paste.hpp>
-#include <taut/io/read_file.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_files.hpp>
 
 #include "commands.hpp"
+#include "face_list.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "open_queue.hpp"
@@ -55,32 +54,6 @@ struct paste_options
     bool quiet = false;
 };
 
-/// Triangles by their numbers, from 0, apart by white space or commas; comments from #.
-std::vector<idx> read_faces(const std::string& path)
-{
-    const std::string text = io::read_file(path);
-    std::vector<idx> faces;
-    std::size_t line = 1;
-    for (const char *at = text.data(), *const end = at + text.size(); at != end;)
-    {
-        if (*at == '#')
-            while (at != end && *at != '\n') ++at;
-        else if (*at == '\n' || *at == ' ' || *at == '\t' || *at == '\r' || *at == ',')
-            line += *at++ == '\n' ? 1 : 0;
-        else
-        {
-            idx face = 0;
-            const auto [next, error] = std::from_chars(at, end, face);
-            if (error != std::errc{})
-                throw io::io_error(path,
-                                   "line " + std::to_string(line) + ": no number of a triangle; write them from 0");
-            faces.push_back(face);
-            at = next;
-        }
-    }
-    return faces;
-}
-
 /// One run of `taut paste`.
 class paste_run
 {
@@ -99,6 +72,8 @@ public:
                 target_.emplace(io::read_surface_file(options_.target));
             });
         const auto& surface = source_->surface;
+        if (options_.region.empty()) require_vertex("--at", options_.at, surface, options_.source);
+        require_vertex("--onto", options_.onto, target_->surface, options_.target);
         feature part = make_feature(options_.region.empty() ? geodesic_disk(surface, options_.at, options_.radius)
                                                             : region_of_faces(surface, read_faces(options_.region)));
         region_ = part.region.vertices;
@@ -122,6 +97,13 @@ public:
     }
 
 private:
+    static void require_vertex(const std::string& option, idx vertex, const mesh<triangle>& m, const std::string& path)
+    {
+        if (vertex < m.vertex_count()) return;
+        throw unsuitable_input(option + ' ' + std::to_string(vertex) + ": " + path + " has vertices 0 to " +
+                               std::to_string(m.vertex_count() - 1));
+    }
+
     /// Where the feature has a map for that.
     void soften(double softness)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
@@ -16,6 +17,12 @@ public:
     explicit run_clock(std::chrono::steady_clock::time_point launch) : launch_(launch) {}
 
     double now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - launch_).count(); }
+
+    /// What is left of a limit of seconds since the start, which solvers want to be positive.
+    std::chrono::duration<double> left(double limit) const
+    {
+        return std::chrono::duration<double>(std::max(1e-6, limit - now()));
+    }
 
     /// How long f takes.
     template <class F>

@@ -85,12 +85,31 @@ void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const st
         ->type_name("PLANE");
 }
 
+void add_fix(CLI::App& app, std::vector<std::string>& groups)
+{
+    app.add_option("--fix", groups, "Keep the vertices of a group where they are; more than once, if need be")
+        ->type_name("GROUP");
+}
+
+void add_refine(CLI::App& app, bool& refine, std::string& map, const std::string& help)
+{
+    app.add_flag("--refine", refine, help);
+    add_path(app, "--refined-map", map, standard_output,
+             "With --refine: write which element of the input each element is a part of, as element,of")
+        ->type_name("FILE.csv")
+        ->needs("--refine");
+}
+
 void add_device(CLI::App& app, std::string& device)
 {
     app.add_option(
            "--device", device,
            "Number or part of the name of an OpenCL device, see `taut devices`; without it, $TAUT_DEVICE counts")
-        ->type_name("D");
+        ->type_name("D")
+        ->check(
+            CLI::Validator([](const std::string& text)
+                           { return text.empty() ? "there is no device without a name; leave the option out" : ""; },
+                           ""));
 }
 
 void add_time_limit(CLI::App& app, double& seconds, const std::string& help)

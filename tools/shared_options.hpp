@@ -34,6 +34,12 @@ void add_format(CLI::App& app, io::surface_format& format);
 /// --picture of a volume or a planar mesh, and --cut
 void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const std::string& help);
 
+/// --fix: groups of a volume
+void add_fix(CLI::App& app, std::vector<std::string>& groups);
+
+/// --refine and --refined-map of a volume or a planar mesh
+void add_refine(CLI::App& app, bool& refine, std::string& map, const std::string& help);
+
 void add_device(CLI::App& app, std::string& device);
 void add_time_limit(CLI::App& app, double& seconds, const std::string& help);
 

@@ -57,7 +57,8 @@ shell_run::shell_run(const shape_options& options, run_clock clock, progress& pr
     refuse(!options.moves.empty(), "--move");
     refuse(!options.fixed.empty(), "--fix");
     refuse(options.energy != shape_energy::isometric, "--energy");
-    if (extension(options.output) != ".obj") throw usage_error("-o: a surface is written as .obj");
+    if (!io::is_stream(options.output) && extension(options.output) != ".obj")
+        throw usage_error("-o: a surface is written as .obj");
     if (!options.picture.empty() && extension(options.picture) != ".png")
         throw usage_error("--picture: a surface is drawn as .png");
 }
@@ -84,6 +85,7 @@ exit_code shell_run::operator()()
     solve_ = clock_.timed([&] { found = deform(q, shell, wanted); });
     take(*found, rest, pins);
     if (points_.empty()) refuse();
+    if (pins_ + springs_ == 0) run_.notes.emplace_back(nothing_held);
     write(file, rest);
     return code_;
 }
@@ -113,8 +115,7 @@ shell_params shell_run::params(const thin_shell& shell, const constraints<hinge>
         return !interrupted();
     };
     if (options_.tolerance) p.solve.stopping.gradient_tolerance = *options_.tolerance;
-    if (std::isfinite(options_.time_limit))
-        p.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+    p.time_limit = clock_.left(options_.time_limit);
     return p;
 }
 

@@ -43,6 +43,7 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
     {
         std::optional<io::volume_file> file;
         report.seconds.read = clock.timed([&] { file = read_volume_at_rest(options.input, options.rest); });
+        require_name(options.output, *file);
         require_drawable(*file, {options.picture, options.cut});
         return with_case(*file, [&]<class Element>(const volume_case<Element>& input)
                          { return untangled(problem_of(input, options, report), &input); });

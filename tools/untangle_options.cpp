@@ -46,21 +46,15 @@ void declare(CLI::App& app, untangle_options& o)
         ->type_name("FILE");
     app.add_option("--pins", o.pins, "Vertices of the volume to hold: vertex,x,y,z, vertices from 0")
         ->type_name("FILE.csv");
-    app.add_option("--fix", o.fixed, "Keep the vertices of a group where they are; more than once, if need be")
-        ->type_name("GROUP");
+    add_fix(app, o.fixed);
     add_choice(app, "--boundary", o.boundary,
                std::vector<choice<untangle_boundary>>{{"auto", untangle_boundary::automatic},
                                                       {"fixed", untangle_boundary::fixed},
                                                       {"free", untangle_boundary::free}},
                "Whether the boundary of the volume stays where it is; auto: unless --pins or --fix hold something");
-    app.add_flag("--refine", o.refine,
-                 "Split elements where it is proved that there is no injective map without that, or none was found; "
-                 "what is written has more vertices then, the "
-                 "given ones first. OUT of a problem is a problem, too");
-    add_path(app, "--refined-map", o.refined_map, standard_output,
-             "With --refine: write which element of the input each element is a part of, as element,of")
-        ->type_name("FILE.csv")
-        ->needs("--refine");
+    add_refine(app, o.refine, o.refined_map,
+               "Split elements where it is proved that there is no injective map without that, or none was found; "
+               "what is written has more vertices then, the given ones first. OUT of a problem is a problem, too");
     add_time_limit(app, o.time_limit, "Give up after S seconds");
     add_device(app, o.device);
     add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -164,8 +163,7 @@ private:
             return !interrupted();
         };
         // The limit is one for the whole run: what reading took is gone.
-        if (std::isfinite(options_.time_limit))
-            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+        params.time_limit = clock_.left(options_.time_limit);
         tell("untangle");
         keep(true); // the initial map, at least
         untangle_result<Element> result;
@@ -191,8 +189,7 @@ private:
     {
         const auto again = [&](const volume_case<Element>& edged, const std::vector<vec<D>>& from)
         {
-            if (std::isfinite(options_.time_limit))
-                params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+            params.time_limit = clock_.left(options_.time_limit);
             auto problem = problem_of(edged, options_, report_);
             problem.initial = from;
             problem.held = problem_->held;

@@ -7,8 +7,6 @@
 #include <string>
 #include <utility>
 
-#include <picture/layout_picture.hpp>
-#include <picture/layout_svg.hpp>
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
 #include <taut/io/make_untangle_problem.hpp>
@@ -21,6 +19,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
+#include "layout_file.hpp"
 #include "open_queue.hpp"
 #include "outputs.hpp"
 #include "png.hpp"
@@ -67,20 +66,32 @@ public:
         tell("read");
         report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
-        cut_ = cut_open(*file_, {.one_boundary = !options_.holes}, options_.start == start_kind::uv);
-        if (cut_)
-            report_.notes.push_back(describe(*cut_));
-        else if (options_.cut && (cut_ = cut_to_one_disk(*file_)))
-            report_.notes.push_back("cut open along short seams, on which " +
-                                    count(cut_->seam_vertices, "vertex lies", "vertices lie"));
-        read_pins();
-        parameterize();
+        try
+        {
+            cut();
+            read_pins();
+            parameterize();
+        }
+        catch (const mesh_error& e)
+        {
+            throw mesh_error(e.fault(), e.ids(), options_.input + ": " + e.what());
+        }
         write();
         return report_.code;
     }
 
 private:
     void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
+
+    void cut()
+    {
+        cut_ = cut_open(*file_, {.one_boundary = !options_.holes}, options_.start == start_kind::uv);
+        if (cut_)
+            report_.notes.push_back(describe(*cut_));
+        else if (options_.cut && (cut_ = cut_to_one_disk(*file_)))
+            report_.notes.push_back("cut open along short seams, on which " +
+                                    count(cut_->seam_vertices, "vertex lies", "vertices lie"));
+    }
 
     /// What is mapped: the surface of the file, or that cut open.
     const mesh<triangle>& surface() const { return cut_ ? cut_->surface : file_->surface; }
@@ -129,8 +140,7 @@ private:
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         // The limit is one for the whole run: what reading took is gone.
-        if (std::isfinite(options_.time_limit))
-            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+        params.time_limit = clock_.left(options_.time_limit);
         tell("start");
         auto result = taut::parameterize(*q, surface(), params);
         report_.map = std::move(result.report);
@@ -196,23 +206,12 @@ private:
             report_.seconds.write = report_.seconds.total - begin - report_.seconds.draw;
         };
         std::vector<io::file_to_write> files{{options_.output, [&](io::atomic_file& file) { write_obj(file, uv_); }}};
-        if (drawn(options_.picture, report_.notes))
-            files.push_back(
-                {options_.picture, [&](io::atomic_file& file) { file.write(timed([&] { return picture(); })); }});
-        if (drawn(options_.render, report_.notes))
-            files.push_back(
-                {options_.render, [&](io::atomic_file& file) { file.write(timed([&] { return render(); })); }});
+        const auto draw = [&](std::string& path, auto image)
+        { add_picture(files, path, report_.notes, clock_, report_.seconds.draw, image); };
+        draw(options_.picture, [this] { return picture(); });
+        draw(options_.render, [this] { return render(); });
         write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
         remove_invalid(options_.output);
-    }
-
-    /// A picture, whose making is no part of the writing.
-    template <class Draw>
-    std::string timed(Draw&& draw)
-    {
-        std::string image;
-        report_.seconds.draw += clock_.timed([&] { image = draw(); });
-        return image;
     }
 
     std::string title() const { return std::filesystem::path(options_.input).filename().string(); }
@@ -223,9 +222,7 @@ private:
         const auto loops = boundary_loops(surface());
         const io::layout_style style{.title = title(), .energy = report_.energy, .note = report_.summary()};
         const auto overlay = constraints_overlay();
-        if (extension(options_.picture) == ".svg")
-            return io::layout_svg(uv_, surface().cells(), distortion, loops, style, overlay);
-        return encode_png(io::layout_picture(uv_, surface().cells(), distortion, loops, style, overlay));
+        return layout_file(options_.picture, uv_, surface().cells(), distortion, loops, style, overlay);
     }
 
     std::string render() const

@@ -6,11 +6,13 @@
 #include <vector>
 
 #include <taut/io/atomic_file.hpp>
+#include <taut/io/write_files.hpp>
 
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "outputs.hpp"
 #include "png.hpp"
+#include "run_clock.hpp"
 
 namespace taut::tools
 {
@@ -43,6 +45,21 @@ inline bool drawn(std::string& picture, std::vector<std::string>& notes)
         picture.clear();
     }
     return !picture.empty();
+}
+
+/// Adds a picture of that name to the files of a run, if one is to be drawn. seconds: grows by what drawing takes,
+/// which is no part of the writing. The clock is referred to, too.
+template <class Draw>
+void add_picture(std::vector<io::file_to_write>& files, std::string& picture, std::vector<std::string>& notes,
+                 const run_clock& clock, double& seconds, Draw draw)
+{
+    if (!drawn(picture, notes)) return;
+    files.push_back({picture, [draw, &clock, &seconds](io::atomic_file& file)
+                     {
+                         std::string image;
+                         seconds += clock.timed([&] { image = draw(); });
+                         file.write(image);
+                     }});
 }
 
 /// Throws output_error: what is printed is a result, too.

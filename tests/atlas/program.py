@@ -225,6 +225,55 @@ def kept_charts_and_seams():
     assert "have no edge" in run("atlas", "ball.obj", "-o", "x.obj", "--seams", "seams", code=4).stderr
 
 
+def pinned_charts():
+    """Charts that are pinned keep their texture coordinates, others are laid around them."""
+    points, faces = ball(12, bumps=0.5)
+    write("ball.obj", points, faces)
+    run("atlas", "ball.obj", "-o", "once.obj", "--max-distortion", 4.02)
+    _, uv, _, texcoords = read("once.obj")
+    parent = list(range(len(uv)))
+
+    def root(t):
+        while parent[t] != t:
+            t = parent[t]
+        return t
+
+    for t in texcoords:
+        for c in t[1:]:
+            parent[root(c)] = root(t[0])
+    chart = [root(t[0]) for t in texcoords]
+    pinned = {chart[0], chart[-1]}
+    assert len(pinned) == 2 and len(set(chart)) > 3
+    pathlib.Path("pins").write_text(f"0 # one face of each\n{len(faces) - 1}\n")
+    for arguments in (["--charts", "keep"], [], ["--udim", "2"]):
+        done = run("atlas", "once.obj", "-o", "out.obj", "--pin", "pins", "--stats", "s.json", *arguments)
+        assert "2 charts stay where they were" in done.stderr, done.stderr
+        judge("out.obj", points, faces, tiles=2 if arguments == ["--udim", "2"] else 1)
+        _, now, _, there = read("out.obj")
+        for f, t in enumerate(texcoords):
+            if chart[f] in pinned:
+                assert [now[c] for c in there[f]] == [uv[c] for c in t], f"face {f} has moved"
+        s = stats("s.json")
+        assert s["least_distance"] >= 2 * (1 - 1e-6) and s["complete"], s
+    # It is refused where they cannot stay, or nothing is left.
+    def changed(name, f):
+        lines = pathlib.Path("once.obj").read_text().splitlines()
+        places = iter(uv)
+        pathlib.Path(name).write_text("\n".join(
+            "vt {!r} {!r}".format(*f(*next(places))) if line.startswith("vt ") else line for line in lines) + "\n")
+
+    for f, words in ((lambda x, y: (1 - x, y), "mirrored"), (lambda x, y: (x + 0.5, y), "leaves the square"),
+                     (lambda x, y: (0.5 + 0.01 * (x % 0.1), 0.5 + 0.01 * y), "")):
+        changed("moved.obj", f)
+        done = run("atlas", "moved.obj", "-o", "x.obj", "--pin", "pins", code=4)
+        assert "pinned chart of triangle" in done.stderr and words in done.stderr, done.stderr
+    pathlib.Path("all").write_text(" ".join(map(str, range(len(faces)))))
+    assert "nothing to lay" in run("atlas", "once.obj", "-o", "x.obj", "--pin", "all", code=2).stderr
+    pathlib.Path("beyond").write_text(f"{len(faces)}")
+    assert "is not there" in run("atlas", "once.obj", "-o", "x.obj", "--pin", "beyond", code=4).stderr
+    assert "no texture coordinates" in run("atlas", "ball.obj", "-o", "x.obj", "--pin", "pins", code=4).stderr
+
+
 def polygons_and_several_surfaces():
     points, faces = ball(6)
     quads = [[a[0], a[1], a[2], b[2]] for a, b in zip(faces[::2], faces[1::2])]
@@ -278,6 +327,19 @@ def polygons_of_any_outline():
         assert min(area) > 0, f"letter {k}: face {area.index(min(area))} is turned over"
 
 
+def sizes():
+    """Texture coordinates do not depend on the size of a surface, even where areas are no numbers any more."""
+    points, faces = ball(6)
+    uv = []
+    for size in (1.0, 2.0 ** 530, 2.0 ** -530):
+        big = [[c * size for c in p] for p in points]
+        write("sized.obj", big, faces)
+        run("atlas", "sized.obj", "-o", "out.obj")
+        judge("out.obj", big, faces)
+        uv.append(read("out.obj")[1])
+    assert uv[1] == uv[2] and len(uv[0]) == len(uv[1])
+
+
 def wrong_usage():
     points, faces = ball(4)
     write("ball.obj", points, faces)
@@ -292,6 +354,7 @@ def wrong_usage():
                              (["ball.obj", "ball.obj", "-o", "x.glb"], "as .obj"),
                              (["-", "-", "-o", "x.obj"], "standard input"),
                              (["ball.obj", "ball.obj", "ball.obj", "-o", "x.obj", "-o", "y.obj"], "outputs"),
+                             (["ball.obj", "ball.obj", "-o", "x.obj", "--pin", "ball.obj"], "--pin"),
                              (["ball.obj", "ball.obj", "-o", "x.obj", "--seams", "ball.obj"], "--seams")):
         assert words in run("atlas", *arguments, code=2).stderr
     assert run("atlas", "none.obj", "-o", "x.obj", code=3).stderr
@@ -341,7 +404,7 @@ def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
-    for case in (closed_surfaces, parts_holes_and_padding, repairs, kept_charts_and_seams,
+    for case in (closed_surfaces, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
                  polygons_and_several_surfaces, polygons_of_any_outline,
                  wrong_usage, stops):
         begin = time.monotonic()

@@ -324,6 +324,10 @@ test_usage()
     error_says '--energy' 'warm' 'isometric'
     expect 2 unwrap in.obj -o out.obj --iterations many
     error_says '--iterations' 'many is no whole number'
+    expect 2 unwrap in.obj -o out.obj --device ''
+    error_says '--device' 'without a name'
+    expect 0 view --help
+    says out 'exit codes: 0 ended'
     expect 2 unwrap in.obj -o out.obj --time-limit 20,5
     error_says '--time-limit' '20,5 is no number'
     for wrong in '--iterations -1' '--tolerance -1' '--tolerance 2' '--tolerance nan' '--time-limit 0' \
@@ -597,7 +601,17 @@ test_surfaces()
 {
     octahedron >closed.obj
     expect 4 unwrap closed.obj -o out.obj
-    error_says 'closed|boundary' '--cut' 'taut atlas'
+    error_says '^taut: error: closed.obj: .*boundary' '--cut' 'taut atlas'
+    expect 4 view closed.obj --no-browser
+    error_says 'boundary' '--shell'
+    if grep -q -e --cut err; then fail "view offers an option that it has not"; fi
+    for command in 'unwrap closed.glb -o out.obj' 'eval closed.glb'; do
+        # shellcheck disable=SC2086
+        expect 3 $command
+        error_says 'closed.glb' 'taut atlas'
+    done
+    expect 3 check closed.glb
+    says out 'taut atlas'
     expect 0 unwrap closed.obj --cut -o cut.obj --stats stats.json
     keys stats.json flipped seam_vertices quality.boundaries
     says values '^flipped=0$' '^quality.boundaries=1$'
@@ -615,7 +629,7 @@ test_surfaces()
     error_says 'flat'
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n' >clash.obj
     expect 4 unwrap clash.obj -o out.obj
-    error_says 'orient'
+    error_says 'orient' 'taut atlas --repair'
     : >empty.obj
     expect 4 unwrap empty.obj -o out.obj
     absent out.obj
@@ -1269,6 +1283,11 @@ test_shells()
     expect 2 deform moved.obj -o late.obj --picture both.svg
     error_says '.png'
 
+    # To standard output, and what is held by nothing is told.
+    expect 0 deform in.obj -o -
+    says out '^# kept$' '^v '
+    says err 'nothing is held or moved'
+
     # Wrong use.
     expect 2 deform in.obj -o late.obj --thickness 0
     expect 2 deform in.obj -o late.off --pins pins.csv
@@ -1279,6 +1298,13 @@ test_shells()
     expect 4 deform one.obj -o late.obj
     error_says 'without a neighbour'
     volume 3 >bar.mesh
+    expect 2 deform bar.mesh -o -
+    error_says 'goes to a file'
+    expect 2 deform bar.mesh -o late.vtk
+    error_says 'late.vtk.*format of its input'
+    absent late.vtk
+    expect 4 deform bar.mesh -o late.mesh --fix triangles:1 --move triangles:1:translate:0,0,1
+    error_says 'group triangles:1 is to be at two places'
     expect 2 deform bar.mesh -o late.mesh --thickness 1
     error_says '--thickness'
     absent late.obj
@@ -1645,7 +1671,12 @@ test_paste()
     expect 4 paste --source source.obj --at 312 --radius 5 --target target.off --onto 480 -o out.obj
     error_says 'does not fit|too near|larger'
     expect 4 paste --source source.obj --at 9999 --radius 0.2 --target target.off --onto 480 -o out.obj
-    error_says 'vertex \(9999\)'
+    error_says '--at 9999: source.obj has vertices 0 to 624'
+    expect 4 paste --source source.obj --at 312 --radius 0.2 --target target.off --onto 9999 -o out.obj
+    error_says '--onto 9999: target.off has vertices 0 to 960'
+    octahedron >closed.obj
+    expect 4 paste --source source.obj --at 312 --radius 0.25 --target closed.obj --onto 0 --scale 1000 -o out.obj
+    error_says 'no room for the feature' 'smaller scale'
     echo 0 1 2 3 9000 >faces
     expect 4 paste --source source.obj --region faces --target target.off --onto 480 -o out.obj
     error_says '9000'

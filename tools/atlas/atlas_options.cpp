@@ -37,6 +37,11 @@ void declare_charts(CLI::App& app, atlas_options& o)
     app.add_flag("--keep-seams", o.keep_seams, "The seams of the file's vt and its materials are seams of charts, too");
     app.add_option("--seams", o.seams, "Edges that are seams of charts, a line each: two vertices, from 0")
         ->type_name("FILE");
+    app.add_option(
+           "--pin", o.pinned,
+           "Faces, from 0: the charts of the file's vt that have one of them stay as and where they are, others "
+           "are laid around them")
+        ->type_name("FILE");
 }
 
 void declare_packing(CLI::App& app, atlas_options& o)
@@ -104,6 +109,8 @@ outputs check(const atlas_options& o)
     if (!(o.time_limit > 0)) throw usage_error("--time-limit: must be positive");
     if (o.inputs.size() > 1 && !o.seams.empty())
         throw usage_error("--seams names vertices of one surface; map the surfaces one at a time, or use --keep-seams");
+    if (o.inputs.size() > 1 && !o.pinned.empty())
+        throw usage_error("--pin names faces of one surface; map the surfaces one at a time");
     if (std::count(o.inputs.begin(), o.inputs.end(), standard_input) > 1)
         throw usage_error("-: standard input is one surface; name the others");
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
@@ -137,6 +144,7 @@ outputs check(const atlas_options& o)
     files.add("--render", o.render, {".png"});
     files.add("--report", o.report, {".html"});
     if (!o.seams.empty()) files.protect("the file of seams", o.seams);
+    if (!o.pinned.empty()) files.protect("the file of pinned faces", o.pinned);
     return files;
 }
 
@@ -176,6 +184,7 @@ std::string command_line(const atlas_options& o)
     if (o.keep_charts) option("--charts", "keep");
     flag("--keep-seams", o.keep_seams);
     option("--seams", o.seams);
+    option("--pin", o.pinned);
     option("--padding", number(o.padding, 9));
     option("--resolution", std::to_string(o.resolution));
     if (o.tiles > 1) option("--udim", std::to_string(o.tiles));

@@ -21,7 +21,7 @@ namespace taut::tools
 struct atlas_options
 {
     std::vector<std::string> inputs, outputs; ///< as many of these as of those
-    std::string seams, stats, picture, render, report, device, progress;
+    std::string seams, pinned, stats, picture, render, report, device, progress;
     io::surface_format format{};
     bool repair = false, keep_charts = false, keep_seams = false, upright = false, quiet = false;
     std::optional<double> max_distortion, mean_distortion;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "atlas_source.hpp"
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string_view>
@@ -150,18 +151,35 @@ private:
 
 } // namespace
 
-std::vector<std::array<vec2, 3>> atlas_source::texcoords() const
+std::vector<std::array<vec2, 3>> atlas_source::known_texcoords() const
 {
+    const vec2 none(std::numeric_limits<double>::quiet_NaN());
     std::vector<std::array<vec2, 3>> result(surface().cells().size());
     for (std::size_t c = 0; c < result.size(); ++c)
         for (std::size_t k = 0; k < 3; ++k)
         {
             const auto [cell, corner] = origin(c, k);
-            const auto uv = texcoord(cell, corner);
-            if (!uv) return {};
-            result[c][k] = *uv;
+            result[c][k] = texcoord(cell, corner).value_or(none);
         }
     return result;
+}
+
+std::vector<std::array<vec2, 3>> atlas_source::texcoords() const
+{
+    auto result = known_texcoords();
+    for (const auto& corners : result)
+        for (const vec2& x : corners)
+            if (std::isnan(x.x)) return {};
+    return result;
+}
+
+std::vector<idx> atlas_source::file_faces() const
+{
+    auto faces = polygons();
+    if (faces.empty())
+        for (std::size_t c = 0; c < surface().cells().size(); ++c)
+            faces.push_back(static_cast<idx>(origin(c, 0).first));
+    return faces;
 }
 
 std::vector<std::array<vec2, 3>> atlas_source::by_file_corner(const corner_map& map) const

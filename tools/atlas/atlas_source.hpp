@@ -45,6 +45,12 @@ public:
     /// The texture coordinates that the file has, one a corner of the surface; empty if one is missing.
     std::vector<std::array<vec2, 3>> texcoords() const;
 
+    /// The same with what is no number where one is missing.
+    std::vector<std::array<vec2, 3>> known_texcoords() const;
+
+    /// The face of the file that each triangle is of.
+    std::vector<idx> file_faces() const;
+
     /// A label a triangle where the file parts the surface, as by materials; or empty.
     virtual std::vector<idx> parts() const { return {}; }
 

@@ -81,18 +81,12 @@ void mark_edges(std::vector<char>& seam, const std::vector<std::array<idx, 2>>& 
                            " have no edge; name two vertices of a triangle, from 0");
 }
 
-/// Marks the sides along which the texture coordinates of two triangles disagree.
+/// Marks the sides along which texture coordinates are torn.
 void mark_texcoords(std::vector<char>& seam, const mesh<triangle>& m, const facet_table& f,
                     const std::vector<std::array<vec2, 3>>& uv)
 {
-    for (std::size_t s = 0; s < seam.size(); ++s)
-    {
-        if (f.twin[s] < 0) continue;
-        const auto t = u(f.twin[s]);
-        for (const std::size_t k : {(s + 1) % 3, (s + 2) % 3})
-            for (const std::size_t j : {(t + 1) % 3, (t + 2) % 3}) // positions in the triangles, as 3 divides 3 c
-                if (m.cells()[s / 3][k] == m.cells()[t / 3][j] && uv[s / 3][k] != uv[t / 3][j]) seam[s] = 1;
-    }
+    const auto torn = seams_of_map(m, f, uv);
+    for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || torn[s] != 0;
 }
 
 } // namespace

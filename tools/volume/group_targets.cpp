@@ -88,6 +88,9 @@ void group_targets::transform(const std::string& name, int kind, const std::vect
 void group_targets::take(idx v, const vec3& x, const std::string& name)
 {
     const auto [at, is_new] = targets_.try_emplace(v, x);
+    if (!is_new && at->second != x && owner_[v] == name)
+        throw unsuitable_input("group " + name + " is to be at two places, as vertex " + std::to_string(v) +
+                               " shows; give it one --move, or --fix alone");
     if (!is_new && at->second != x)
         throw unsuitable_input("vertex " + std::to_string(v) + " is in " + owner_[v] + " and in " + name +
                                ", which go different ways; leave it to one of them");

@@ -9,6 +9,7 @@
 
 #include "choices.hpp"
 #include "shared_options.hpp"
+#include "shell_run.hpp"
 #include "volume/volume_case.hpp"
 
 namespace taut::tools
@@ -25,12 +26,12 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
                        (o.smoothing ? "" : "; or a surface in space: .obj .off .ply .stl"))
         ->required()
         ->type_name("FILE");
-    app.add_option("-o,--output", o.output,
-                   "Mesh to write, in the format of the input: the same file with other coordinates")
+    add_path(app, "-o,--output", o.output, standard_output,
+             "Mesh to write, in the format of the input: the same file with other coordinates" +
+                 std::string(o.smoothing ? "" : "; of a surface in space .obj, - is standard output"))
         ->required()
         ->type_name("OUT");
-    app.add_option("--fix", o.fixed, "Keep the vertices of a group where they are; more than once, if need be")
-        ->type_name("GROUP");
+    add_fix(app, o.fixed);
     app.add_option("--tolerance", o.tolerance, "Stop at this relative gradient, below 1; 0: never. Default: " + usual)
         ->type_name("T")
         ->check(number_that([](double x) { return x >= 0 && x < 1; }, "must be at least 0 and below 1"));
@@ -63,13 +64,9 @@ void declare_deform(CLI::App& app, shape_options& o)
                                                  {"volume", shape_energy::volume},
                                                  {"neo-hookean", shape_energy::neo_hookean}},
                "What to keep: lengths, angles, volumes and lengths, or as rubber does");
-    app.add_flag("--refine", o.refine,
-                 "Split elements where it is proved that there is no shape without that; what is written has more "
-                 "vertices then, the given ones first");
-    add_path(app, "--refined-map", o.refined_map, standard_output,
-             "With --refine: write which element of the input each element is a part of, as element,of")
-        ->type_name("FILE.csv")
-        ->needs("--refine");
+    add_refine(app, o.refine, o.refined_map,
+               "Split elements where it is proved that there is no shape without that; what is written has more "
+               "vertices then, the given ones first");
     app.add_option(
            "--thickness", o.thickness,
            "Of a surface in space (.obj .off .ply .stl), in its lengths: thick ones arch, thin ones crease. Default: "
@@ -95,7 +92,7 @@ void declare_smooth(CLI::App& app, shape_options& o)
 outputs check(const shape_options& o)
 {
     outputs files;
-    require_file(o.output);
+    if (o.smoothing || !names_surface(o.input)) require_file(o.output);
     files.add("-o", o.output, {});
     files.add("--stats", o.stats, {".json"});
     files.add("--picture", o.picture, {".png", ".svg"});

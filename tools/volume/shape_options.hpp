@@ -45,6 +45,10 @@ struct shape_options
     int worst_exponent = 2;
 };
 
+/// A note of a mesh that nothing deforms.
+inline constexpr const char* nothing_held =
+    "nothing is held or moved, so the mesh takes its shape at rest; --pins, --fix and --move say what is";
+
 /// Declare the options of either command; they are filled when the program's arguments are parsed.
 void declare_deform(CLI::App& app, shape_options& options);
 void declare_smooth(CLI::App& app, shape_options& options);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -82,6 +81,7 @@ private:
 
     void prepare()
     {
+        require_name(options_.output, input_->file());
         group_targets targets(input_->file());
         for (const auto& name : options_.fixed) targets.fix(name);
         for (const auto& move : options_.moves) targets.move(move);
@@ -113,8 +113,7 @@ private:
             return !interrupted();
         };
         if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
-        if (std::isfinite(options_.time_limit))
-            params.time_limit = std::chrono::duration<double>(std::max(1e-6, options_.time_limit - clock_.now()));
+        params.time_limit = clock_.left(options_.time_limit);
         return params;
     }
 
@@ -179,6 +178,10 @@ private:
             if (auto note = mend_insides(*input_, x, again); !note.empty())
                 report_.run.notes.push_back(std::move(note));
         }
+        if (!options_.smoothing && report_.pins + report_.springs == 0) report_.run.notes.emplace_back(nothing_held);
+        if (options_.smoothing && options_.boundary == smooth_boundary::free && fixed_.empty())
+            report_.run.notes.emplace_back("nothing is held, and the boundary is free: the mesh may come to lie "
+                                           "elsewhere; --fix says what stays");
         take(std::move(x));
     }
 

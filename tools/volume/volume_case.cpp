@@ -5,6 +5,7 @@
 
 #include <taut/exact/cell_validity.hpp>
 #include <taut/io/read_volume.hpp>
+#include <taut/io/write_volume.hpp>
 
 #include "failure.hpp"
 #include "outputs.hpp"
@@ -22,7 +23,20 @@ bool names_volume(const std::string& path)
 
 void require_file(const std::string& output)
 {
-    if (output == "-") throw usage_error("-o -: a mesh goes to a file, in the format of the input; name one");
+    if (output == "-" || output == standard_output)
+        throw usage_error("-o -: a mesh goes to a file, in the format of the input; name one");
+}
+
+void require_name(const std::string& output, const io::volume_file& file)
+{
+    try
+    {
+        io::volume_outputs(output, file, file.points);
+    }
+    catch (const io::io_error& e)
+    {
+        throw usage_error(std::string("-o: ") + e.what());
+    }
 }
 
 io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest)

@@ -24,6 +24,9 @@ bool names_volume(const std::string& path);
 /// Throws usage_error for "-": a mesh is one file or two.
 void require_file(const std::string& output);
 
+/// Throws usage_error for a name that says another format than that of the input, or would overwrite it.
+void require_name(const std::string& output, const io::volume_file& file);
+
 /// Reads a volume file. rest: the file of the shape at rest, or empty; its points become the `rest` of the result.
 /// Throws io_error, and unsuitable_input where the two are not of the same vertices and cells.
 io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest);

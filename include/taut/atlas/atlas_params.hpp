@@ -33,8 +33,12 @@ struct atlas_params
     /// Charts are what `charts.seams` part, and stay: they are flattened, from `initial` if it is given, and packed.
     bool keep_charts = false;
 
-    /// Of kept charts: the map to start from, one coordinate a corner; or empty.
+    /// Of kept and pinned charts: the map to start from, or to stay at, one coordinate a corner; or empty.
     std::vector<std::array<vec2, 3>> initial = {};
+
+    /// Triangles that stay at `initial`, bit for bit: one flag each, or empty. They are charts by themselves, parted
+    /// where `initial` is; all others are laid around them. Theirs is a map without flips or overlaps in the tiles.
+    std::vector<char> pinned = {};
 
     flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
     pack_params packing = {};       ///< the same

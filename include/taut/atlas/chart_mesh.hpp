@@ -38,6 +38,24 @@ inline std::vector<char> seams_between(const facet_table& f, std::span<const idx
     return seam;
 }
 
+/// Marks the sides along which a map by corners is torn: where two triangles have other places for a common vertex, or
+/// places that are no numbers.
+/// uv: a triple for each triangle of m, whose facets `f` are. Returns one flag a side.
+inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table& f,
+                                      std::span<const std::array<vec2, 3>> uv)
+{
+    std::vector<char> seam(f.twin.size(), 0);
+    for (std::size_t s = 0; s < seam.size(); ++s)
+    {
+        if (f.twin[s] < 0) continue;
+        const auto t = static_cast<std::size_t>(f.twin[s]);
+        for (const std::size_t k : {(s + 1) % 3, (s + 2) % 3})
+            for (const std::size_t j : {(t + 1) % 3, (t + 2) % 3}) // positions in the triangles, as 3 divides 3 c
+                if (m.cells()[s / 3][k] == m.cells()[t / 3][j] && uv[s / 3][k] != uv[t / 3][j]) seam[s] = 1;
+    }
+    return seam;
+}
+
 /// Cuts a surface apart along seams. What hangs together across other edges is a chart, and a vertex becomes one vertex
 /// for each of the fans that seams part its triangles into.
 /// m:    without crowded facets (mesh/facets.hpp), which are `f`

@@ -5,11 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/core/types.hpp>
 #include <taut/exact/predicates.hpp>
 
@@ -58,28 +59,70 @@ inline bool edges_meet(const std::array<idx, 2>& e, const std::array<idx, 2>& f,
     return segments_meet(at(a), at(b), at(c), at(d));
 }
 
+/// A box with sides along the axes.
+struct edge_box
+{
+    vec2 low, high;
+
+    static edge_box of(const std::array<idx, 2>& edge, std::span<const vec2> x)
+    {
+        const vec2 &p = x[static_cast<std::size_t>(edge[0])], &q = x[static_cast<std::size_t>(edge[1])];
+        return {glm::min(p, q), glm::max(p, q)};
+    }
+
+    bool meets(const edge_box& o) const
+    {
+        return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y;
+    }
+    double distance(const edge_box& o) const
+    {
+        return glm::length(glm::max(vec2(0), glm::max(low - o.high, o.low - high)));
+    }
+};
+
 /// A binary tree of boxes about edges: halves along the longer side of what a node holds.
 class edge_tree
 {
 public:
     /// Edges with finite ends. group: one an edge, or empty; pairs of one group are left out
     edge_tree(std::span<const std::array<idx, 2>> edges, std::span<const vec2> x, std::span<const idx> group = {})
-        : group_(group.begin(), group.end()), order_(edges.size())
+        : entries_(edges.size()), nodes_(edges.empty() ? 0 : std::max<std::size_t>(1, edges.size() - 1))
     {
-        for (const auto& [i, j] : edges)
+        for (std::size_t e = 0; e < edges.size(); ++e)
+            entries_[e] = {edge_box::of(edges[e], x), e, group.empty() ? -1 : group[e]};
+        if (edges.empty()) return;
+        constexpr std::size_t large = 8192; // edges that are worth another thread
+        std::vector<std::vector<part>> levels{{{0, 0, edges.size()}}};
+        while (levels.back().front().last - levels.back().front().first > large)
         {
-            const vec2 &p = x[static_cast<std::size_t>(i)], &q = x[static_cast<std::size_t>(j)];
-            edges_.push_back({glm::min(p, q), glm::max(p, q)});
+            const auto& above = levels.back();
+            std::vector<part> below(2 * above.size());
+            parallel_for(
+                above.size(),
+                [&](std::size_t begin, std::size_t end)
+                {
+                    for (std::size_t k = begin; k < end; ++k)
+                        std::tie(below[2 * k], below[2 * k + 1]) = halve(above[k]);
+                },
+                0, 1);
+            levels.push_back(std::move(below));
         }
-        std::iota(order_.begin(), order_.end(), std::size_t{0});
-        if (!edges.empty()) build(0, edges.size());
+        parallel_for(
+            levels.back().size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t k = begin; k < end; ++k) build(levels.back()[k]);
+            },
+            0, 1);
+        for (std::size_t k = levels.size() - 1; k-- > 0;)
+            for (const part& p : levels[k]) join_groups(nodes_[p.node]);
     }
 
     /// Calls look(i, j), i < j, for each pair of edges whose boxes meet, until it returns false.
     template <class Look>
     void for_each_pair(Look&& look) const
     {
-        const auto meet = [](const box& a, const box& b) { return a.meets(b); };
+        const auto meet = [](const edge_box& a, const edge_box& b) { return a.meets(b); };
         if (!nodes_.empty()) visit(0, 0, look, meet);
     }
 
@@ -87,7 +130,7 @@ public:
     template <class Look>
     void for_each_pair_within(const double& reach, Look&& look) const
     {
-        const auto near = [&reach](const box& a, const box& b) { return a.distance(b) < reach; };
+        const auto near = [&reach](const edge_box& a, const edge_box& b) { return a.distance(b) < reach; };
         if (!nodes_.empty()) visit(0, 0, look, near);
     }
 
@@ -99,62 +142,82 @@ public:
     }
 
 private:
-    struct box
+    struct entry
     {
-        vec2 low, high;
+        edge_box bounds;
+        std::size_t edge;
+        idx group;
 
-        bool meets(const box& o) const
-        {
-            return low.x <= o.high.x && o.low.x <= high.x && low.y <= o.high.y && o.low.y <= high.y;
-        }
-        double distance(const box& o) const
-        {
-            return glm::length(glm::max(vec2(0), glm::max(low - o.high, o.low - high)));
-        }
+        double centre(int side) const { return bounds.low[side] / 2 + bounds.high[side] / 2; }
     };
 
     struct node
     {
-        box bounds;
-        std::size_t first, last;         // of order_
+        edge_box bounds;
+        std::size_t first, last;         // of entries_
         std::size_t left = 0, right = 0; // 0: a leaf
         idx group = -1;                  // that all are of; -1: of several
     };
 
+    /// Entries of a node. It and those below it are as many as there are entries, at most.
+    struct part
+    {
+        std::size_t node, first, last;
+    };
+
     static constexpr std::size_t leaf = 4;
 
-    std::size_t build(std::size_t first, std::size_t last)
+    /// Makes the node of a part without what is below it.
+    node& enclose(const part& p)
     {
-        box bounds = edges_[order_[first]];
-        for (std::size_t k = first; k < last; ++k)
+        node& made = nodes_[p.node];
+        made = {entries_[p.first].bounds, p.first, p.last};
+        for (std::size_t k = p.first; k < p.last; ++k)
         {
-            bounds.low = glm::min(bounds.low, edges_[order_[k]].low);
-            bounds.high = glm::max(bounds.high, edges_[order_[k]].high);
+            made.bounds.low = glm::min(made.bounds.low, entries_[k].bounds.low);
+            made.bounds.high = glm::max(made.bounds.high, entries_[k].bounds.high);
         }
-        const std::size_t self = nodes_.size();
-        nodes_.push_back({bounds, first, last});
-        if (last - first <= leaf)
-        {
-            nodes_[self].group = group_of(first);
-            for (std::size_t k = first; k < last; ++k)
-                if (group_of(k) != nodes_[self].group) nodes_[self].group = -1;
-            return self;
-        }
-        const int side = bounds.high.x / 2 - bounds.low.x / 2 >= bounds.high.y / 2 - bounds.low.y / 2 ? 0 : 1;
-        const std::size_t middle = first + (last - first) / 2;
-        const auto centre = [&](std::size_t e) { return edges_[e].low[side] / 2 + edges_[e].high[side] / 2; };
-        const auto at = [this](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
-        std::nth_element(at(first), at(middle), at(last),
-                         [&](std::size_t e, std::size_t f)
-                         { return std::pair(centre(e), e) < std::pair(centre(f), f); });
-        const std::size_t left = build(first, middle), right = build(middle, last);
-        nodes_[self].left = left;
-        nodes_[self].right = right;
-        if (nodes_[left].group == nodes_[right].group) nodes_[self].group = nodes_[left].group;
-        return self;
+        return made;
     }
 
-    idx group_of(std::size_t k) const { return group_.empty() ? -1 : group_[order_[k]]; }
+    std::pair<part, part> halve(const part& p)
+    {
+        node& whole = enclose(p);
+        const vec2 extent = whole.bounds.high / 2.0 - whole.bounds.low / 2.0;
+        const int side = extent.x >= extent.y ? 0 : 1;
+        const std::size_t half = (p.last - p.first) / 2, middle = p.first + half;
+        const auto at = [this](std::size_t k) { return entries_.begin() + static_cast<std::ptrdiff_t>(k); };
+        std::nth_element(at(p.first), at(middle), at(p.last),
+                         [side](const entry& a, const entry& b)
+                         {
+                             const double x = a.centre(side), y = b.centre(side);
+                             return x != y ? x < y : a.edge < b.edge;
+                         });
+        whole.left = p.node + 1;
+        whole.right = p.node + half;
+        return {{whole.left, p.first, middle}, {whole.right, middle, p.last}};
+    }
+
+    void build(const part& p)
+    {
+        if (p.last - p.first > leaf)
+        {
+            const auto [left, right] = halve(p);
+            build(left);
+            build(right);
+            join_groups(nodes_[p.node]);
+            return;
+        }
+        node& made = enclose(p);
+        made.group = entries_[p.first].group;
+        for (std::size_t k = p.first; k < p.last; ++k)
+            if (entries_[k].group != made.group) made.group = -1;
+    }
+
+    void join_groups(node& n) const
+    {
+        if (nodes_[n.left].group == nodes_[n.right].group) n.group = nodes_[n.left].group;
+    }
 
     /// Looks at the pairs of an edge of node a and one of node b; a == b: at those within it.
     template <class Look, class Near>
@@ -166,9 +229,12 @@ private:
         {
             for (std::size_t i = m.first; i < m.last; ++i)
                 for (std::size_t j = a == b ? i + 1 : n.first; j < n.last; ++j)
-                    if ((group_.empty() || group_of(i) != group_of(j)) && near(edges_[order_[i]], edges_[order_[j]]) &&
-                        !look(std::min(order_[i], order_[j]), std::max(order_[i], order_[j])))
+                {
+                    const entry &e = entries_[i], &f = entries_[j];
+                    if ((e.group < 0 || e.group != f.group) && near(e.bounds, f.bounds) &&
+                        !look(std::min(e.edge, f.edge), std::max(e.edge, f.edge)))
                         return false;
+                }
             return true;
         }
         if (a == b)
@@ -181,19 +247,17 @@ private:
     }
 
     template <class Look>
-    bool visit_in(std::size_t a, const box& window, Look& look) const
+    bool visit_in(std::size_t a, const edge_box& window, Look& look) const
     {
         const node& m = nodes_[a];
         if (!m.bounds.meets(window)) return true;
         if (m.left != 0) return visit_in(m.left, window, look) && visit_in(m.right, window, look);
         for (std::size_t i = m.first; i < m.last; ++i)
-            if (edges_[order_[i]].meets(window) && !look(order_[i])) return false;
+            if (entries_[i].bounds.meets(window) && !look(entries_[i].edge)) return false;
         return true;
     }
 
-    std::vector<box> edges_;
-    std::vector<idx> group_;
-    std::vector<std::size_t> order_;
+    std::vector<entry> entries_;
     std::vector<node> nodes_;
 };
 
@@ -203,16 +267,28 @@ template <class Meet>
 bool for_each_meeting(std::span<const std::array<idx, 2>> edges, std::span<const vec2> x, Meet&& meet,
                       std::size_t tests = std::numeric_limits<std::size_t>::max())
 {
+    constexpr std::size_t few = 24; // edges of which all pairs are looked at sooner than a tree is made
     bool all = true;
-    edge_tree(edges, x).for_each_pair(
-        [&](std::size_t i, std::size_t j)
-        {
-            all = tests > 0;
-            if (!all) return false;
-            --tests;
-            all = !edges_meet(edges[i], edges[j], x) || meet(i, j);
-            return all;
-        });
+    const auto look = [&](std::size_t i, std::size_t j)
+    {
+        all = tests > 0;
+        if (!all) return false;
+        --tests;
+        all = !edges_meet(edges[i], edges[j], x) || meet(i, j);
+        return all;
+    };
+    if (edges.size() > few)
+    {
+        edge_tree(edges, x).for_each_pair(look);
+        return all;
+    }
+    std::array<edge_box, few> boxes;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+    {
+        boxes[i] = edge_box::of(edges[i], x);
+        for (std::size_t j = 0; j < i; ++j)
+            if (boxes[i].meets(boxes[j]) && !look(j, i)) return false;
+    }
     return all;
 }
 

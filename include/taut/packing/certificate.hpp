@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include <taut/core/parallel.hpp>
 #include <taut/core/types.hpp>
 #include <taut/exact/crossings.hpp>
 #include <taut/packing/chart_overlaps.hpp>
@@ -60,16 +61,21 @@ inline double distance(const vec2& a, const vec2& b, const vec2& c, const vec2& 
 /// rounded to floats or decimals, and read back. O(n log n) for n edges of borders.
 ///
 /// uv, cells, first_cell, first_vertex: as for pack()
+/// pinned: charts that others were laid around, one flag each: distances of two of them, and of one and the border, do
+/// not count; or empty
 /// Throws packing_error.
 inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
-                                           std::span<const idx> first_cell, std::span<const idx> first_vertex)
+                                           std::span<const idx> first_cell, std::span<const idx> first_vertex,
+                                           std::span<const char> pinned = {})
 {
     detail::check_charts(uv, cells, first_cell, first_vertex);
     const auto outlines = detail::find_outlines(uv, cells, first_cell, first_vertex);
     const auto at = [uv](idx v) { return uv[static_cast<std::size_t>(v)]; };
+    const auto is_pinned = [pinned](idx c) { return !pinned.empty() && pinned[static_cast<std::size_t>(c)] != 0; };
     packing_certificate sealed;
     for (std::size_t c = 0; c + 1 < outlines.first.size(); ++c)
     {
+        if (is_pinned(static_cast<idx>(c))) continue;
         vec2 low(std::numeric_limits<double>::infinity()), high = -low;
         for (idx e = outlines.first[c]; e < outlines.first[c + 1]; ++e)
             for (const idx v : outlines.edges[static_cast<std::size_t>(e)])
@@ -87,17 +93,31 @@ inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<c
     detail::overlap_search search(uv, cells, outlines, 100'000);
     const auto chart = search.chart_of_edge();
     const detail::edge_tree tree(outlines.edges, uv, chart);
-    sealed.overlaps = search.run(tree);
-    tree.for_each_pair_within(sealed.gap,
-                              [&](std::size_t i, std::size_t j)
-                              {
-                                  const auto &e = outlines.edges[i], &f = outlines.edges[j];
-                                  const double d = detail::distance(at(e[0]), at(e[1]), at(f[0]), at(f[1]));
-                                  if (d >= sealed.gap) return true;
-                                  sealed.gap = d;
-                                  sealed.nearest = {std::min(chart[i], chart[j]), std::max(chart[i], chart[j])};
-                                  return d > 0;
-                              });
+    const auto find_gap = [&]
+    {
+        tree.for_each_pair_within(sealed.gap,
+                                  [&](std::size_t i, std::size_t j)
+                                  {
+                                      if (is_pinned(chart[i]) && is_pinned(chart[j])) return true;
+                                      const auto &e = outlines.edges[i], &f = outlines.edges[j];
+                                      const double d = detail::distance(at(e[0]), at(e[1]), at(f[0]), at(f[1]));
+                                      if (d >= sealed.gap) return true;
+                                      sealed.gap = d;
+                                      sealed.nearest = {std::min(chart[i], chart[j]), std::max(chart[i], chart[j])};
+                                      return d > 0;
+                                  });
+    };
+    parallel_for(
+        2,
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t task = begin; task < end; ++task)
+                if (task == 0)
+                    sealed.overlaps = search.run(tree);
+                else
+                    find_gap();
+        },
+        0, 1);
     return sealed;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -13,6 +14,13 @@
 
 namespace taut
 {
+
+/// An edge of a closed outline in a tile, [0, 1]², with what is enclosed to its left.
+struct tile_wall
+{
+    idx tile = 0;
+    std::array<vec2, 2> edge;
+};
 
 /// How charts are laid side by side.
 struct pack_params
@@ -32,6 +40,9 @@ struct pack_params
     /// Lengths of a chart are first multiplied by its number: more texels for a face, fewer for a sole. One positive
     /// number a chart; empty: 1 each.
     std::vector<double> densities;
+
+    /// What is in the tiles already and stays. Charts keep the padding from it.
+    std::vector<tile_wall> walls;
 
     /// By how much a coordinate in [0, tiles) may be off in the file it is written to; the padding holds there, too.
     /// Default: floats, tiles up to the eighth. 0 to 0.001.
@@ -56,6 +67,10 @@ struct pack_params
         require(time_limit.count() > 0, "time_limit", "positive");
         require(densities.empty() || densities.size() == static_cast<std::size_t>(charts), "densities",
                 "empty or one number a chart");
+        for (const tile_wall& wall : walls)
+            for (const vec2& p : wall.edge)
+                require(wall.tile >= 0 && wall.tile < tiles && p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1, "walls",
+                        "within the tiles");
         for (const double d : densities)
             require(d > 0 && d <= std::numeric_limits<double>::max(), "densities", "positive and finite");
     }

@@ -18,7 +18,8 @@ enum class packing_fault
     no_triangle,  ///< the charts without one
     out_of_range, ///< the first triangle with a vertex that is not one of its chart
     no_area,      ///< no ids: the charts have no area that a scale could be taken from
-    no_room       ///< no ids: the padding alone takes more than the tiles
+    no_room,      ///< no ids: the padding alone, or what is there already, takes more than the tiles
+    pinned        ///< triangles of the surface whose charts cannot stay where they are
 };
 
 /// Charts that cannot be packed. what() has the reason and the remedy.

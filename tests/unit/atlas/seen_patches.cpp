@@ -2,11 +2,14 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <support/chart_checks.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
+#include <taut/atlas/detail/crossing_charts.hpp>
 #include <taut/atlas/detail/seen_patches.hpp>
 #include <taut/exact/certify.hpp>
 
@@ -39,6 +42,8 @@ idx check_patches(const mesh<triangle>& m, std::size_t largest)
             uv[static_cast<std::size_t>(cut.surface.cells()[i][k])] =
                 laid.uv[static_cast<std::size_t>(cut.cell_origins[i])][k];
     CHECK(bool(certify<2>(cut.surface.cells(), std::span<const vec2>(uv))));
+    const auto crossing = detail::crossing_charts(cut, uv);
+    CHECK(std::count(crossing.begin(), crossing.end(), char(1)) == 0);
     return charts;
 }
 
@@ -55,6 +60,28 @@ TEST_CASE("seen_patches: disks without flips, of any surface")
     }
     CHECK(check_patches(test::grid(10, 10), 1000) == 1);
     CHECK(check_patches(test::ball(12), 10000) <= 12);
+}
+
+TEST_CASE("seen_patches: a ramp that winds over itself is parted")
+{
+    constexpr int around = 24, turns = 3;
+    std::vector<vec3> points;
+    std::vector<std::array<idx, 3>> cells;
+    for (int i = 0; i <= around * turns; ++i)
+        for (const double r : {1.0, 1.5})
+        {
+            const double angle = 2 * std::numbers::pi * i / around;
+            points.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.02 * i);
+        }
+    for (idx i = 0; i < around * turns; ++i)
+    {
+        cells.push_back({2 * i, 2 * i + 1, 2 * i + 3});
+        cells.push_back({2 * i, 2 * i + 3, 2 * i + 2});
+    }
+    const mesh<triangle> ramp(std::move(points), std::move(cells));
+    const idx patches = check_patches(ramp, 1000);
+    CHECK(patches >= turns);
+    CHECK(patches <= 12 * turns);
 }
 
 TEST_CASE("seen_patches: only what is wanted, and not over borders")

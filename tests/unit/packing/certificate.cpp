@@ -56,6 +56,21 @@ TEST_CASE("packing certificate: does not hold for charts that overlap, leave the
     CHECK(certificate_of(out).gap == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("packing certificate: distances of pinned charts to each other and to the border do not count")
+{
+    support::chart_set s;
+    add_box(s, {0, 0}, 0.25);
+    add_box(s, {0.25, 0}, 0.25); // touches both
+    add_box(s, {0.5625, 0.0625}, 0.25);
+    const std::vector<char> pinned{1, 1, 0};
+    const auto c = taut::certify_packing(s.uv, s.cells, s.first_cell, s.first_vertex, pinned);
+    CHECK(c.border == 0.0625);
+    CHECK(c.gap == 0.0625);
+    CHECK((c.nearest == std::array<taut::idx, 2>{1, 2}));
+    CHECK(c.holds(4, 64));
+    CHECK_FALSE(certificate_of(s).holds(4, 64));
+}
+
 TEST_CASE("packing certificate: each tile is a square of its own")
 {
     support::chart_set s;

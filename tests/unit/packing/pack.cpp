@@ -290,3 +290,56 @@ TEST_CASE("pack: refuses what has no area or no room, and takes nothing for noth
     params.padding = 32;
     CHECK_THROWS_AS(packed(squares(9), params), taut::parameter_error);
 }
+
+TEST_CASE("pack: charts keep away from walls, and fill what these leave")
+{
+    const auto add_wall = [](taut::pack_params& params, chart_set& s, idx tile, vec2 low, vec2 high)
+    {
+        const std::array<vec2, 4> corners{low, vec2(high.x, low.y), high, vec2(low.x, high.y)};
+        for (std::size_t k = 0; k < 4; ++k) params.walls.push_back({tile, {corners[k], corners[(k + 1) % 4]}});
+        const auto first = static_cast<idx>(s.uv.size());
+        for (const vec2& x : corners) s.uv.push_back(x + vec2(tile, 0));
+        s.cells.push_back({first, first + 1, first + 2});
+        s.cells.push_back({first, first + 2, first + 3});
+        s.first_cell.push_back(static_cast<idx>(s.cells.size()));
+        s.first_vertex.push_back(static_cast<idx>(s.uv.size()));
+    };
+    for (const int tiles : {1, 2})
+        for (const int count : {1, 40})
+        {
+            taut::pack_params params{.tiles = tiles};
+            chart_set walls;
+            add_wall(params, walls, 0, {0, 0}, {1, 0.4});
+            add_wall(params, walls, tiles - 1, {0.3, 0.5}, {0.4, 1});
+            const auto s = squares(count);
+            const auto p = packed(s, params);
+            auto all = s;
+            all.uv = p.apply(s.uv, s.first_vertex);
+            for (const auto& cell : walls.cells)
+            {
+                auto t = cell;
+                for (idx& v : t) v += static_cast<idx>(s.uv.size());
+                all.cells.push_back(t);
+            }
+            all.uv.insert(all.uv.end(), walls.uv.begin(), walls.uv.end());
+            for (std::size_t k = 1; k < walls.first_cell.size(); ++k)
+            {
+                all.first_cell.push_back(s.first_cell.back() + walls.first_cell[k]);
+                all.first_vertex.push_back(s.first_vertex.back() + walls.first_vertex[k]);
+            }
+            std::vector<char> pinned(static_cast<std::size_t>(all.charts()), 0);
+            pinned[pinned.size() - 1] = pinned[pinned.size() - 2] = 1;
+            const auto c = taut::certify_packing(all.uv, all.cells, all.first_cell, all.first_vertex, pinned);
+            CHECK(c.holds(params.padding, params.resolution));
+            if (count == 40) CHECK(p.utilization * tiles > 0.25 + (tiles - 1) * 0.3);
+        }
+    // A run that has no time has a layout, too; what is full has none.
+    taut::pack_params params{.time_limit = taut::budget::seconds(1e-9)};
+    chart_set walls;
+    add_wall(params, walls, 0, {0.25, 0.25}, {0.5, 0.5});
+    const auto p = packed(squares(5), params);
+    CHECK(!p.complete);
+    CHECK(p.scale > 0);
+    add_wall(params, walls, 0, {0, 0}, {1, 1});
+    CHECK_THROWS_AS(packed(squares(5), params), taut::packing_error);
+}

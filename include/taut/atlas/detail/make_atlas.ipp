@@ -14,6 +14,8 @@
 #include <vector>
 
 #include <taut/atlas/detail/crossing_charts.hpp>
+#include <taut/atlas/detail/pinned_charts.hpp>
+#include <taut/atlas/detail/scaled_surface.hpp>
 #include <taut/atlas/detail/seen_patches.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/make_atlas.hpp>
@@ -45,18 +47,36 @@ public:
             keep_charts();
         else
             make_charts();
-        mend(overlapping(flat_));
+        mend(unfit());
         join_polygons();
         lay();
-        // Borders that all but touch may meet by the rounding of their places.
-        for (const std::size_t largest : {1024U, 1U})
-        {
-            const auto touching = overlapping(uv_);
-            if (std::count(touching.begin(), touching.end(), char(1)) == 0) break;
-            take_apart(touching, largest);
-            lay();
-        }
-        certify_all();
+        const auto crossing = part_touching();
+        certify_all(crossing, {});
+        return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
+    }
+
+    /// The pinned charts of this surface with an atlas of the rest, certified together.
+    atlas with(const pinned_charts& pins, atlas made)
+    {
+        made = pins.joined(std::move(made));
+        report_ = std::move(made.report);
+        for (const auto& chart : report_.charts) energy_.push_back(chart.energy);
+        std::vector<char> pinned(energy_.size(), 0);
+        for (const double e : pins.energies()) energy_.push_back(e);
+        pinned.resize(energy_.size(), 1);
+        report_.charts.clear();
+        report_.worst = report_.seam_length = 0;
+        charts_.emplace(std::move(made.charts));
+        uv_ = std::move(made.uv);
+        if (params_.stored != nullptr)
+            for (vec2& x : uv_) x = params_.stored(x);
+        layout_ = std::move(made.layout);
+        layout_.utilization += pins.area() / params_.packing.tiles;
+        seam_ = seams_of(*charts_);
+        const auto staying = std::count(pinned.begin(), pinned.end(), char(1));
+        report_.notes.push_back(std::to_string(staying) + (staying == 1 ? " chart stays" : " charts stay") + " where " +
+                                (staying == 1 ? "it was" : "they were"));
+        certify_all(0, pinned);
         return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
     }
 
@@ -138,12 +158,12 @@ private:
     }
 
     /// One flag a chart: 1 where it has no map, or overlaps itself, or is far from done where the run ended early.
-    std::vector<char> overlapping(std::span<const vec2> uv) const
+    std::vector<char> unfit() const
     {
         const double most = report_.complete || params_.keep_charts
                                 ? std::numeric_limits<double>::max()
                                 : std::max(seen_patches::most_energy, params_.charts.max_distortion);
-        auto bad = crossing_charts(*charts_, uv);
+        auto bad = crossing_charts(*charts_, flat_);
         for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] != 0 || !(energy_[k] <= most);
         return bad;
     }
@@ -180,21 +200,22 @@ private:
             bad[k] = 0;
             ++mended;
         }
-        const auto crossing = crossing_charts(*charts_, flat_);
-        for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] != 0 || crossing[k] != 0;
         if (mended > 0)
+        {
+            const auto crossing = crossing_charts(*charts_, flat_);
+            for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] != 0 || crossing[k] != 0;
             report_.notes.push_back(
                 std::to_string(mended) +
                 (mended == 1 ? " chart that overlapped itself was" : " charts that overlapped themselves were") +
                 " mapped anew with its border kept apart");
+        }
         report_.seconds.flatten += budget_.total() - begin;
         if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
     }
 
-    /// These charts become patches that lie as they are seen, and single triangles where even those overlap; charts
-    /// that are to be kept cannot.
-    /// most: triangles of a patch
-    void take_apart(std::vector<char> bad, std::size_t most = 1024)
+    /// These charts become patches that lie as they are seen; charts that are to be kept cannot.
+    /// largest: triangles of a patch at most
+    void take_apart(const std::vector<char>& bad, std::size_t largest = 1024)
     {
         if (!report_.reason.empty()) return;
         const auto first_bad = static_cast<std::size_t>(std::find(bad.begin(), bad.end(), char(1)) - bad.begin());
@@ -207,13 +228,7 @@ private:
         }
         const auto count = std::count(bad.begin(), bad.end(), char(1));
         const idx charts = charts_->charts();
-        for (const std::size_t largest : {1024U, 64U, 8U, 1U})
-        {
-            if (largest > most) continue;
-            lay_patches(bad, largest);
-            bad = overlapping(flat_);
-            if (std::count(bad.begin(), bad.end(), char(1)) == 0) break;
-        }
+        lay_patches(bad, largest);
         report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") + " without a map became " +
                                 std::to_string(charts_->charts() - charts + count) + ", laid as they are seen");
     }
@@ -303,7 +318,7 @@ private:
         renew(
             label, [&](idx p) { return energy[u(p)]; }, [&](std::size_t c, std::size_t k) { return uv[c][k]; });
         report_.notes.push_back("polygons that were in several charts became charts by themselves");
-        mend(overlapping(flat_));
+        mend(unfit());
     }
 
     void lay()
@@ -332,16 +347,48 @@ private:
         report_.seconds.pack += budget_.lap();
     }
 
-    void certify_all()
+    /// The sides of the surface at which two triangles have no common edge in the charts.
+    std::vector<char> seams_of(const chart_mesh& charts) const
+    {
+        std::vector<std::array<idx, 3>> corners(charts.surface.cells().size());
+        for (std::size_t i = 0; i < corners.size(); ++i) corners[u(charts.cell_origins[i])] = charts.surface.cells()[i];
+        std::vector<char> seam(facets_.twin.size(), 0);
+        for (std::size_t s = 0; s < seam.size(); ++s)
+        {
+            if (facets_.twin[s] < 0) continue;
+            const auto& other = corners[u(facets_.twin[s]) / 3];
+            for (const std::size_t k : {(s + 1) % 3, (s + 2) % 3})
+                if (std::find(other.begin(), other.end(), corners[s / 3][k]) == other.end()) seam[s] = 1;
+        }
+        return seam;
+    }
+
+    /// Takes charts apart whose borders all but touched, and meet by the rounding of their places. Returns how many
+    /// still do.
+    std::size_t part_touching()
+    {
+        std::size_t crossing = 0;
+        for (const std::size_t largest : {1024U, 1U, 0U})
+        {
+            if (!report_.reason.empty()) break;
+            const auto touching = crossing_charts(*charts_, uv_);
+            crossing = static_cast<std::size_t>(std::count(touching.begin(), touching.end(), char(1)));
+            if (crossing == 0 || largest == 0) break;
+            take_apart(touching, largest);
+            lay();
+        }
+        return crossing;
+    }
+
+    /// crossing: charts that overlap themselves; pinned: as for certify_packing()
+    void certify_all(std::size_t crossing, std::span<const char> pinned)
     {
         const auto& cut = charts_->surface;
         summarize();
         if (!report_.reason.empty()) return;
         report_.flips = certify<2>(cut.cells(), std::span<const vec2>(uv_));
-        const auto sealed = certify_packing(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex);
-        const auto crossing = crossing_charts(*charts_, uv_);
-        report_.overlaps =
-            sealed.overlaps.pairs + static_cast<std::size_t>(std::count(crossing.begin(), crossing.end(), char(1)));
+        const auto sealed = certify_packing(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex, pinned);
+        report_.overlaps = sealed.overlaps.pairs + crossing;
         report_.least_distance = std::min(sealed.gap, sealed.border) * params_.packing.resolution;
         report_.seconds.certify = budget_.lap();
         if (!report_.flips)
@@ -414,7 +461,27 @@ namespace taut
 
 TAUT_INLINE atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
 {
-    return detail::atlas_making(q, m, params).run();
+    if (const double unit = detail::unit_of(m); unit != 1)
+    {
+        atlas made = make_atlas(q, detail::times(m, unit), params);
+        made.charts.surface = detail::times(made.charts.surface, 1 / unit);
+        made.layout.scale *= unit;
+        for (auto& place : made.layout.places) place.scale *= unit;
+        made.report.seam_length /= unit;
+        for (auto& chart : made.report.charts) chart.area /= unit * unit;
+        return made;
+    }
+    detail::atlas_making whole(q, m, params);
+    if (std::count(params.pinned.begin(), params.pinned.end(), char(0)) ==
+        static_cast<std::ptrdiff_t>(params.pinned.size()))
+        return whole.run();
+    detail::pinned_charts::require(m, params);
+    const auto f = facets(m);
+    validate(m, f, atlas_requirements);
+    const detail::pinned_charts pins(m, f, params);
+    std::vector<char> seams, together;
+    const atlas_params of_rest = pins.of_rest(seams, together);
+    return whole.with(pins, detail::atlas_making(q, pins.rest(), of_rest).run());
 }
 
 } // namespace taut

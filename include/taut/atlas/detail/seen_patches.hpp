@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/exact/crossings.hpp>
 #include <taut/exact/predicates.hpp>
 #include <taut/mesh/facets.hpp>
 #include <taut/mesh/ideal.hpp>
@@ -15,8 +16,8 @@
 namespace taut::detail
 {
 
-/// Disks that a surface is parted into, each as it is seen along the normal of one of its triangles, without flips.
-/// They cost next to nothing and have a map whatever the surface is; a disk may overlap itself there.
+/// Disks that a surface is parted into, each as it is seen along the normal of one of its triangles, without flips and
+/// overlaps. They cost next to nothing and have a map whatever the surface is.
 struct seen_patches
 {
     std::vector<idx> patch;              ///< one a triangle, -1 where none was wanted
@@ -33,7 +34,7 @@ public:
     /// wanted: one flag a triangle; keep: one flag a side, borders that no patch leads over, or empty
     patch_growing(const mesh<triangle>& m, const facet_table& f, std::span<const char> wanted,
                   std::span<const char> keep)
-        : mesh_(m), facets_(f), wanted_(wanted), keep_(keep), touched_(m.points().size(), -1)
+        : mesh_(m), facets_(f), wanted_(wanted), keep_(keep), touched_(m.points().size(), -1), seen_(m.points().size())
     {
         patches_.patch.assign(m.cells().size(), -1);
         patches_.uv.resize(m.cells().size());
@@ -43,7 +44,15 @@ public:
     seen_patches run(std::size_t largest)
     {
         for (std::size_t c = 0; c < wanted_.size(); ++c)
-            if (wanted_[c] && patches_.patch[c] < 0) grow(static_cast<idx>(c), largest);
+        {
+            if (!wanted_[c] || patches_.patch[c] >= 0) continue;
+            for (std::size_t most = largest;; most = std::min(most, front_.size()) / 8)
+            {
+                grow(static_cast<idx>(c), most);
+                if (front_.size() == 1 || !overlaps()) break;
+                undo();
+            }
+        }
         return std::move(patches_);
     }
 
@@ -61,7 +70,12 @@ private:
             area += weight;
             sum += weight * (1 + cosine * cosine) * (1 + 1 / (cosine * cosine));
             patches_.patch[u(c)] = id;
-            for (const idx v : mesh_.cells()[u(c)]) touched_[u(v)] = id;
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+                const auto v = u(mesh_.cells()[u(c)][k]);
+                touched_[v] = id;
+                seen_[v] = patches_.uv[u(c)][k];
+            }
             front_.push_back(c);
         };
         const auto x = mesh_.rest(seed);
@@ -86,6 +100,29 @@ private:
                 if (const double cosine = see(c); cosine > 0) take(c, cosine);
             }
         patches_.energy.push_back(sum / area);
+    }
+
+    /// Whether the border of the last patch, which is a disk, meets itself.
+    bool overlaps() const
+    {
+        const auto id = static_cast<idx>(patches_.energy.size()) - 1;
+        std::vector<std::array<idx, 2>> border;
+        for (const idx c : front_)
+            for (idx s = 3 * c; s < 3 * c + 3; ++s)
+                if (!leads_on(s) || patches_.patch[u(facets_.twin[u(s)] / 3)] != id)
+                    border.push_back(side_vertices(mesh_, s));
+        return !for_each_meeting(border, seen_, [](std::size_t, std::size_t) { return false; });
+    }
+
+    /// Forgets the last patch.
+    void undo()
+    {
+        for (const idx c : front_)
+        {
+            patches_.patch[u(c)] = -1;
+            for (const idx v : mesh_.cells()[u(c)]) touched_[u(v)] = -1;
+        }
+        patches_.energy.pop_back();
     }
 
     vec3 doubled_normal(idx c) const
@@ -126,7 +163,8 @@ private:
     const facet_table& facets_;
     std::span<const char> wanted_, keep_;
     std::vector<idx> touched_; // one a vertex: the last patch that has it
-    std::vector<idx> front_;
+    std::vector<vec2> seen_;   // one a vertex: where it was seen last
+    std::vector<idx> front_;   // the triangles of the last patch
     vec3 origin_{0.0}, normal_{0.0}, across_{0.0}, up_{0.0};
     seen_patches patches_;
 };

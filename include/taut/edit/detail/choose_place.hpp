@@ -95,7 +95,10 @@ inline site choose_site(queue& q, const mesh<triangle>& target, const feature& p
         }
         catch (const region_error&)
         {
-            if (!first) first = std::current_exception();
+            if (!first)
+                first = std::make_exception_ptr(paste_error(
+                    "there is no room for the feature: as far as it reaches around vertex " + std::to_string(onto) +
+                    " the target is no disk; choose a smaller scale, radius or reach, or another vertex"));
         }
         catch (const paste_error&)
         {

@@ -52,18 +52,26 @@ struct layout
     }
 };
 
+/// Cells of one tile that are taken before anything is laid.
+struct taken_cells
+{
+    idx tile = 0;
+    cell_rows cells;
+};
+
 /// Lays pieces, in the order given, each in the pose whose top is lowest, as low as there is room for it and then as
 /// far left: in any gap that is left of what lies there.
-/// side:  of a tile in cells; gap: least distance of two pieces in cells
+/// side:  of a tile in cells; gap: least distance of two pieces in cells; before: what is there already
 /// quick: a piece does not look below where the last one of about its width and height found room
 inline layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses,
                       std::span<const idx> order, idx side, idx tiles, double gap, double cells_per_length, bool quick,
-                      budget& limits)
+                      budget& limits, std::span<const taken_cells> before = {})
 {
     layout out;
     out.spots.resize(pieces.size());
     occupancy taken(side); // tiles lie on each other, with a row between them
     for (idx t = 1; t < tiles; ++t) taken.block(t * (side + 1) - 1);
+    for (const taken_cells& wall : before) taken.take(wall.cells, 0, wall.tile * (side + 1));
     const auto tile_of = [&](idx y) { return std::min(y / (side + 1), tiles - 1); };
     std::map<std::pair<int, int>, idx> starts;
     for (std::size_t placed = 0; const idx i : order)

@@ -71,7 +71,10 @@ inline double append_outline(std::span<const vec2> uv, std::span<const std::arra
         idx cell;
     };
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
-    std::vector<idx> start(u(v1 - v0) + 2, 0); // of the sides of each vertex, the smaller of their ends
+    static thread_local std::vector<idx> start;
+    static thread_local std::vector<char> turned;
+    static thread_local std::vector<side> sides;
+    start.assign(u(v1 - v0) + 2, 0); // of the sides of each vertex, the smaller of their ends
     const auto for_each_side = [&](auto&& body)
     {
         for (idx t = first; t < last; ++t)
@@ -81,7 +84,7 @@ inline double append_outline(std::span<const vec2> uv, std::span<const std::arra
     for (std::size_t v = 2; v < start.size(); ++v) start[v] += start[v - 1];
     const std::size_t before = edges.size();
     double area = 0;
-    std::vector<char> turned(u(last - first));
+    turned.resize(u(last - first));
     for (idx t = first; t < last; ++t)
     {
         const auto& [a, b, c] = cells[u(t)];
@@ -89,7 +92,7 @@ inline double append_outline(std::span<const vec2> uv, std::span<const std::arra
         turned[u(t - first)] = o.sign < 0;
         area += std::abs(o.det) / 2;
     }
-    std::vector<side> sides(3 * u(last - first));
+    sides.resize(3 * u(last - first));
     for_each_side(
         [&](idx t, idx a, idx b)
         {
@@ -128,25 +131,31 @@ inline chart_outlines find_outlines(std::span<const vec2> uv, std::span<const st
                                     std::span<const idx> first_cell, std::span<const idx> first_vertex)
 {
     const std::size_t charts = first_cell.size() - 1;
-    std::vector<std::vector<std::array<idx, 2>>> edges(charts);
-    std::vector<std::vector<idx>> origins(charts);
-    chart_outlines outlines;
-    outlines.areas.resize(charts);
+    constexpr std::size_t piece = 64; // charts, mostly small ones
+    std::vector<chart_outlines> parts((charts + piece - 1) / piece);
     parallel_for(
-        charts,
+        parts.size(),
         [&](std::size_t begin, std::size_t end)
         {
-            for (std::size_t c = begin; c < end; ++c)
-                outlines.areas[c] = append_outline(uv, cells, first_cell[c], first_cell[c + 1], first_vertex[c],
-                                                   first_vertex[c + 1], edges[c], origins[c]);
+            for (std::size_t p = begin; p < end; ++p)
+                for (std::size_t c = p * piece; c < std::min(charts, (p + 1) * piece); ++c)
+                {
+                    parts[p].areas.push_back(append_outline(uv, cells, first_cell[c], first_cell[c + 1],
+                                                            first_vertex[c], first_vertex[c + 1], parts[p].edges,
+                                                            parts[p].cells));
+                    parts[p].first.push_back(static_cast<idx>(parts[p].edges.size()));
+                }
         },
         0, 1);
+    chart_outlines outlines;
     outlines.first.push_back(0);
-    for (std::size_t c = 0; c < charts; ++c)
+    for (const chart_outlines& part : parts)
     {
-        outlines.edges.insert(outlines.edges.end(), edges[c].begin(), edges[c].end());
-        outlines.cells.insert(outlines.cells.end(), origins[c].begin(), origins[c].end());
-        outlines.first.push_back(static_cast<idx>(outlines.edges.size()));
+        const auto before = static_cast<idx>(outlines.edges.size());
+        for (const idx end : part.first) outlines.first.push_back(before + end);
+        outlines.edges.insert(outlines.edges.end(), part.edges.begin(), part.edges.end());
+        outlines.cells.insert(outlines.cells.end(), part.cells.begin(), part.cells.end());
+        outlines.areas.insert(outlines.areas.end(), part.areas.begin(), part.areas.end());
     }
     return outlines;
 }

@@ -50,6 +50,12 @@ public:
         on_shelves();
         packed_.complete = limits_.proceed();
         if (!packed_.complete) return std::move(packed_);
+        if (!params_.walls.empty())
+        {
+            search_around_walls();
+            packed_.complete = !limits_.over();
+            return std::move(packed_);
+        }
         // Of many pieces quarter turns are enough; few, or one that is longer than a tile could be, need more.
         double longest = 0;
         for (const piece& p : pieces_) longest = std::max({longest, p.box.x, p.box.y});
@@ -66,13 +72,104 @@ private:
 
     void on_shelves()
     {
-        const auto shelves = lay_on_shelves(pieces_, params_.tiles, border_, gap_);
+        const bool walled = !params_.walls.empty();
+        const auto [corner, side, tile] = walled ? free_square() : tile_square{};
+        const auto shelves = lay_on_shelves(pieces_, walled ? 1 : params_.tiles, walled ? 0 : border_, gap_ / side);
+        const double scale = side * shelves.scale;
         for (std::size_t c = 0; c < pieces_.size(); ++c)
         {
             const vec2 low = box_in(pieces_[c].hull, pieces_[c].axis)[0];
-            place(c, pieces_[c].axis, shelves.scale, shelves.corners[c] - shelves.scale * low, shelves.tiles[c]);
+            place(c, pieces_[c].axis, scale, corner + side * shelves.corners[c] - scale * low, tile + shelves.tiles[c]);
         }
-        scaled(shelves.scale);
+        scaled(scale);
+    }
+
+    /// A square of a tile.
+    struct tile_square
+    {
+        vec2 corner{0, 0};
+        double side = 1;
+        idx tile = 0;
+    };
+
+    /// The largest one, about, that is as far from the walls and the border as pieces are to be.
+    tile_square free_square() const
+    {
+        constexpr idx cells = 512;
+        const double cell = (1 - 2 * border_) / cells;
+        tile_square best{vec2(0.0), 0, 0};
+        const auto walls = walls_in(cells);
+        for (idx tile = 0; tile < params_.tiles; ++tile)
+        {
+            std::vector<char> taken(static_cast<std::size_t>(cells) * cells, 0);
+            const auto at = [](idx x, idx y)
+            { return static_cast<std::size_t>(y) * cells + static_cast<std::size_t>(x); };
+            for (const taken_cells& wall : walls)
+                for (idx r = 0; wall.tile == tile && r < wall.cells.rows(); ++r)
+                    for (const cell_run& run : wall.cells.row(r))
+                        for (idx x = std::max<idx>(0, run.begin), y = r + wall.cells.low;
+                             y >= 0 && y < cells && x < std::min(cells, run.end); ++x)
+                            taken[at(x, y)] = 1;
+            // The side of the largest free square that ends in a cell follows from those that end before it.
+            std::vector<idx> sides(taken.size(), 0);
+            for (idx y = 0; y < cells; ++y)
+                for (idx x = 0; x < cells; ++x)
+                {
+                    if (taken[at(x, y)]) continue;
+                    idx& side = sides[at(x, y)];
+                    side = x > 0 && y > 0
+                               ? 1 + std::min({sides[at(x - 1, y)], sides[at(x, y - 1)], sides[at(x - 1, y - 1)]})
+                               : 1;
+                    if (side * cell > best.side)
+                        best = {vec2(border_) + cell * vec2(x + 1 - side, y + 1 - side), side * cell, tile};
+                }
+        }
+        if (best.side > 0) return best;
+        throw packing_error(packing_fault::no_room, {},
+                            "what is pinned leaves no room for other charts; pin fewer, or ask for more tiles");
+    }
+
+    /// The cells of the walls, and of what is as near to them as pieces may not be, in tiles of so many cells a side.
+    std::vector<taken_cells> walls_in(idx side) const
+    {
+        std::vector<std::vector<std::array<vec2, 2>>> edges(static_cast<std::size_t>(params_.tiles));
+        const double cells = side / (1 - 2 * border_);
+        const auto in_cells = [&](const vec2& x) { return cells * (x - vec2(border_)); };
+        for (const tile_wall& wall : params_.walls)
+            edges[static_cast<std::size_t>(wall.tile)].push_back({in_cells(wall.edge[0]), in_cells(wall.edge[1])});
+        std::vector<taken_cells> taken;
+        for (std::size_t tile = 0; tile < edges.size(); ++tile)
+            if (!edges[tile].empty())
+                taken.push_back({static_cast<idx>(tile), rasterize(edges[tile], gap_in_cells(side))});
+        return taken;
+    }
+
+    /// Halves what is between a side of the tiles at which pieces find no room beside the walls, and one at which they
+    /// do: walls grow with the tiles.
+    void search_around_walls()
+    {
+        const bool quick = pieces_.size() > 1500;
+        const double side_of_all = estimated_side();
+        const idx cells = std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(pieces_.size()))), 512, 2048);
+        draw(cells / side_of_all, !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
+        idx fails = 0, fits = 0;
+        layout best;
+        for (idx side = cells; side <= 4 * cells && !limits_.over();)
+        {
+            layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(side), cells_per_length_,
+                               quick, limits_, walls_in(side));
+            ++packed_.layouts;
+            if (l.complete && std::max(l.width, l.height) <= side)
+            {
+                fits = side;
+                best = std::move(l);
+            }
+            else
+                fails = side;
+            if (fits > 0 && fits - fails <= std::max<idx>(1, fits / 100)) break;
+            side = fits == 0 ? side + side / 3 : fails == 0 ? side - side / 4 : (fits + fails) / 2;
+        }
+        if (best.complete) keep(best, fits);
     }
 
     /// Of a tile, in lengths of the pieces: side^2 = (area + gaps around) / density, where a gap is a share of the

@@ -77,7 +77,7 @@ inline shelf_layout lay_on_shelves(std::span<const piece> pieces, idx tiles, dou
                                 "; ask for less padding, a higher resolution or more tiles");
     low = best.scale;
     high = std::min(high, 2 * low);
-    for (int step = 0; step < 20; ++step)
+    for (int step = 0; step < 10; ++step) // to a thousandth
     {
         auto next = lay_on_shelves(pieces, order, (low + high) / 2, tiles, border, gap);
         (next.scale > 0 ? low : high) = (low + high) / 2;

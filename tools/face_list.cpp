@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "face_list.hpp"
+
+#include <charconv>
+#include <cstddef>
+#include <system_error>
+
+#include <taut/io/read_file.hpp>
+
+namespace taut::tools
+{
+
+std::vector<idx> read_faces(const std::string& path)
+{
+    const std::string text = io::read_file(path);
+    std::vector<idx> faces;
+    std::size_t line = 1;
+    for (const char *at = text.data(), *const end = at + text.size(); at != end;)
+    {
+        if (*at == '#')
+            while (at != end && *at != '\n') ++at;
+        else if (*at == '\n' || *at == ' ' || *at == '\t' || *at == '\r' || *at == ',')
+            line += *at++ == '\n' ? 1 : 0;
+        else
+        {
+            idx face = 0;
+            const auto [next, error] = std::from_chars(at, end, face);
+            if (error != std::errc{})
+                throw io::io_error(path, "line " + std::to_string(line) + ": no number of a face; write them from 0");
+            faces.push_back(face);
+            at = next;
+        }
+    }
+    return faces;
+}
+
+} // namespace taut::tools
