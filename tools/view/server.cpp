@@ -77,7 +77,11 @@ private:
             [this](error_code e, tcp::socket socket)
             {
                 if (!e && service_.connections < most_connections)
+                {
+                    error_code ignored;
+                    socket.set_option(tcp::no_delay(true), ignored); // what is small waits for no acknowledgement
                     std::make_shared<connection>(service_, std::move(socket))->read_request();
+                }
                 if (acceptor_.is_open()) accept();
             });
     }
