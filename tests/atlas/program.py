@@ -255,6 +255,8 @@ def pinned_charts():
                 assert [now[c] for c in there[f]] == [uv[c] for c in t], f"face {f} has moved"
         s = stats("s.json")
         assert s["least_distance"] >= 2 * (1 - 1e-6) and s["complete"], s
+        seconds = s["seconds"]  # of stages, none of which counts those of another one
+        assert sum(seconds.values()) <= 2.001 * seconds["total"], seconds
     # It is refused where they cannot stay, or nothing is left.
     def changed(name, f):
         lines = pathlib.Path("once.obj").read_text().splitlines()

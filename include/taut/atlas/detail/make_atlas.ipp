@@ -58,6 +58,7 @@ public:
     /// The pinned charts of this surface with an atlas of the rest, certified together.
     atlas with(const pinned_charts& pins, atlas made)
     {
+        budget_.lap(); // what the rest took is in its report
         made = pins.joined(std::move(made));
         report_ = std::move(made.report);
         for (const auto& chart : report_.charts) energy_.push_back(chart.energy);
@@ -390,7 +391,7 @@ private:
         const auto sealed = certify_packing(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex, pinned);
         report_.overlaps = sealed.overlaps.pairs + crossing;
         report_.least_distance = std::min(sealed.gap, sealed.border) * params_.packing.resolution;
-        report_.seconds.certify = budget_.lap();
+        report_.seconds.certify += budget_.lap();
         if (!report_.flips)
             report_.reason = std::to_string(report_.flips.flipped) +
                              " triangles are flipped where charts lie in their square: it has too few digits for them";
