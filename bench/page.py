@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """page.py TAUT MESH [SECONDS [PINS]]: pictures a second of the page of `taut view` in a headless Chromium, while PINS vertices (1) are led along
 circles of a twentieth of the map: those that the browser shows, and those with another state. Milliseconds between the latter: median, 95 %, most.
-Load of the machine at the end."""
+Load of the machine at the end. PINS is 16 at most: each is a message a picture, and the program takes 1000 a second."""
 import os
 import pathlib
 import shutil
@@ -37,6 +37,8 @@ def main():
     program, mesh = sys.argv[1:3]
     seconds = float(sys.argv[3]) if len(sys.argv) > 3 else 10
     pins = int(sys.argv[4]) if len(sys.argv) > 4 else 1
+    if not 1 <= pins <= 16:
+        sys.exit("PINS: 1 to 16")
     chromium = shutil.which("chromium") or shutil.which("chromium-browser")
     with Program(program, mesh) as p, Browser(chromium) as b:
         b.open(p.url)

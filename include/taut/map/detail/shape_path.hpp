@@ -89,7 +89,6 @@ public:
         std::vector<mat<D>> turns;
         for (std::size_t c = 0; c < cells_.size(); ++c)
         {
-            edges_.push_back(poisson_.edges(c, start_));
             const mat<D> F = poisson_.gradient(c, end_);
             turns.push_back(nearest_rotation<D>(F));
             stretch_.push_back(glm::transpose(turns.back()) * F);
@@ -115,7 +114,7 @@ public:
     std::vector<mat<D>> edges(double t) const
     {
         std::vector<mat<D>> all;
-        for (std::size_t c = 0; c < edges_.size(); ++c) all.push_back(gradient(c, t) * edges_[c]);
+        for (std::size_t c = 0; c < cells_.size(); ++c) all.push_back(gradient(c, t) * poisson_.edges(c, start_));
         return all;
     }
 
@@ -202,10 +201,10 @@ private:
 
     std::vector<typename mesh<Element>::cell> cells_;
     shape start_, end_;
-    gradient_fit<Element> poisson_;       ///< by the measure at the start
-    vec3 whole_;                          ///< axis times angle of Q
-    std::vector<mat<D>> edges_, stretch_; ///< at the start; S
-    std::vector<vec3> turn_;              ///< axis times angle of R
+    gradient_fit<Element> poisson_; ///< by the measure at the start
+    vec3 whole_;                    ///< axis times angle of Q
+    std::vector<mat<D>> stretch_;   ///< S
+    std::vector<vec3> turn_;        ///< axis times angle of R
 };
 
 } // namespace taut::detail
