@@ -462,7 +462,8 @@ namespace taut
 
 TAUT_INLINE atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
 {
-    if (const double unit = detail::unit_of(m); unit != 1)
+    // Beyond these sizes areas, or products of them, would be no numbers.
+    if (const double unit = unit_scale(m); unit > 1e70 || unit < 1e-70)
     {
         atlas made = make_atlas(q, detail::times(m, unit), params);
         made.charts.surface = detail::times(made.charts.surface, 1 / unit);
