@@ -35,6 +35,15 @@ double unit_scale(const mesh<Element>& m)
     return largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
 }
 
+/// The mesh with lengths times a factor, which its unit_scale makes exact.
+template <class Element>
+mesh<Element> scaled(const mesh<Element>& m, double factor)
+{
+    auto points = m.points();
+    for (vec3& p : points) p *= factor;
+    return {std::move(points), m.cells()};
+}
+
 /// S = A W^-1 (eq. 3), A the edges of the image from corner 0. inverse: W^-1, upper triangular.
 inline mat2 shape_matrix(const mat2& A, const mat2& inverse)
 {

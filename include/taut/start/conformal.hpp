@@ -122,25 +122,23 @@ inline start_map conformal_start(const mesh<triangle>& m, const facet_table& f,
     if (loops.empty())
         throw mesh_error(mesh_fault::closed_surface, {}, "conformal_start: the surface is closed; cut it open");
     const double unit = unit_scale(m);
-    auto points = m.points();
-    for (vec3& p : points) p *= unit;
-    const mesh<triangle> scaled(std::move(points), m.cells());
-    const ideal_elements<triangle> ideal(scaled);
+    const mesh<triangle> surface = scaled(m, unit);
+    const ideal_elements<triangle> ideal(surface);
 
     start_map map;
-    map.outline = detail::longest_loop(scaled.points(), loops);
+    map.outline = detail::longest_loop(surface.points(), loops);
     map.holes = loops.size() - 1;
-    map.uv = detail::spectral_conformal_map(scaled, ideal, loops[map.outline], params.iterations);
+    map.uv = detail::spectral_conformal_map(surface, ideal, loops[map.outline], params.iterations);
     double stretch = 0, squeeze = 0;
     for (std::size_t c = 0; c < m.cells().size(); ++c)
     {
-        const auto e = mapped_element<triangle>(scaled, ideal, map.uv, c);
+        const auto e = mapped_element<triangle>(surface, ideal, map.uv, c);
         stretch += e.measure * norm2(e.S);
         squeeze += e.measure * norm2(e.S) / (e.det * e.det);
     }
     if (const double scale = std::pow(squeeze / stretch, 0.25); std::isfinite(scale) && scale > 0)
         for (vec2& p : map.uv) p *= scale;
-    map.assess(scaled, ideal);
+    map.assess(surface, ideal);
     for (vec2& p : map.uv) p /= unit; // a power of two: exact
     if (map.flips) return map;
     return coarse_start(m, make_hierarchy(m, {}, {.threads = params.fallback.coarse.threads}), params.fallback);

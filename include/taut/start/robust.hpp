@@ -145,14 +145,12 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
 {
     params.validate();
     const double unit = unit_scale(m);
-    auto points = m.points();
-    for (vec3& p : points) p *= unit;
-    const mesh<triangle> scaled(std::move(points), m.cells());
-    const auto f = facets(scaled);
-    const auto loops = boundary_loops(scaled, f);
+    const mesh<triangle> surface = scaled(m, unit);
+    const auto f = facets(surface);
+    const auto loops = boundary_loops(surface, f);
     if (loops.empty())
         throw mesh_error(mesh_fault::closed_surface, {}, "robust_start: the surface is closed; cut it open");
-    const ideal_elements<triangle> ideal(scaled);
+    const ideal_elements<triangle> ideal(surface);
     std::vector<char> fixed;
     if (params.fixed_boundary) fixed = boundary_flags(m.points().size(), loops);
 
@@ -173,7 +171,7 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
     {
         try
         {
-            done = keep_better(detail::nested_start(scaled, ideal, fixed, plan, params));
+            done = keep_better(detail::nested_start(surface, ideal, fixed, plan, params));
         }
         catch (const error&)
         {
@@ -187,7 +185,7 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
         try
         {
             done = keep_better(barycentric_map(
-                scaled, f,
+                surface, f,
                 {.boundary = params.boundary, .weights = weights, .stretch_rounds = 10, .proceed = params.proceed}));
         }
         catch (const error&)
@@ -196,7 +194,7 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
             if (weights == barycentric_weights::uniform && best.uv.empty()) throw;
         }
     }
-    best.outline = detail::longest_loop(scaled.points(), loops);
+    best.outline = detail::longest_loop(surface.points(), loops);
     best.holes = loops.size() - 1;
     best.residual = 0;
     for (vec2& p : best.uv) p /= unit; // a power of two: exact

@@ -15,7 +15,6 @@
 
 #include <taut/atlas/detail/crossing_charts.hpp>
 #include <taut/atlas/detail/pinned_charts.hpp>
-#include <taut/atlas/detail/scaled_surface.hpp>
 #include <taut/atlas/detail/seen_patches.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/make_atlas.hpp>
@@ -465,8 +464,8 @@ TAUT_INLINE atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_para
     // Beyond these sizes areas, or products of them, would be no numbers.
     if (const double unit = unit_scale(m); unit > 1e70 || unit < 1e-70)
     {
-        atlas made = make_atlas(q, detail::times(m, unit), params);
-        made.charts.surface = detail::times(made.charts.surface, 1 / unit);
+        atlas made = make_atlas(q, scaled(m, unit), params);
+        made.charts.surface = scaled(made.charts.surface, 1 / unit);
         made.layout.scale *= unit;
         for (auto& place : made.layout.places) place.scale *= unit;
         made.report.seam_length /= unit;

@@ -37,13 +37,6 @@ struct run_surface
     }
 
 private:
-    static mesh<triangle> scaled(const mesh<triangle>& m, double unit)
-    {
-        auto points = m.points();
-        for (vec3& p : points) p *= unit;
-        return {std::move(points), m.cells()};
-    }
-
     static facet_table checked(const mesh<triangle>& m, bool one_boundary)
     {
         auto sides = facets(m);
