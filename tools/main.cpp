@@ -123,7 +123,8 @@ void prepare_streams()
 
 int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
-    CLI::App program("Injective, low-distortion maps of triangle meshes to the plane, on any OpenCL device.", "taut");
+    CLI::App program("Injective, low-distortion maps of triangle and tetrahedral meshes, on any OpenCL device.",
+                     "taut");
     program.set_version_flag("--version", "taut " TAUT_VERSION_STRING);
     program.require_subcommand(1);
     program.formatter(std::make_shared<wrapped_help>());
