@@ -24,6 +24,12 @@
 #define CAT_(a, b) a##b
 #define CAT(a, b) CAT_(a, b)
 #define UNROLLED _Pragma("unroll") for
+/// A loop as it stands. On CPUs compilers take longer for copies of it, for vectors and for counts, than these save.
+#if V == 1
+#define PLAIN for
+#else
+#define PLAIN _Pragma("clang loop vectorize(disable) interleave(disable) unroll(disable)") for
+#endif
 
 #if V == 1
 #define REALV REAL
@@ -482,13 +488,13 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
     const int item = (int)get_local_id(0);
     __global REAL* scale = work + size * pitch;
     __global REAL* root = scale + pitch;
-    for (int k = item * V; k < (size + 2) * pitch; k += TEAM * V) STORE((REALV)0, work, k);
+    PLAIN (int k = item * V; k < (size + 2) * pitch; k += TEAM * V) STORE((REALV)0, work, k);
     SYNC;
-    for (int r = item; r < rows; r += TEAM)
+    PLAIN (int r = item; r < rows; r += TEAM)
     {
         if (numbers[r] < 0) continue;
         const int first = offsets[r / C] + r % C;
-        for (int at = first; at < offsets[r / C + 1]; at += C)
+        PLAIN (int at = first; at < offsets[r / C + 1]; at += C)
         {
             if (columns[at] == r && at > first) break;
             const int to = numbers[columns[at]];
@@ -500,28 +506,28 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
         }
     }
     SYNC;
-    for (int i = item; i < size; i += TEAM)
+    PLAIN (int i = item; i < size; i += TEAM)
     {
         root[i] = 0;
-        for (int j = i % D; j < size; j += D) root[i] += work[i * pitch + j];
+        PLAIN (int j = i % D; j < size; j += D) root[i] += work[i * pitch + j];
     }
     SYNC;
     REAL stiff[D]; // 1 / trace of a component that nothing holds; 0 for others
     UNROLLED (int c = 0; c < D; ++c)
     {
         REAL sum = 0, trace = 0;
-        for (int i = c; i < size; i += D)
+        PLAIN (int i = c; i < size; i += D)
         {
             sum += root[i];
             trace += work[i * pitch + i];
         }
         stiff[c] = fabs(sum) <= 10 * EPSILON * trace && trace > 0 && trace < INFINITY ? 1 / trace : 0;
     }
-    for (int i = item; i < size; i += TEAM) scale[i] = work[i * pitch + i] > 0 ? 1 / sqrt(work[i * pitch + i]) : 0;
+    PLAIN (int i = item; i < size; i += TEAM) scale[i] = work[i * pitch + i] > 0 ? 1 / sqrt(work[i * pitch + i]) : 0;
     SYNC;
-    for (int i = item; i < size; i += TEAM)
+    PLAIN (int i = item; i < size; i += TEAM)
     {
-        for (int j = 0; j < size; ++j)
+        PLAIN (int j = 0; j < size; ++j)
         {
             REAL a = scale[i] * scale[j] > 0 ? work[i * pitch + j] * (scale[i] * scale[j]) : 0;
             if (scale[i] * scale[j] > 0 && i % D == j % D) a += stiff[i % D] / (scale[i] * scale[j]);
@@ -529,35 +535,35 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
         }
         work[i * pitch + i] += shift;
     }
-    for (int k = 0; k < size; ++k)
+    PLAIN (int k = 0; k < size; ++k)
     {
         SYNC;
         __global REAL* row = work + k * pitch;
         const REAL pivot = row[k];
         const bool good = pivot > (REAL)0.1 * shift && pivot < INFINITY;
         if (item == 0) root[k] = good ? 1 / sqrt(pivot) : 0;
-        for (int i = k + 1 + item; i < size; i += TEAM)
+        PLAIN (int i = k + 1 + item; i < size; i += TEAM)
         {
             __global REAL* other = work + i * pitch;
             const REAL f = good ? other[k] / pivot : 0;
             if (good)
-                for (int j = 0; j < pitch; j += V) STORE(LOAD(other, j) - f * LOAD(row, j), other, j);
+                PLAIN (int j = 0; j < pitch; j += V) STORE(LOAD(other, j) - f * LOAD(row, j), other, j);
             other[k] = -f;
         }
     }
     SYNC;
-    for (int k = item; k < size; k += TEAM)
+    PLAIN (int k = item; k < size; k += TEAM)
     {
         __global REAL* row = work + k * pitch;
         row[k] = 1;
-        for (int j = 0; j < pitch; ++j) row[j] = root[k] > 0 && j <= k ? row[j] * (root[k] * scale[j]) : 0;
+        PLAIN (int j = 0; j < pitch; ++j) row[j] = root[k] > 0 && j <= k ? row[j] * (root[k] * scale[j]) : 0;
     }
     SYNC;
-    for (int i = item; i < size; i += TEAM)
-        for (int j = 0; j < pitch; j += V)
+    PLAIN (int i = item; i < size; i += TEAM)
+        PLAIN (int j = 0; j < pitch; j += V)
         {
             REALV sum = 0;
-            for (int k = i; k < size; ++k) sum += work[k * pitch + i] * LOAD(work, k * pitch + j);
+            PLAIN (int k = i; k < size; ++k) sum += work[k * pitch + i] * LOAD(work, k * pitch + j);
             STORE(sum, X, i * pitch + j);
         }
 }

@@ -90,7 +90,7 @@ struct relaxation_kernels
         const traced e(in, cell, types.position, types.vector);
         const auto S = e.shape_matrix();
         density[cell] = -e.weighted(energy, S, 1.0);
-        return r.finish("relaxation_densities", form);
+        return r.finish("relaxation_densities", form, formulas);
     }
 
     static kernel_text record_terms(const any_energy& energy, const real_types& types, kernel_form form)
@@ -127,7 +127,7 @@ struct relaxation_kernels
             const auto row = differentiate(g[static_cast<std::size_t>(j)], entries);
             for (int i = 0; i <= j; ++i) put(along(row, i));
         }
-        return r.finish("relaxation_terms", form);
+        return r.finish("relaxation_terms", form, formulas);
     }
 
     static kernel_text record_steps(const real_types& types, kernel_form form)
@@ -148,7 +148,7 @@ struct relaxation_kernels
             for (int i = 0; i <= j; ++i) H(i, j) = sum();
         const auto d = newton_step<D>(H, g, damping, types.vector);
         for (int i = 0; i < D; ++i) steps[row + i * part.stride] = d[static_cast<std::size_t>(i)];
-        return r.finish("relaxation_steps", form);
+        return r.finish("relaxation_steps", form, kernel_use::seldom);
     }
 
     static kernel_text record_tries(const any_energy& energy, const real_types& types, kernel_form form)
@@ -197,12 +197,15 @@ struct relaxation_kernels
             const real from = coordinate;
             coordinate = select(a > 0.0, moved_coordinate(from, a, steps[row + i * part.stride], types), from);
         }
-        return r.finish("relaxation_moves", form);
+        return r.finish("relaxation_moves", form, kernel_use::seldom);
     }
 
 private:
     using traced = traced_element<D>;
     using real = typename traced::real;
+
+    /// Trials, eight for each entry, are worth optimising; in space, where formulas are long, the others are, too.
+    static constexpr kernel_use formulas = D == 2 ? kernel_use::seldom : kernel_use::often;
 
     static real length(int t) { return step_lengths[static_cast<std::size_t>(t)]; }
 

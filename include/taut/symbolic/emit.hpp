@@ -85,7 +85,7 @@ inline std::vector<std::size_t> accessed_by_index(const tape& t, const schedule&
 /// that a float kernel builds on devices without fp64. Throws tape_error for a free variable and for a value that left
 /// its loop.
 inline kernel_text emit(const tape& t, std::string name, std::vector<kernel_argument> arguments,
-                        kernel_form form = kernel_form::item)
+                        kernel_form form = kernel_form::item, kernel_use use = kernel_use::often)
 {
     const bool is_loop = detail::has_loop(form), is_part = form == kernel_form::part;
     const detail::schedule plan(t, t.stores());
@@ -111,7 +111,9 @@ inline kernel_text emit(const tape& t, std::string name, std::vector<kernel_argu
     if (is_loop) source += "#pragma clang diagnostic ignored \"-Wpass-failed\"\n"; // a call in the loop stays scalar
     if (needs.cbrt_f32) source += detail::cbrt_f32_source;
     if (needs.cbrt_f64) source += detail::cbrt_f64_source;
-    source += detail::concat(is_part ? "static void " : "__kernel void ", name, "(", parameters, ")\n{\n");
+    const bool plain = form == kernel_form::run && use == kernel_use::seldom;
+    source += is_part ? "static " : plain ? "__kernel __attribute__((optnone)) " : "__kernel ";
+    source += detail::concat("void ", name, "(", parameters, ")\n{\n");
     source += detail::prologue(form, needs) + body.text() + (is_loop ? "    }\n}\n" : "}\n");
     return {std::move(name), std::move(source), std::move(arguments), form, detail::accessed_by_index(t, plan)};
 }

@@ -40,6 +40,14 @@ enum class kernel_form : std::uint8_t
              ///< below taut_last, which are its last three arguments; the loop vectorises where the step is 1
 };
 
+/// How much of a run's time a kernel may take.
+enum class kernel_use : std::uint8_t
+{
+    often,  ///< the device's compiler does its best
+    seldom, ///< a few short launches a run: kernel_form::run is compiled without optimisations, as CPUs would wait
+            ///< longer for the compiler than for the kernel
+};
+
 /// Indices per work-item of kernel_form::run: long enough to hide the cost of starting one.
 inline constexpr idx run_length = 256;
 

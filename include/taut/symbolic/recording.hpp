@@ -75,10 +75,10 @@ public:
     const tape& recorded() const noexcept { return tape_; }
 
     /// The kernel as recorded so far. Its form depends on the device; see kernel_form.
-    kernel_text finish(std::string name, kernel_form form = kernel_form::item) const
+    kernel_text finish(std::string name, kernel_form form = kernel_form::item, kernel_use use = kernel_use::often) const
     {
         require_identifier(name);
-        return emit(tape_, std::move(name), arguments_, form);
+        return emit(tape_, std::move(name), arguments_, form, use);
     }
 
 private:

@@ -92,7 +92,7 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
 {
     taut::queue q;
     const auto form = q.device().is_cpu() ? taut::kernel_form::run : taut::kernel_form::guarded;
-    // Kernels with and without double, that share helper functions.
+    // Kernels with and without double, optimised and not, that share helper functions.
     const auto record = [&]<class T>(T, const std::string& name, int power)
     {
         taut::recording r;
@@ -102,7 +102,7 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
         auto root = cbrt(x[i]);
         for (int k = 1; k < power; ++k) root = root * cbrt(x[i] + taut::sym<T>(T(k)));
         y[i] = root;
-        return r.finish(name, form);
+        return r.finish(name, form, power > 1 ? taut::kernel_use::seldom : taut::kernel_use::often);
     };
     const std::vector<taut::kernel_text> texts = {record(0.0f, "narrow", 1), record(0.0, "wide", 1),
                                                   record(0.0f, "narrow_square", 2), record(0.0, "wide_square", 2)};

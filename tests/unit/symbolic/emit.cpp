@@ -272,6 +272,25 @@ TEST_CASE("emit: the forms of a kernel differ only in the indices that a work-it
     CHECK(part.arguments.size() == 5);
 }
 
+TEST_CASE("emit: a kernel of seldom use is compiled without optimisations for CPUs, and is the same otherwise")
+{
+    using taut::kernel_form, taut::kernel_use;
+    taut::recording r;
+    const auto x = r.inout<float>("x");
+    x[r.global_id()] = 2.0f * x[r.global_id()];
+    for (const auto form : {kernel_form::item, kernel_form::guarded, kernel_form::run, kernel_form::part})
+    {
+        const auto often = r.finish("twice", form);
+        auto seldom = r.finish("twice", form, kernel_use::seldom);
+        const std::string attribute = "__attribute__((optnone)) ";
+        const auto at = seldom.source.find(attribute);
+        CHECK((at != std::string::npos) == (form == kernel_form::run));
+        if (at != std::string::npos) seldom.source.erase(at, attribute.size());
+        CHECK(seldom.source == often.source);
+        CHECK(seldom.arguments == often.arguments);
+    }
+}
+
 TEST_CASE_TEMPLATE("emit: a cube root brings its own function, in its own precision", T, float, double)
 {
     taut::recording r;

@@ -43,10 +43,17 @@ R"cl(#line 1 "kernels/reduce.cl"
 #define FOLD(s) ((((s).s0 + (s).s1) + ((s).s2 + (s).s3)) + (((s).s4 + (s).s5) + ((s).s6 + (s).s7)))
 #endif
 
+/// A loop as it stands. On CPUs compilers take longer for copies of it, for vectors and for counts, than these save.
+#if V == 1
+#define PLAIN for
+#else
+#define PLAIN _Pragma("clang loop vectorize(disable) interleave(disable) unroll(disable)") for
+#endif
+
 /// Joins `count` of at most K values of each of the items of a group, column by column: one barrier.
 #if L == 1
 #define JOIN(K, count, items, value, out)                                                                              \
-    for (uint k = 0; k < (count); ++k) (out)[k * groups] = (value)[k];
+    PLAIN (uint k = 0; k < (count); ++k) (out)[k * groups] = (value)[k];
 #else
 #define JOIN(K, count, items, value, out)                                                                              \
     __local SUM shared[(K) * (items)];                                                                                 \
@@ -104,11 +111,11 @@ __kernel void dots(const uint n, const uint block, const uint groups, const uint
                 s2 += LOAD(x, i + 2 * TEAM) * LOAD(y, i + 2 * TEAM);
                 s3 += LOAD(x, i + 3 * TEAM) * LOAD(y, i + 3 * TEAM);
             }
-            for (; i < vend; i += TEAM) s0 += LOAD(x, i) * LOAD(y, i);
+            PLAIN (; i < vend; i += TEAM) s0 += LOAD(x, i) * LOAD(y, i);
             s0 = (s0 + s1) + (s2 + s3);
             SUM sum = FOLD(s0);
 #if V > 1
-            for (uint t = vend * V; t < to; ++t) sum += (SUM)x[t] * (SUM)y[t];
+            PLAIN (uint t = vend * V; t < to; ++t) sum += (SUM)x[t] * (SUM)y[t];
 #endif
             total[k] += sum;
         }
@@ -136,11 +143,11 @@ __kernel void sums(const uint n, const uint block, const uint groups, const uint
         s2 += LOAD(from, i + 2 * L);
         s3 += LOAD(from, i + 3 * L);
     }
-    for (; i < vend; i += L) s0 += LOAD(from, i);
+    PLAIN (; i < vend; i += L) s0 += LOAD(from, i);
     s0 = (s0 + s1) + (s2 + s3);
     SUM total[1] = {FOLD(s0)};
 #if V > 1
-    for (uint t = vend * V; t < end - begin; ++t) total[0] += from[t];
+    PLAIN (uint t = vend * V; t < end - begin; ++t) total[0] += from[t];
 #endif
     JOIN(1, 1, L, total, partials + first + segment * groups + group)
 }
@@ -170,7 +177,7 @@ __kernel void minima(const uint n, const uint block, const uint first, __global 
     }
     const SUM e[8] = {m.s0, m.s1, m.s2, m.s3, m.s4, m.s5, m.s6, m.s7};
     for (int k = 0; k < 8; ++k) least = LESS(least, e[k]);
-    for (uint t = vend * V; t < end - begin; ++t) least = LESS(least, (SUM)from[t]);
+    PLAIN (uint t = vend * V; t < end - begin; ++t) least = LESS(least, (SUM)from[t]);
 #endif
 #if L == 1
     partials[first + group] = least;
