@@ -130,7 +130,7 @@ private:
         model_ = pcg_.solve(
             g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
             [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_,
-            [this] { return monitor_.proceed(); }, exact ? system_steps_ : 0);
+            [this] { return monitor_.proceed(); }, exact ? system_steps_ : 0, exact ? &last_d_ : nullptr);
         report_.products += model_.steps;
         exact_ = exact;
         if (!exact_ && along_stand_in_) conjugate();

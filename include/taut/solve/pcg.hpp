@@ -60,10 +60,11 @@ public:
 
     /// A(v, out) and M(v, out) are the products, M symmetric positive definite on the space of g. proceed() is asked
     /// between blocks of steps; where it says no, d is what there is. max_steps: in the place of
-    /// pcg_params::max_steps, unless it is 0.
+    /// pcg_params::max_steps, unless it is 0. known: a direction that d is likely to have a part of, not d itself; the
+    /// last step of the first block, which takes no preconditioning. Where it brings much, the search goes on.
     template <class Product, class Preconditioner, class Proceed = always>
     pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d, Proceed&& proceed = {},
-                     int max_steps = 0)
+                     int max_steps = 0, const vector* known = nullptr)
     {
         if (max_steps == 0) max_steps = params_.max_steps;
         pcg_result result;
@@ -73,24 +74,32 @@ public:
         {
             const bool first = result.steps == 0;
             if (!first && !proceed()) break;
-            const std::size_t s = std::min(size_, static_cast<std::size_t>(max_steps - result.steps));
+            const bool augmented = first && known && max_steps > 1;
+            const std::size_t s =
+                std::min(size_, static_cast<std::size_t>(max_steps - result.steps - (augmented ? 1 : 0)));
             make_block(s, A, M);
+            if (augmented) append(*known, A);
             const products in = multiply(first);
             ++result.looks;
             if (first) result.gradient_squared = in.rr;
             const small B = first ? small() : conjugation(in.qz);
-            const small K = curvature(in.zw, B);
+            small K = curvature(in.zw, B);
 
             // Step by step, so that the last one before a negative curvature counts.
             std::vector<double> c, n;
             double gained = 0, last = 0;
-            for (std::size_t k = 1; k <= s; ++k)
+            for (std::size_t k = 1; k <= z_.size(); ++k)
             {
                 auto longer = minimiser(K, in.zr, k);
                 more = !longer.empty();
                 if (!more)
                 {
                     if (result.steps > 0 || k > 1) n = descent(K, in.zr, k, result.decrease + gained);
+                    if (k > s && n.empty()) // what is known lies in the space already
+                    {
+                        drop_last(K);
+                        more = true;
+                    }
                     break;
                 }
                 double decrease = 0;
@@ -162,6 +171,22 @@ private:
             if (k > 0) space_.axpby(-theta[k - 1], z_[k - 1], 1, z_[k]);
             A(z_[k], w_[k]);
         }
+    }
+
+    /// One more vector in z_ and w_.
+    template <class Product>
+    void append(const vector& v, const Product& A)
+    {
+        for (auto* block : {&z_, &w_}) block->push_back(space_.make());
+        space_.copy(v, z_.back());
+        A(z_.back(), w_.back());
+    }
+
+    void drop_last(small& K)
+    {
+        z_.pop_back();
+        w_.pop_back();
+        K.pop_back();
     }
 
     /// All inner products of the block: one wait.

@@ -34,7 +34,7 @@ struct report
     int iterations = 0;       ///< accepted steps
     int evaluations = 0;      ///< values computed, those that came with a gradient included
     int gradients = 0;        ///< gradients computed
-    int products = 0;         ///< Hessian products, each with one preconditioning (Newton's method)
+    int products = 0;         ///< Hessian products, nearly all with a preconditioning (Newton's method)
     int restarts = 0;         ///< times the method forgot what it knew of earlier steps
     int skipped_pairs = 0;    ///< steps without positive curvature, left out of the quasi-Newton memory
     double value_start = 0;   ///< f at the start

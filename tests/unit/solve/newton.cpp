@@ -213,6 +213,76 @@ TEST_CASE("pcg: a direction of negative curvature becomes half of the slope")
         }
 }
 
+TEST_CASE("pcg: what is known of the answer takes a product and no preconditioning")
+{
+    // One soft direction, far from the rest of the spectrum, that M does not know of.
+    const std::size_t n = 40;
+    host_space space(n);
+    std::vector<double> g(n), d(n), soft(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) g[i] = std::sin(double(7 * i + 1));
+    soft[0] = 2;
+    const auto A = [](const std::vector<double>& v, std::vector<double>& out)
+    {
+        for (std::size_t i = 0; i < v.size(); ++i) out[i] = (i == 0 ? 1e-4 : 1 + 0.1 * double(i)) * v[i];
+    };
+    int preconditionings = 0;
+    const auto M = [&](const std::vector<double>& v, std::vector<double>& out)
+    {
+        out = v;
+        ++preconditionings;
+    };
+    const auto decrease = [&](const std::vector<double>* of, int block)
+    {
+        preconditionings = 0;
+        pcg solver(space, pcg_params{.max_steps = 4, .block = block, .gain = 1e-12});
+        const auto result = solver.solve(
+            g, A, M, d, [] { return true; }, 0, of);
+        CAPTURE(block);
+        CHECK(result.steps == preconditionings + (of ? 1 : 0));
+        CHECK(result.steps <= 4);
+        CHECK(result.slope == doctest::Approx(space.dot(g, d)));
+        CHECK_FALSE(result.negative);
+        return result.decrease;
+    };
+    for (const int block : {1, 3, 6})
+    {
+        const double without = decrease(nullptr, block);
+        CHECK(decrease(&soft, block) > 10 * without);
+        CHECK(preconditionings == 3);
+    }
+}
+
+TEST_CASE("pcg: what is known already ends nothing, and a negative curvature of it is taken")
+{
+    const std::size_t n = 40;
+    host_space space(n);
+    std::vector<double> g(n, 1.0), d(n);
+    const auto M = [](const std::vector<double>& v, std::vector<double>& out) { out = v; };
+    const auto solve = [&](double first, const std::vector<double>& known)
+    {
+        const auto A = [first](const std::vector<double>& v, std::vector<double>& out)
+        {
+            for (std::size_t i = 0; i < v.size(); ++i) out[i] = (i == 0 ? first : double(i + 1)) * v[i];
+        };
+        pcg solver(space, pcg_params{.max_steps = 20, .block = 2, .gain = 1e-12});
+        return solver.solve(
+            g, A, M, d, [] { return true; }, 0, &known);
+    };
+    // The gradient itself is the first vector of the space, and zero is in any.
+    for (const double factor : {-3.0, 0.0})
+    {
+        const auto result = solve(1, std::vector<double>(n, factor));
+        CHECK(result.steps == 20);
+        CHECK(result.decrease == doctest::Approx(model_after(g, 20)));
+    }
+    std::vector<double> ridge(n, 0.0);
+    ridge[0] = 1;
+    const auto result = solve(-0.01, ridge);
+    CHECK(result.negative);
+    CHECK(result.slope == doctest::Approx(-4 * result.decrease));
+    CHECK(result.slope == doctest::Approx(space.dot(g, d)));
+}
+
 TEST_CASE("newton: leaves a region where its Hessian is indefinite in few iterations")
 {
     // Wells in every other coordinate, from near their ridges; the stand-in is stiff across them, as projected Hessians
