@@ -18,6 +18,7 @@
 #include <taut/atlas/detail/surface_charts.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/segment.hpp>
+#include <taut/mesh/boundary.hpp>
 
 namespace taut::detail
 {
