@@ -148,6 +148,7 @@ def closed_surfaces():
         assert abs(use - s["utilization"]) < 0.02, (use, s["utilization"])
         assert s["utilization"] > 0.4 and 4 <= s["distortion"] <= 4.05 and s["worst_distortion"] <= 4.21
         assert s["charts"] == len(s["chart_table"]) < len(faces) / 10, s["charts"]
+        assert pathlib.Path("s.json").read_text().count('\n    {"triangles": ') == s["charts"], "a chart a line"
         assert sum(c["triangles"] for c in s["chart_table"]) == len(faces)
         assert s["least_distance"] >= s["padding"] * (1 - 1e-9)
         assert pathlib.Path("p.png").stat().st_size > 1000 and pathlib.Path("r.png").stat().st_size > 1000

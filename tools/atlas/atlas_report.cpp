@@ -1,21 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "atlas_report.hpp"
 
+#include <charconv>
+#include <cmath>
 #include <iostream>
+#include <iterator>
 #include <sstream>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
 
 #include <taut/energy/isometric.hpp>
+#include <taut/io/detail/obj_output.hpp>
 #include <taut/mesh/ideal.hpp>
 
 #include "../assessment.hpp"
 #include "../repair_report.hpp"
+#include "../report_files.hpp"
 #include "../run_clock.hpp"
 #include "../text_table.hpp"
 
 namespace taut::tools
 {
 
-nlohmann::ordered_json to_json(const atlas_run_report& r, const atlas_options& o)
+namespace
+{
+
+/// All but the charts.
+nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o)
 {
     const auto& a = r.atlas;
     nlohmann::ordered_json json;
@@ -27,7 +39,7 @@ nlohmann::ordered_json to_json(const atlas_run_report& r, const atlas_options& o
                                     {"vertices", s.vertices},
                                     {"faces", s.triangles},
                                     {"mapped", s.mapped},
-                                    {"repairs", to_json(s.repairs)}});
+                                    {"repairs", tools::to_json(s.repairs)}});
     json["device"] = r.device;
     json["complete"] = a.complete;
     json["charts"] = a.charts.size();
@@ -52,13 +64,41 @@ nlohmann::ordered_json to_json(const atlas_run_report& r, const atlas_options& o
                        {"draw", r.draw},
                        {"write", r.write},
                        {"total", r.total}};
-    json["chart_table"] = nlohmann::ordered_json::array();
-    for (const auto& c : a.charts)
-        json["chart_table"].push_back(
-            {{"triangles", c.triangles}, {"tile", c.tile}, {"area", c.area}, {"energy", finite(c.energy)}});
     json["peak_memory_bytes"] = peak_memory();
     json["notes"] = r.notes;
     return json;
+}
+
+/// A number as JSON has it, which has none that is not finite.
+void append_json(std::string& text, double x)
+{
+    char digits[32];
+    text += std::isfinite(x) ? std::string_view(digits, std::to_chars(digits, std::end(digits), x).ptr) : "null";
+}
+
+} // namespace
+
+void write_stats(io::atomic_file& file, const atlas_run_report& r, const atlas_options& o)
+{
+    std::string head = text_of(head_of(r, o));
+    head.erase(head.rfind("\n}")); // charts follow, a line each: there may be tens of thousands
+    file.write(head + ",\n  \"chart_table\": [");
+    const auto& charts = r.atlas.charts;
+    io::detail::write_items(file, charts.size(),
+                            [&](std::string& text, std::size_t k)
+                            {
+                                const auto& c = charts[k];
+                                text += k == 0 ? "\n    {\"triangles\": " : ",\n    {\"triangles\": ";
+                                io::detail::append_number(text, c.triangles);
+                                text += ", \"tile\": ";
+                                io::detail::append_number(text, c.tile);
+                                text += ", \"area\": ";
+                                append_json(text, c.area);
+                                text += ", \"energy\": ";
+                                append_json(text, c.energy);
+                                text += '}';
+                            });
+    file.write("\n  ]\n}\n");
 }
 
 std::string text_of(const atlas_run_report& r, const atlas_options& o)

@@ -6,10 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include <report/atlas_page.hpp>
 #include <taut/atlas/make_atlas.hpp>
+#include <taut/io/atomic_file.hpp>
 #include <taut/repair/repair_finding.hpp>
 
 #include "../exit_codes.hpp"
@@ -37,7 +36,8 @@ struct atlas_run_report
     exit_code code = exit_code::valid;
 };
 
-nlohmann::ordered_json to_json(const atlas_run_report& report, const atlas_options& options);
+/// As write_with_report() asks for them.
+void write_stats(io::atomic_file& file, const atlas_run_report& report, const atlas_options& options);
 std::string text_of(const atlas_run_report& report, const atlas_options& options);
 
 /// For the page of --report.

@@ -37,6 +37,8 @@ corner_maps::corner_maps(const joined_surfaces& joined, const atlas& made)
     {
         std::vector<idx> number(made.uv.size(), -1);
         part own;
+        own.uv.reserve(made.uv.size());
+        own.cells.reserve(u(joined.first_cell[i + 1] - joined.first_cell[i]));
         for (auto c = u(joined.first_cell[i]); c < u(joined.first_cell[i + 1]); ++c)
         {
             own.cells.push_back(cells[c]);

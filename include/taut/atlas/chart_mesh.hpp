@@ -4,11 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <taut/core/counting_sort.hpp>
-#include <taut/core/disjoint_sets.hpp>
+#include <taut/core/parallel.hpp>
 #include <taut/mesh/facets.hpp>
 
 namespace taut
@@ -56,6 +57,73 @@ inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table
     return seam;
 }
 
+namespace detail
+{
+
+/// The pieces of a surface that hang together across edges that are no seams: the number of its piece for each
+/// triangle, pieces in the order of their first triangles, and how many there are.
+inline std::pair<std::vector<idx>, idx> pieces_between(const facet_table& f, std::span<const char> seam)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    std::vector<idx> piece(f.twin.size() / 3, -1), front;
+    idx pieces = 0;
+    for (idx first = 0; first < static_cast<idx>(piece.size()); ++first)
+    {
+        if (piece[u(first)] >= 0) continue;
+        piece[u(first)] = pieces;
+        for (front.push_back(first); !front.empty();)
+        {
+            const idx c = front.back();
+            front.pop_back();
+            for (idx s = 3 * c; s < 3 * c + 3; ++s)
+            {
+                if (f.twin[u(s)] < 0 || seam[u(s)]) continue;
+                const idx next = f.twin[u(s)] / 3;
+                if (piece[u(next)] >= 0) continue;
+                piece[u(next)] = pieces;
+                front.push_back(next);
+            }
+        }
+        ++pieces;
+    }
+    return {std::move(piece), pieces};
+}
+
+/// The fans that seams part the triangles around vertices into.
+struct vertex_fans
+{
+    std::vector<idx> of_corner;    ///< one a corner
+    std::vector<idx> first_corner; ///< one a fan, ascending
+};
+
+inline vertex_fans fans_between(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    const auto next = [](idx side, idx by) { return side / 3 * 3 + (side % 3 + by) % 3; };
+    const auto vertex = [&](idx corner) { return m.cells()[u(corner / 3)][u(corner % 3)]; };
+    vertex_fans fans{std::vector<idx>(f.twin.size(), -1), {}};
+    for (idx first = 0; first < static_cast<idx>(f.twin.size()); ++first)
+    {
+        if (fans.of_corner[u(first)] >= 0) continue;
+        const auto fan = static_cast<idx>(fans.first_corner.size());
+        fans.first_corner.push_back(first);
+        fans.of_corner[u(first)] = fan;
+        for (const idx way : {1, 2}) // around the vertex, until a seam or a corner that was met
+            for (idx s = next(first, way); f.twin[u(s)] >= 0 && !seam[u(s)];)
+            {
+                const idx t = f.twin[u(s)];
+                const bool after = vertex(next(t, 1)) == vertex(first);
+                const idx corner = next(t, after ? 1 : 2);
+                if (fans.of_corner[u(corner)] >= 0) break;
+                fans.of_corner[u(corner)] = fan;
+                s = next(t, after ? 2 : 1);
+            }
+    }
+    return fans;
+}
+
+} // namespace detail
+
 /// Cuts a surface apart along seams. What hangs together across other edges is a chart, and a vertex becomes one vertex
 /// for each of the fans that seams part its triangles into.
 /// m:    without crowded facets (mesh/facets.hpp), which are `f`
@@ -63,55 +131,64 @@ inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table
 inline chart_mesh cut_charts(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
-    const idx cells = m.cell_count();
-    disjoint_sets parts(cells), fans(3 * cells); // of triangles, of corners
-    for (idx s = 0; s < 3 * cells; ++s)
-    {
-        const idx t = f.twin[u(s)];
-        if (t < s || seam[u(s)]) continue;
-        parts.join(s / 3, t / 3);
-        const auto next = [](idx side, idx by) { return side / 3 * 3 + (side % 3 + by) % 3; };
-        for (const idx a : {next(s, 1), next(s, 2)}) // the corners at the ends of the edge
-            for (const idx b : {next(t, 1), next(t, 2)})
-                if (m.cells()[u(a / 3)][u(a % 3)] == m.cells()[u(b / 3)][u(b % 3)]) fans.join(a, b);
-    }
-
-    std::vector<idx> chart(u(cells), -1);
+    const std::size_t cells = m.cells().size();
+    std::vector<idx> chart;
     idx charts = 0;
-    for (idx c = 0; c < cells; ++c) // the smallest triangle stands for a part and comes first
-        chart[u(c)] = parts.find(c) == c ? charts++ : chart[u(parts.find(c))];
+    detail::vertex_fans fans;
+    parallel_for(
+        2,
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t task = begin; task < end; ++task)
+                if (task == 0)
+                    std::tie(chart, charts) = detail::pieces_between(f, seam);
+                else
+                    fans = detail::fans_between(m, f, seam);
+        },
+        0, 1);
     const auto by_chart = [&](std::size_t n, auto&& chart_of)
     {
         std::vector<idx> order(n);
         auto start = detail::counting_sort(n, u(charts), chart_of,
                                            [&](std::size_t i, std::size_t at) { order[at] = static_cast<idx>(i); });
-        return std::pair(std::vector<idx>(start.begin(), start.end()), std::move(order));
+        return std::pair(std::move(start), std::move(order));
     };
-    auto [first_cell, cell_origins] = by_chart(u(cells), [&](std::size_t c) { return chart[c]; });
+    auto [first_cell, cell_origins] = by_chart(cells, [&](std::size_t c) { return chart[c]; });
 
     // Fans in the order of their vertices in the surface, then by chart.
-    std::vector<idx> fan_of(3 * u(cells)), first_corner;
-    for (idx a = 0; a < 3 * cells; ++a)
-        if (fans.find(a) == a) first_corner.push_back(a);
-    std::vector<idx> by_vertex(first_corner.size());
+    const auto vertex_of = [&](idx fan)
+    {
+        const idx corner = fans.first_corner[u(fan)];
+        return m.cells()[u(corner / 3)][u(corner % 3)];
+    };
+    std::vector<idx> by_vertex(fans.first_corner.size());
     detail::counting_sort(
-        first_corner.size(), u(m.vertex_count()),
-        [&](std::size_t i) { return m.cells()[u(first_corner[i] / 3)][u(first_corner[i] % 3)]; },
-        [&](std::size_t i, std::size_t at) { by_vertex[at] = first_corner[i]; });
-    auto [first_vertex, order] = by_chart(by_vertex.size(), [&](std::size_t i) { return chart[u(by_vertex[i] / 3)]; });
+        by_vertex.size(), u(m.vertex_count()), [&](std::size_t i) { return vertex_of(static_cast<idx>(i)); },
+        [&](std::size_t i, std::size_t at) { by_vertex[at] = static_cast<idx>(i); });
+    auto [first_vertex, order] =
+        by_chart(by_vertex.size(), [&](std::size_t i) { return chart[u(fans.first_corner[u(by_vertex[i])] / 3)]; });
 
     std::vector<vec3> points(order.size());
-    std::vector<idx> vertex_origins(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-        const idx a = by_vertex[u(order[i])];
-        fan_of[u(a)] = static_cast<idx>(i);
-        vertex_origins[i] = m.cells()[u(a / 3)][u(a % 3)];
-        points[i] = m.points()[u(vertex_origins[i])];
-    }
-    std::vector<std::array<idx, 3>> cut(u(cells));
-    for (std::size_t i = 0; i < cut.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) cut[i][k] = fan_of[u(fans.find(3 * cell_origins[i] + static_cast<idx>(k)))];
+    std::vector<idx> vertex_origins(order.size()), place(order.size()); // of each fan
+    std::vector<std::array<idx, 3>> cut(cells);
+    parallel_for(order.size(),
+                 [&, &order = order](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t i = begin; i < end; ++i)
+                     {
+                         const idx fan = by_vertex[u(order[i])];
+                         place[u(fan)] = static_cast<idx>(i);
+                         vertex_origins[i] = vertex_of(fan);
+                         points[i] = m.points()[u(vertex_origins[i])];
+                     }
+                 });
+    parallel_for(cells,
+                 [&, &cell_origins = cell_origins](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t i = begin; i < end; ++i)
+                         for (std::size_t k = 0; k < 3; ++k)
+                             cut[i][k] = place[u(fans.of_corner[3 * u(cell_origins[i]) + k])];
+                 });
     return {mesh<triangle>(std::move(points), std::move(cut)), std::move(first_cell), std::move(first_vertex),
             std::move(cell_origins), std::move(vertex_origins)};
 }

@@ -100,8 +100,48 @@ namespace detail
 /// Maps of charts; of those that are given a map to begin with, all that effort can do.
 using charts_to_maps = std::function<chart_maps(const chart_mesh&, std::span<const vec2>)>;
 
-segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
-                             const segment_params& params);
+/// A segmentation before the surface is cut apart.
+struct uncut_segmentation
+{
+    std::vector<char> seam;     ///< one flag a side
+    std::vector<vec2> uv;       ///< one a corner
+    std::vector<double> energy; ///< one a triangle: of its chart
+    std::vector<char> crosses;  ///< one a triangle: whether its chart overlaps itself
+    segment_report report;      ///< but for what it counts of charts
+};
+
+uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
+                                   const segment_params& params);
+
+segmentation cut_apart(const mesh<triangle>& m, const facet_table& f, uncut_segmentation made,
+                       const segment_params& params);
+
+/// `flatten` of segment() in one form.
+template <class Flatten>
+charts_to_maps maps_by(Flatten& flatten)
+{
+    return [&flatten](const chart_mesh& charts, std::span<const vec2> start)
+    {
+        constexpr bool in_steps = std::is_invocable_v<Flatten&, const chart_mesh&, std::span<const vec2>>;
+        auto flat = [&]
+        {
+            if constexpr (in_steps)
+                return flatten(charts, start);
+            else
+                return flatten(charts);
+        }();
+        chart_maps maps{std::move(flat.uv), {}, {}};
+        for (const auto& chart : flat.charts)
+        {
+            maps.energy.push_back(chart.valid ? chart.energy : std::numeric_limits<double>::infinity());
+            if constexpr (in_steps)
+                maps.settled.push_back(!chart.valid || chart.settled());
+            else
+                maps.settled.push_back(1);
+        }
+        return maps;
+    };
+}
 
 } // namespace detail
 
@@ -122,30 +162,7 @@ template <class Flatten>
 segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& flatten,
                      const segment_params& params = {})
 {
-    return detail::segment_surface(
-        m, f,
-        [&](const chart_mesh& charts, std::span<const vec2> start)
-        {
-            constexpr bool in_steps = std::is_invocable_v<Flatten&, const chart_mesh&, std::span<const vec2>>;
-            auto flat = [&]
-            {
-                if constexpr (in_steps)
-                    return flatten(charts, start);
-                else
-                    return flatten(charts);
-            }();
-            chart_maps maps{std::move(flat.uv), {}, {}};
-            for (const auto& chart : flat.charts)
-            {
-                maps.energy.push_back(chart.valid ? chart.energy : std::numeric_limits<double>::infinity());
-                if constexpr (in_steps)
-                    maps.settled.push_back(!chart.valid || chart.settled());
-                else
-                    maps.settled.push_back(1);
-            }
-            return maps;
-        },
-        params);
+    return detail::cut_apart(m, f, detail::segment_surface(m, f, detail::maps_by(flatten), params), params);
 }
 
 } // namespace taut

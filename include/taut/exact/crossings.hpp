@@ -80,42 +80,37 @@ struct edge_box
     }
 };
 
-/// A binary tree of boxes about edges: halves along the longer side of what a node holds.
+/// A binary tree of boxes about edges: halves along the longer side of what a node holds. Of edges in groups, as the
+/// borders of charts are, each group is a tree by itself, and the tree of all is one of groups.
 class edge_tree
 {
 public:
-    /// Edges with finite ends. group: one an edge, or empty; pairs of one group are left out
-    edge_tree(std::span<const std::array<idx, 2>> edges, std::span<const vec2> x, std::span<const idx> group = {})
-        : entries_(edges.size()), nodes_(edges.empty() ? 0 : std::max<std::size_t>(1, edges.size() - 1))
+    /// Edges with finite ends. groups: #groups + 1, where each begins, and none is empty; or nothing. Pairs of one
+    /// group are left out.
+    edge_tree(std::span<const std::array<idx, 2>> edges, std::span<const vec2> x, std::span<const idx> groups = {})
+        : entries_(edges.size())
     {
-        for (std::size_t e = 0; e < edges.size(); ++e)
-            entries_[e] = {edge_box::of(edges[e], x), e, group.empty() ? -1 : group[e]};
         if (edges.empty()) return;
-        constexpr std::size_t large = 8192; // edges that are worth another thread
-        std::vector<std::vector<part>> levels{{{0, 0, edges.size()}}};
-        while (levels.back().front().last - levels.back().front().first > large)
+        parallel_for(edges.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t e = begin; e < end; ++e)
+                             entries_[e] = {edge_box::of(edges[e], x), static_cast<idx>(e)};
+                     });
+        const auto size = static_cast<idx>(edges.size()), count = static_cast<idx>(groups.size()) - 1;
+        nodes_.resize(u(size + std::max<idx>(0, count - 1)));
+        if (groups.empty())
         {
-            const auto& above = levels.back();
-            std::vector<part> below(2 * above.size());
-            parallel_for(
-                above.size(),
-                [&](std::size_t begin, std::size_t end)
-                {
-                    for (std::size_t k = begin; k < end; ++k)
-                        std::tie(below[2 * k], below[2 * k + 1]) = halve(above[k]);
-                },
-                0, 1);
-            levels.push_back(std::move(below));
+            build_all(entries_, leaf, {{0, 0, size, none}});
+            return;
         }
-        parallel_for(
-            levels.back().size(),
-            [&](std::size_t begin, std::size_t end)
-            {
-                for (std::size_t k = begin; k < end; ++k) build(levels.back()[k]);
-            },
-            0, 1);
-        for (std::size_t k = levels.size() - 1; k-- > 0;)
-            for (const part& p : levels[k]) join_groups(nodes_[p.node]);
+        // A tree has fewer nodes than what it holds, or one, so those of a group are numbered as its edges are.
+        std::vector<part> whole;
+        for (idx g = 0; g < count; ++g) whole.push_back({groups[u(g)], groups[u(g)], groups[u(g) + 1], g});
+        build_all(entries_, leaf, std::move(whole));
+        std::vector<entry> roots;
+        for (idx g = 0; g < count; ++g) roots.push_back({nodes_[u(groups[u(g)])].bounds, groups[u(g)]});
+        if (count > 1) build_all(roots, 1, {{root_ = size, 0, count, none}});
     }
 
     /// Calls look(i, j), i < j, for each pair of edges whose boxes meet, until it returns false.
@@ -123,7 +118,7 @@ public:
     void for_each_pair(Look&& look) const
     {
         const auto meet = [](const edge_box& a, const edge_box& b) { return a.meets(b); };
-        if (!nodes_.empty()) visit(0, 0, look, meet);
+        if (!nodes_.empty()) visit(root_, root_, look, meet);
     }
 
     /// The same of pairs whose boxes are nearer than `reach`, which `look` may make smaller.
@@ -131,22 +126,36 @@ public:
     void for_each_pair_within(const double& reach, Look&& look) const
     {
         const auto near = [&reach](const edge_box& a, const edge_box& b) { return a.distance(b) < reach; };
-        if (!nodes_.empty()) visit(0, 0, look, near);
+        if (!nodes_.empty()) visit(root_, root_, look, near);
     }
 
-    /// Calls look(i) for each edge whose box meets the one from low to high, until it returns false.
+    /// Calls look(g, h) for each pair of groups whose boxes meet, until it returns false.
     template <class Look>
-    void for_each_in(const vec2& low, const vec2& high, Look&& look) const
+    void for_each_pair_of_groups(Look&& look) const
     {
-        if (!nodes_.empty()) visit_in(0, {low, high}, look);
+        if (!nodes_.empty()) visit_groups(root_, root_, look);
+    }
+
+    /// The box of the group with this first edge.
+    const edge_box& box_of_group(idx first_edge) const { return nodes_[u(first_edge)].bounds; }
+
+    /// Calls look(i) for each edge of the group with this first edge whose box meets another one, until it returns
+    /// false.
+    template <class Look>
+    void for_each_in_group(idx first_edge, const edge_box& box, Look&& look) const
+    {
+        visit_in(first_edge, box, look);
     }
 
 private:
+    static constexpr idx none = -1, leaf = 4;
+
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
     struct entry
     {
         edge_box bounds;
-        std::size_t edge;
-        idx group;
+        idx number; // of the edge, or of the node that is the root of a group
 
         double centre(int side) const { return bounds.low[side] / 2 + bounds.high[side] / 2; }
     };
@@ -154,85 +163,114 @@ private:
     struct node
     {
         edge_box bounds;
-        std::size_t first, last;         // of entries_
-        std::size_t left = 0, right = 0; // 0: a leaf
-        idx group = -1;                  // that all are of; -1: of several
+        idx first, last;               // of entries_, or of groups
+        idx left = none, right = none; // none: a leaf
+        idx group = none;              // that all are of; none: of several
     };
 
-    /// Entries of a node. It and those below it are as many as there are entries, at most.
+    /// Entries of a node.
     struct part
     {
-        std::size_t node, first, last;
+        idx node, first, last, group;
     };
 
-    static constexpr std::size_t leaf = 4;
-
-    /// Makes the node of a part without what is below it.
-    node& enclose(const part& p)
+    static edge_box box_about(std::span<const entry> entries)
     {
-        node& made = nodes_[p.node];
-        made = {entries_[p.first].bounds, p.first, p.last};
-        for (std::size_t k = p.first; k < p.last; ++k)
+        edge_box box = entries[0].bounds;
+        for (const entry& e : entries)
         {
-            made.bounds.low = glm::min(made.bounds.low, entries_[k].bounds.low);
-            made.bounds.high = glm::max(made.bounds.high, entries_[k].bounds.high);
+            box.low = glm::min(box.low, e.bounds.low);
+            box.high = glm::max(box.high, e.bounds.high);
         }
-        return made;
+        return box;
     }
 
-    std::pair<part, part> halve(const part& p)
+    /// Makes the node of a part without what is below it.
+    node& enclose(std::span<const entry> entries, const part& p)
     {
-        node& whole = enclose(p);
+        const auto own = entries.subspan(u(p.first), u(p.last - p.first));
+        return nodes_[u(p.node)] = {box_about(own), p.first, p.last, none, none, p.group};
+    }
+
+    /// Makes the node of a part of several entries, and the halves below it.
+    /// least: entries of a leaf at most; where it is 1, entries have nodes
+    std::pair<part, part> halve(std::span<entry> entries, idx least, const part& p)
+    {
+        node& whole = enclose(entries, p);
         const vec2 extent = whole.bounds.high / 2.0 - whole.bounds.low / 2.0;
         const int side = extent.x >= extent.y ? 0 : 1;
-        const std::size_t half = (p.last - p.first) / 2, middle = p.first + half;
-        const auto at = [this](std::size_t k) { return entries_.begin() + static_cast<std::ptrdiff_t>(k); };
-        std::nth_element(at(p.first), at(middle), at(p.last),
+        const idx half = (p.last - p.first) / 2, middle = p.first + half;
+        std::nth_element(entries.begin() + p.first, entries.begin() + middle, entries.begin() + p.last,
                          [side](const entry& a, const entry& b)
                          {
                              const double x = a.centre(side), y = b.centre(side);
-                             return x != y ? x < y : a.edge < b.edge;
+                             return x != y ? x < y : a.number < b.number;
                          });
-        whole.left = p.node + 1;
-        whole.right = p.node + half;
-        return {{whole.left, p.first, middle}, {whole.right, middle, p.last}};
+        const auto root_of = [&](const part& q)
+        { return least == 1 && q.last - q.first == 1 ? entries[u(q.first)].number : q.node; };
+        const part left{p.node + 1, p.first, middle, p.group}, right{p.node + half, middle, p.last, p.group};
+        whole.left = root_of(left);
+        whole.right = root_of(right);
+        return {left, right};
     }
 
-    void build(const part& p)
+    /// Builds trees at the same time; large ones are halved before, so that all threads have a share.
+    void build_all(std::span<entry> entries, idx least, std::vector<part> parts)
     {
-        if (p.last - p.first > leaf)
+        constexpr idx large = 8192; // entries that are worth another thread
+        std::vector<part> small;
+        while (!parts.empty())
         {
-            const auto [left, right] = halve(p);
-            build(left);
-            build(right);
-            join_groups(nodes_[p.node]);
-            return;
+            const auto end =
+                std::partition(parts.begin(), parts.end(), [](const part& p) { return p.last - p.first > large; });
+            small.insert(small.end(), end, parts.end());
+            parts.erase(end, parts.end());
+            std::vector<part> halves(2 * parts.size());
+            parallel_for(
+                parts.size(),
+                [&](std::size_t begin, std::size_t last)
+                {
+                    for (std::size_t k = begin; k < last; ++k)
+                        std::tie(halves[2 * k], halves[2 * k + 1]) = halve(entries, least, parts[k]);
+                },
+                0, 1);
+            parts = std::move(halves);
         }
-        node& made = enclose(p);
-        made.group = entries_[p.first].group;
-        for (std::size_t k = p.first; k < p.last; ++k)
-            if (entries_[k].group != made.group) made.group = -1;
+        parallel_for(
+            small.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t k = begin; k < end; ++k) build(entries, least, small[k]);
+            },
+            0, 1);
     }
 
-    void join_groups(node& n) const
+    void build(std::span<entry> entries, idx least, const part& p)
     {
-        if (nodes_[n.left].group == nodes_[n.right].group) n.group = nodes_[n.left].group;
+        if (p.last - p.first > least)
+        {
+            const auto [left, right] = halve(entries, least, p);
+            build(entries, least, left);
+            build(entries, least, right);
+        }
+        else if (least > 1)
+            enclose(entries, p);
     }
 
     /// Looks at the pairs of an edge of node a and one of node b; a == b: at those within it.
     template <class Look, class Near>
-    bool visit(std::size_t a, std::size_t b, Look& look, const Near& near) const
+    bool visit(idx a, idx b, Look& look, const Near& near) const
     {
-        const node &m = nodes_[a], &n = nodes_[b];
-        if ((m.group >= 0 && m.group == n.group) || !near(m.bounds, n.bounds)) return true;
-        if (m.left == 0 && n.left == 0)
+        const node &m = nodes_[u(a)], &n = nodes_[u(b)];
+        if ((m.group != none && m.group == n.group) || !near(m.bounds, n.bounds)) return true;
+        if (m.left == none && n.left == none)
         {
-            for (std::size_t i = m.first; i < m.last; ++i)
-                for (std::size_t j = a == b ? i + 1 : n.first; j < n.last; ++j)
+            for (idx i = m.first; i < m.last; ++i)
+                for (idx j = a == b ? i + 1 : n.first; j < n.last; ++j)
                 {
-                    const entry &e = entries_[i], &f = entries_[j];
-                    if ((e.group < 0 || e.group != f.group) && near(e.bounds, f.bounds) &&
-                        !look(std::min(e.edge, f.edge), std::max(e.edge, f.edge)))
+                    const entry &e = entries_[u(i)], &f = entries_[u(j)];
+                    if (near(e.bounds, f.bounds) &&
+                        !look(u(std::min(e.number, f.number)), u(std::max(e.number, f.number))))
                         return false;
                 }
             return true;
@@ -241,24 +279,45 @@ private:
             return visit(m.left, m.left, look, near) && visit(m.right, m.right, look, near) &&
                    visit(m.left, m.right, look, near);
         // The larger one is halved.
-        if (n.left == 0 || (m.left != 0 && m.last - m.first >= n.last - n.first))
+        if (n.left == none || (m.left != none && larger(m, n)))
             return visit(m.left, b, look, near) && visit(m.right, b, look, near);
         return visit(a, n.left, look, near) && visit(a, n.right, look, near);
     }
 
-    template <class Look>
-    bool visit_in(std::size_t a, const edge_box& window, Look& look) const
+    static bool larger(const node& m, const node& n)
     {
-        const node& m = nodes_[a];
+        // Of several groups is more than of one.
+        if ((m.group == none) != (n.group == none)) return m.group == none;
+        return m.last - m.first >= n.last - n.first;
+    }
+
+    template <class Look>
+    bool visit_in(idx a, const edge_box& window, Look& look) const
+    {
+        const node& m = nodes_[u(a)];
         if (!m.bounds.meets(window)) return true;
-        if (m.left != 0) return visit_in(m.left, window, look) && visit_in(m.right, window, look);
-        for (std::size_t i = m.first; i < m.last; ++i)
-            if (entries_[i].bounds.meets(window) && !look(entries_[i].edge)) return false;
+        if (m.left != none) return visit_in(m.left, window, look) && visit_in(m.right, window, look);
+        for (idx i = m.first; i < m.last; ++i)
+            if (entries_[u(i)].bounds.meets(window) && !look(u(entries_[u(i)].number))) return false;
         return true;
+    }
+
+    template <class Look>
+    bool visit_groups(idx a, idx b, Look& look) const
+    {
+        const node &m = nodes_[u(a)], &n = nodes_[u(b)];
+        if (!m.bounds.meets(n.bounds)) return true;
+        if (m.group != none && n.group != none) return a == b || look(m.group, n.group);
+        if (a == b)
+            return visit_groups(m.left, m.left, look) && visit_groups(m.right, m.right, look) &&
+                   visit_groups(m.left, m.right, look);
+        if (larger(m, n)) return visit_groups(m.left, b, look) && visit_groups(m.right, b, look);
+        return visit_groups(a, n.left, look) && visit_groups(a, n.right, look);
     }
 
     std::vector<entry> entries_;
     std::vector<node> nodes_;
+    idx root_ = 0;
 };
 
 /// Calls meet(i, j), i < j, for the numbers of each pair of edges that meet, until it returns false or `tests` pairs

@@ -92,7 +92,7 @@ inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<c
 
     detail::overlap_search search(uv, cells, outlines, 100'000);
     const auto chart = search.chart_of_edge();
-    const detail::edge_tree tree(outlines.edges, uv, chart);
+    const detail::edge_tree tree(outlines.edges, uv, outlines.first);
     const auto find_gap = [&]
     {
         tree.for_each_pair_within(sealed.gap,
@@ -113,11 +113,14 @@ inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<c
         {
             for (std::size_t task = begin; task < end; ++task)
                 if (task == 0)
-                    sealed.overlaps = search.run(tree);
+                    search.nested(tree);
                 else
                     find_gap();
         },
         0, 1);
+    // Borders that meet have no distance.
+    if (!(sealed.gap > 0) || !pinned.empty()) search.crossing(tree);
+    sealed.overlaps = search.found();
     return sealed;
 }
 

@@ -71,14 +71,47 @@ public:
 
     std::span<const idx> chart_of_edge() const { return chart_; }
 
-    chart_overlaps run(const edge_tree& tree)
+    /// Charts whose borders meet.
+    void crossing(const edge_tree& tree)
     {
         tree.for_each_pair(
             [&](std::size_t i, std::size_t j)
             { return spend() && (!edges_meet(outlines_.edges[i], outlines_.edges[j], uv_) || look(i, j)); });
-        nested(tree);
-        return found_;
     }
+
+    /// Charts within the triangles of another: one point of each connected part of a border is asked.
+    void nested(const edge_tree& tree)
+    {
+        const auto within = [&](idx inner, idx outer)
+        {
+            const idx border = outlines_.first[u(outer)];
+            const edge_box& box = tree.box_of_group(border);
+            tree.for_each_in_group(outlines_.first[u(inner)], box,
+                                   [&](std::size_t e)
+                                   {
+                                       const vec2& p = uv_[u(outlines_.edges[e][0])];
+                                       if (!begins_part(e) || !box.meets({p, p})) return true;
+                                       int sum = 0; // the winding number
+                                       tree.for_each_in_group(border, {p, {p.x, box.high.y}},
+                                                              [&](std::size_t i)
+                                                              {
+                                                                  sum += crossing_above(p, i);
+                                                                  return spend();
+                                                              });
+                                       if (found_.all && sum > 0 && sum < through / 2) add(inner, outer);
+                                       return found_.all;
+                                   });
+        };
+        tree.for_each_pair_of_groups(
+            [&](idx g, idx h)
+            {
+                within(g, h);
+                within(h, g);
+                return spend();
+            });
+    }
+
+    const chart_overlaps& found() const { return found_; }
 
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
@@ -130,6 +163,18 @@ private:
         return {uv_[u(c[0])], uv_[u(c[1])], uv_[u(c[2])]};
     }
 
+    /// Whether an edge begins in the smallest vertex of a connected part of a border, as one of each part does.
+    bool begins_part(std::size_t edge)
+    {
+        if (begins_part_.empty())
+        {
+            disjoint_sets parts(static_cast<idx>(uv_.size()));
+            for (const auto& [a, b] : outlines_.edges) parts.join(a, b);
+            for (const auto& [a, b] : outlines_.edges) begins_part_.push_back(parts.find(a) == a);
+        }
+        return begins_part_[edge] != 0;
+    }
+
     void find_cells()
     {
         auto& [offsets, items] = cells_of_vertex_;
@@ -141,65 +186,6 @@ private:
         for (std::size_t t = 0; t < cells_.size(); ++t)
             for (const idx v : cells_[t]) items[u(offsets[u(v) + 1]++)] = static_cast<idx>(t);
         offsets.pop_back();
-    }
-
-    /// Charts within the triangles of another: one point of each connected part of a border is asked.
-    void nested(const edge_tree& tree)
-    {
-        disjoint_sets parts(static_cast<idx>(uv_.size()));
-        for (const auto& [a, b] : outlines_.edges) parts.join(a, b);
-        // A ray need not lead further than the charts whose boxes have its beginning.
-        std::vector<vec2> corners;
-        std::vector<std::array<idx, 2>> boxes;
-        for (std::size_t c = 0; c + 1 < outlines_.first.size(); ++c)
-        {
-            boxes.push_back({static_cast<idx>(2 * c), static_cast<idx>(2 * c + 1)});
-            vec2 low(std::numeric_limits<double>::max()), high = -low;
-            for (auto e = u(outlines_.first[c]); e < u(outlines_.first[c + 1]); ++e)
-                for (const idx v : outlines_.edges[e])
-                {
-                    low = glm::min(low, uv_[u(v)]);
-                    high = glm::max(high, uv_[u(v)]);
-                }
-            corners.insert(corners.end(), {low, high});
-        }
-        const edge_tree box_tree(boxes, corners);
-        std::vector<std::pair<idx, int>> windings; // by charts above the point
-        std::vector<idx> candidates;               // charts whose boxes have it
-        for (std::size_t e = 0; e < chart_.size() && found_.all; ++e)
-        {
-            const idx v = outlines_.edges[e][0];
-            if (parts.find(v) != v) continue; // the smallest vertex of a part begins one of its edges
-            const vec2 p = uv_[u(v)];
-            double top = -std::numeric_limits<double>::max();
-            candidates.clear();
-            box_tree.for_each_in(p, p,
-                                 [&](std::size_t c)
-                                 {
-                                     if (static_cast<idx>(c) == chart_[e]) return true;
-                                     candidates.push_back(static_cast<idx>(c));
-                                     top = std::max(top, corners[2 * c + 1].y);
-                                     return true;
-                                 });
-            if (candidates.empty()) continue;
-            windings.clear();
-            tree.for_each_in(p, {p.x, top},
-                             [&](std::size_t i)
-                             {
-                                 if (std::find(candidates.begin(), candidates.end(), chart_[i]) != candidates.end())
-                                     if (const int w = crossing_above(p, i); w != 0)
-                                         windings.emplace_back(chart_[i], w);
-                                 return spend();
-                             });
-            std::sort(windings.begin(), windings.end());
-            for (std::size_t k = 0; k < windings.size();)
-            {
-                const idx other = windings[k].first;
-                int sum = 0;
-                for (; k < windings.size() && windings[k].first == other; ++k) sum += windings[k].second;
-                if (sum > 0 && sum < through / 2) add(chart_[e], other);
-            }
-        }
     }
 
     static constexpr int through = 1 << 20; ///< more than any winding number
@@ -222,7 +208,8 @@ private:
     std::vector<idx> chart_; // of each edge
     std::size_t most_, tests_;
     std::unordered_set<std::uint64_t> pairs_;
-    csr cells_of_vertex_; // empty until charts touch
+    csr cells_of_vertex_;           // empty until charts touch
+    std::vector<char> begins_part_; // one an edge; empty until boxes of charts meet
     chart_overlaps found_;
 };
 
@@ -241,7 +228,10 @@ inline chart_overlaps find_chart_overlaps(std::span<const vec2> uv, std::span<co
     detail::check_charts(uv, cells, first_cell, first_vertex);
     const auto outlines = detail::find_outlines(uv, cells, first_cell, first_vertex);
     detail::overlap_search search(uv, cells, outlines, most);
-    return search.run(detail::edge_tree(outlines.edges, uv, search.chart_of_edge()));
+    const detail::edge_tree tree(outlines.edges, uv, outlines.first);
+    search.crossing(tree);
+    search.nested(tree);
+    return search.found();
 }
 
 } // namespace taut

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <utility>
+#include <vector>
 
+#include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
 #include <taut/atlas/detail/crossing_charts.hpp>
+#include <taut/atlas/detail/seen_patches.hpp>
 #include <taut/exact/certify.hpp>
+#include <taut/mesh/boundary.hpp>
 
 using namespace taut;
 
@@ -71,4 +78,39 @@ TEST_CASE(
     const std::vector<vec2> nested{{-3, -3}, {3, -3}, {0, 4}, {-1, -1}, {1, -1}, {0, 1}};
     CHECK(detail::overlaps_itself(loops, nested));
     CHECK_FALSE(detail::overlaps_itself(hole, nested));
+}
+
+TEST_CASE("chart borders: the loops of each chart, as those of all charts together")
+{
+    for (const auto& m : {test::ball(8), test::pierced_plate(2, 3), test::noisy(test::torus(16, false), 0.1),
+                          test::grid(5, 4), test::single_triangle()})
+    {
+        const auto f = facets(m);
+        for (const std::size_t largest : {1000U, 7U, 1U})
+        {
+            const std::vector<char> all(m.cells().size(), 1);
+            const auto charts = cut_charts(m, f, seams_between(f, detail::lay_as_seen(m, f, all, {}, largest).patch));
+            std::vector<std::vector<idx>> loops;
+            for (idx k = 0; k < charts.charts(); ++k)
+                for (auto& loop : detail::border_loops(charts, k)) loops.push_back(std::move(loop));
+            CHECK((loops == boundary_loops(charts.surface)));
+        }
+    }
+}
+
+TEST_CASE("chart borders: a vertex with very many triangles")
+{
+    constexpr idx n = 200'000;
+    std::vector<vec3> points{{0, 0, 0}};
+    std::vector<std::array<idx, 3>> cells;
+    for (idx i = 0; i < n; ++i)
+    {
+        const double a = 2 * std::numbers::pi * i / n;
+        points.emplace_back(std::cos(a), std::sin(a), 0);
+        cells.push_back({0, 1 + i, 1 + (i + 1) % n});
+    }
+    const mesh<triangle> wheel(std::move(points), std::move(cells));
+    const auto f = facets(wheel);
+    const auto charts = cut_charts(wheel, f, std::vector<char>(f.twin.size(), 0));
+    CHECK((detail::border_loops(charts, 0) == boundary_loops(charts.surface)));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include <support/chart_checks.hpp>
@@ -19,11 +20,10 @@ namespace
 {
 
 /// Lays patches of so many triangles at most, and checks what is promised of them. Returns how many there are.
-idx check_patches(const mesh<triangle>& m, std::size_t largest)
+idx check_patches(const mesh<triangle>& m, std::size_t largest, const std::vector<char>& regions)
 {
     const auto f = facets(m);
-    const std::vector<char> wanted(m.cells().size(), 1);
-    const auto laid = detail::patch_growing(m, f, wanted, {}).run(largest);
+    const auto laid = detail::lay_as_seen(m, f, regions, {}, largest);
     std::vector<std::size_t> size(laid.energy.size(), 0);
     for (const idx p : laid.patch)
     {
@@ -45,6 +45,11 @@ idx check_patches(const mesh<triangle>& m, std::size_t largest)
     const auto crossing = detail::crossing_charts(cut, uv);
     CHECK(std::count(crossing.begin(), crossing.end(), char(1)) == 0);
     return charts;
+}
+
+idx check_patches(const mesh<triangle>& m, std::size_t largest)
+{
+    return check_patches(m, largest, std::vector<char>(m.cells().size(), 1));
 }
 
 } // namespace
@@ -90,10 +95,28 @@ TEST_CASE("seen_patches: only what is wanted, and not over borders")
     const auto f = facets(m);
     std::vector<char> wanted(m.cells().size(), 0), keep(f.twin.size(), 0);
     for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = c % 5 != 0;
-    const auto some = detail::patch_growing(m, f, wanted, {}).run(1000);
+    const auto some = detail::lay_as_seen(m, f, wanted, {}, 1000);
     for (std::size_t c = 0; c < wanted.size(); ++c) CHECK((some.patch[c] >= 0) == (wanted[c] != 0));
     std::fill(wanted.begin(), wanted.end(), char(1));
     for (std::size_t s = 0; s < keep.size(); ++s) keep[s] = f.twin[s] >= 0;
-    const auto single = detail::patch_growing(m, f, wanted, keep).run(1000);
+    const auto single = detail::lay_as_seen(m, f, wanted, keep, 1000);
     CHECK(single.energy.size() == m.cells().size());
+}
+
+TEST_CASE("seen_patches: none leads from one region into another")
+{
+    const auto plate = test::grid(10, 10);
+    CHECK(check_patches(plate, 1000, detail::octants(plate)) == 4);
+    const auto m = test::noisy(test::ball(10), 0.1);
+    const auto regions = detail::octants(m);
+    CHECK(std::set<char>(regions.begin(), regions.end()) == std::set<char>{1, 2, 3, 4, 5, 6, 7, 8});
+    CHECK(check_patches(m, 1000, regions) >= 8);
+    const auto laid = detail::lay_as_seen(m, facets(m), regions, {}, 1000);
+    std::vector<char> region_of(laid.energy.size(), 0);
+    for (std::size_t c = 0; c < regions.size(); ++c)
+    {
+        char& r = region_of[static_cast<std::size_t>(laid.patch[c])];
+        CHECK((r == 0 || r == regions[c]));
+        r = regions[c];
+    }
 }

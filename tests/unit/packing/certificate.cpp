@@ -49,6 +49,13 @@ TEST_CASE("packing certificate: does not hold for charts that overlap, leave the
     add_box(s, {0.2, 0.2}, 0.1); // borders are far from each other
     CHECK(certificate_of(s).gap > 0.09);
     CHECK_FALSE(certificate_of(s).holds(0, 1024));
+    CHECK(certificate_of(s).overlaps.pairs == 1);
+    add_box(s, {0.5, 0.5}, 0.2); // crosses the first
+    CHECK(certificate_of(s).overlaps.pairs == 2);
+    CHECK(certificate_of(s).gap == 0);
+    add_box(s, {0.7, 0.1}, 0.1); // touches none
+    add_box(s, {0.8, 0.1}, 0.1); // touches that
+    CHECK(certificate_of(s).overlaps.pairs == 2);
     support::chart_set out;
     add_box(out, {0.4, 0.6}, 0.5);
     CHECK(certificate_of(out).border == doctest::Approx(-0.1));

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <taut/atlas/chart_mesh.hpp>
+#include <taut/atlas/detail/chart_border.hpp>
 #include <taut/core/parallel.hpp>
 #include <taut/exact/crossings.hpp>
-#include <taut/mesh/boundary.hpp>
 
 namespace taut::detail
 {
@@ -38,21 +38,13 @@ inline bool overlaps_itself(std::span<const std::vector<idx>> loops, std::span<c
 /// uv: one a vertex of charts.surface, finite
 inline std::vector<char> crossing_charts(const chart_mesh& charts, std::span<const vec2> uv)
 {
-    const auto loops = boundary_loops(charts.surface); // in the order of their first vertices, so chart by chart
-    std::vector<std::size_t> first{0};
-    for (std::size_t k = 0; k + 1 < charts.first_vertex.size(); ++k)
-    {
-        std::size_t end = first.back();
-        while (end < loops.size() && loops[end][0] < charts.first_vertex[k + 1]) ++end;
-        first.push_back(end);
-    }
-    std::vector<char> crossing(first.size() - 1, 0);
+    std::vector<char> crossing(static_cast<std::size_t>(charts.charts()), 0);
     parallel_for(
         crossing.size(),
         [&](std::size_t begin, std::size_t end)
         {
             for (std::size_t k = begin; k < end; ++k)
-                crossing[k] = overlaps_itself(std::span(loops).subspan(first[k], first[k + 1] - first[k]), uv);
+                crossing[k] = overlaps_itself(border_loops(charts, static_cast<idx>(k)), uv);
         },
         0, 8);
     return crossing;

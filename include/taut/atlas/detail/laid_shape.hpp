@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <taut/atlas/chart_mesh.hpp>
+#include <taut/atlas/detail/chart_border.hpp>
 #include <taut/atlas/detail/crossing_charts.hpp>
-#include <taut/mesh/boundary.hpp>
 
 namespace taut::detail
 {
@@ -85,25 +85,19 @@ inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<c
                                            std::span<const double> energy)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
-    std::vector<std::vector<std::vector<idx>>> loops(u(charts.charts()));
-    std::size_t k = 0;
-    for (auto& loop : boundary_loops(charts.surface)) // in the order of their vertices, and so of the charts
-    {
-        while (loop[0] >= charts.first_vertex[k + 1]) ++k;
-        loops[k].push_back(std::move(loop));
-    }
-    std::vector<laid_shape> shapes(loops.size());
+    std::vector<laid_shape> shapes(u(charts.charts()));
     parallel_for(
-        loops.size(),
+        shapes.size(),
         [&](std::size_t begin, std::size_t end)
         {
             for (std::size_t i = begin; i < end; ++i)
             {
                 if (!(energy[i] < std::numeric_limits<double>::infinity())) continue;
-                shapes[i].crosses = overlaps_itself(loops[i], uv);
-                if (shapes[i].crosses) shapes[i].meetings = meeting_triangles(charts, i, loops[i], uv);
+                const auto loops = border_loops(charts, static_cast<idx>(i));
+                shapes[i].crosses = overlaps_itself(loops, uv);
+                if (shapes[i].crosses) shapes[i].meetings = meeting_triangles(charts, i, loops, uv);
                 std::vector<vec2> rim;
-                for (const auto& loop : loops[i])
+                for (const auto& loop : loops)
                     for (const idx v : loop) rim.push_back(uv[u(v)]);
                 double area = 0;
                 for (auto c = u(charts.first_cell[i]); c < u(charts.first_cell[i + 1]); ++c)

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/atlas/detail/atlas_summary.hpp>
 #include <taut/atlas/detail/crossing_charts.hpp>
 #include <taut/atlas/detail/pinned_charts.hpp>
 #include <taut/atlas/detail/seen_patches.hpp>
@@ -20,9 +21,7 @@
 #include <taut/atlas/make_atlas.hpp>
 #include <taut/core/budget.hpp>
 #include <taut/core/disjoint_sets.hpp>
-#include <taut/energy/isometric.hpp>
 #include <taut/map/parameterize.hpp>
-#include <taut/mesh/ideal.hpp>
 #include <taut/mesh/validate.hpp>
 #include <taut/packing/certificate.hpp>
 
@@ -46,7 +45,6 @@ public:
             keep_charts();
         else
             make_charts();
-        mend(unfit());
         join_polygons();
         lay();
         const auto crossing = part_touching();
@@ -65,7 +63,7 @@ public:
         for (const double e : pins.energies()) energy_.push_back(e);
         pinned.resize(energy_.size(), 1);
         report_.charts.clear();
-        report_.worst = report_.seam_length = 0;
+        report_.worst = 0;
         charts_.emplace(std::move(made.charts));
         uv_ = std::move(made.uv);
         if (params_.stored != nullptr)
@@ -82,6 +80,13 @@ public:
 
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    /// The triangles of the surface in the plane, in its units, each as it lies in its chart.
+    struct laid_triangles
+    {
+        std::vector<vec2> uv;       // one a corner
+        std::vector<double> energy; // one a triangle: of its chart
+    };
 
     /// Asks whether to go on, in a stage.
     observer asking(std::string_view stage)
@@ -122,16 +127,30 @@ private:
         params.observer = asking("charts");
         // What takes more steps at first is mostly cut after all of them.
         constexpr int few = 25;
-        auto made = segment(
-            mesh_, facets_,
-            [this](const chart_mesh& charts, std::span<const vec2> start)
-            { return flatten(charts, start, start.empty() ? few : std::numeric_limits<int>::max()); },
-            params);
-        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
+        const auto first_maps = [this](const chart_mesh& charts, std::span<const vec2> start)
+        { return flatten(charts, start, start.empty() ? few : std::numeric_limits<int>::max()); };
+        auto made = segment_surface(mesh_, facets_, maps_by(first_maps), params);
+        report_.complete = report_.complete && budget_.in_time();
         seam_ = std::move(made.seam);
-        charts_.emplace(std::move(made.charts));
-        flat_ = std::move(made.uv);
-        energy_ = std::move(made.energy);
+        laid_triangles laid{std::move(made.uv), std::move(made.energy)};
+        if (report_.complete)
+            cut(laid);
+        else
+            cut_unfinished(std::move(laid), made.crosses);
+        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
+        if (report_.complete) mend(unfit());
+    }
+
+    /// The charts of a run that has ended; those that have no map yet, or none that is any good, as they are seen.
+    void cut_unfinished(laid_triangles laid, std::span<const char> crosses)
+    {
+        const double most = std::max(seen_patches::most_energy, params_.charts.max_distortion);
+        std::vector<char> wanted(laid.energy.size());
+        for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
+        if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)
+            report_.notes.push_back("what had no map by then became " + std::to_string(lay_patches(laid, wanted)) +
+                                    " charts, laid as they are seen");
+        cut(laid);
     }
 
     void keep_charts()
@@ -147,6 +166,7 @@ private:
         report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
         for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
         flat_ = std::move(flat.uv);
+        mend(unfit());
     }
 
     /// Calls f(triangle of the surface, corner, vertex of the charts) for all corners.
@@ -157,14 +177,12 @@ private:
             for (std::size_t k = 0; k < 3; ++k) f(u(charts_->cell_origins[i]), k, u(charts_->surface.cells()[i][k]));
     }
 
-    /// One flag a chart: 1 where it has no map, or overlaps itself, or is far from done where the run ended early.
+    /// One flag a chart: 1 where it has no map, or overlaps itself.
     std::vector<char> unfit() const
     {
-        const double most = report_.complete || params_.keep_charts
-                                ? std::numeric_limits<double>::max()
-                                : std::max(seen_patches::most_energy, params_.charts.max_distortion);
         auto bad = crossing_charts(*charts_, flat_);
-        for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] != 0 || !(energy_[k] <= most);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            bad[k] = bad[k] != 0 || !(energy_[k] < std::numeric_limits<double>::infinity());
         return bad;
     }
 
@@ -226,55 +244,81 @@ private:
                              " has no map, or none without overlaps, and cannot be kept; let charts be made";
             return;
         }
-        const auto count = std::count(bad.begin(), bad.end(), char(1));
-        const idx charts = charts_->charts();
-        lay_patches(bad, largest);
-        report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") + " without a map became " +
-                                std::to_string(charts_->charts() - charts + count) + ", laid as they are seen");
-    }
-
-    /// These charts become patches of so many triangles at most.
-    void lay_patches(const std::vector<char>& bad, std::size_t largest)
-    {
         std::vector<char> wanted(mesh_.cells().size(), 0);
         for (std::size_t k = 0; k < bad.size(); ++k)
             for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
                 wanted[u(charts_->cell_origins[i])] = bad[k];
-        const auto laid = patch_growing(mesh_, facets_, wanted, params_.charts.seams).run(largest);
-        renew([&](std::size_t c) { return laid.patch[c]; }, [&](idx patch) { return laid.energy[u(patch)]; },
-              [&](std::size_t c, std::size_t k) { return laid.uv[c][k]; });
+        auto laid = triangles_as_laid();
+        const auto patches = lay_patches(laid, std::move(wanted), largest);
+        cut(laid);
+        const auto count = std::count(bad.begin(), bad.end(), char(1));
+        report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") + " without a map became " +
+                                std::to_string(patches) + ", laid as they are seen");
     }
 
-    /// Makes new charts of some triangles. label(triangle): of its chart, -1 where all stays; energy(label),
-    /// uv(triangle, corner): of the new ones
-    template <class Label, class Energy, class Map>
-    void renew(Label&& label, Energy&& energy_of, Map&& uv_of)
+    /// These triangles, one flag each, become patches of so many at most. Returns how many patches there are.
+    std::size_t lay_patches(laid_triangles& laid, std::vector<char> wanted, std::size_t largest = 1024)
     {
-        std::vector<double> energy(mesh_.cells().size());
-        std::vector<std::array<vec2, 3>> uv(mesh_.cells().size());
+        constexpr std::ptrdiff_t many = 50'000; // worth more threads, where what comes of it is for want of time
+        if (!report_.complete && std::count(wanted.begin(), wanted.end(), char(1)) > many)
+        {
+            const auto octant = octants(mesh_);
+            for (std::size_t c = 0; c < wanted.size(); ++c)
+                if (wanted[c] != 0) wanted[c] = octant[c];
+        }
+        const auto seen = lay_as_seen(mesh_, facets_, wanted, params_.charts.seams, largest);
+        lay_anew(
+            laid, [&](std::size_t c) { return seen.patch[c]; }, [&](idx patch) { return seen.energy[u(patch)]; },
+            [&](std::size_t c, std::size_t k) { return seen.uv[c][k]; });
+        return seen.energy.size();
+    }
+
+    /// The triangles of the surface as they lie in the charts.
+    laid_triangles triangles_as_laid() const
+    {
+        laid_triangles laid{std::vector<vec2>(facets_.twin.size()), std::vector<double>(mesh_.cells().size())};
         for (std::size_t k = 0; k < energy_.size(); ++k)
             for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
-                energy[u(charts_->cell_origins[i])] = energy_[k];
-        for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v) { uv[cell][corner] = flat_[v]; });
-        for (std::size_t c = 0; c < uv.size(); ++c)
-        {
-            if (label(c) < 0) continue;
-            energy[c] = energy_of(label(c));
-            for (std::size_t k = 0; k < 3; ++k) uv[c][k] = uv_of(c, k);
-        }
-        for (std::size_t s = 0; s < seam_.size(); ++s)
-        {
-            if (facets_.twin[s] < 0) continue;
-            const idx a = label(s / 3), b = label(u(facets_.twin[s]) / 3);
-            const bool given = !params_.charts.seams.empty() && params_.charts.seams[s] != 0;
-            if (a >= 0 || b >= 0) seam_[s] = given || a != b;
-        }
+                laid.energy[u(charts_->cell_origins[i])] = energy_[k];
+        for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
+                        { laid.uv[3 * cell + corner] = flat_[v]; });
+        return laid;
+    }
+
+    /// Lays some triangles in other places, and has seams there. label(triangle): of its chart, -1 where all stays;
+    /// energy_of(label), uv_of(triangle, corner): of the new ones
+    template <class Label, class Energy, class Map>
+    void lay_anew(laid_triangles& laid, Label&& label, Energy&& energy_of, Map&& uv_of)
+    {
+        parallel_for(mesh_.cells().size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t c = begin; c < end; ++c)
+                         {
+                             const idx own = label(c);
+                             if (own >= 0) laid.energy[c] = energy_of(own);
+                             for (std::size_t s = 3 * c; s < 3 * c + 3; ++s)
+                             {
+                                 if (own >= 0) laid.uv[s] = uv_of(c, s % 3);
+                                 if (facets_.twin[s] < 0) continue;
+                                 const idx other = label(u(facets_.twin[s]) / 3);
+                                 const bool given = !params_.charts.seams.empty() && params_.charts.seams[s] != 0;
+                                 if (own >= 0 || other >= 0) seam_[s] = given || own != other;
+                             }
+                         }
+                     });
+    }
+
+    /// Cuts the surface along its seams.
+    void cut(const laid_triangles& laid)
+    {
         charts_.emplace(cut_charts(mesh_, facets_, seam_));
-        flat_.assign(charts_->surface.points().size(), vec2(0.0));
-        for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v) { flat_[v] = uv[cell][corner]; });
+        flat_.resize(charts_->surface.points().size());
+        for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
+                        { flat_[v] = laid.uv[3 * cell + corner]; });
         energy_.clear();
         for (std::size_t k = 0; k + 1 < charts_->first_cell.size(); ++k)
-            energy_.push_back(energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
+            energy_.push_back(laid.energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
     }
 
     /// Polygons that several charts have parts of become charts by themselves.
@@ -285,18 +329,20 @@ private:
         disjoint_sets polygons(mesh_.cell_count());
         for (std::size_t s = 0; s < together.size(); ++s)
             if (together[s] != 0 && facets_.twin[s] >= 0) polygons.join(static_cast<idx>(s) / 3, facets_.twin[s] / 3);
+        std::vector<idx> polygon(mesh_.cells().size());
+        for (std::size_t c = 0; c < polygon.size(); ++c) polygon[c] = polygons.find(static_cast<idx>(c));
         std::vector<char> parted(mesh_.cells().size(), 0);
         for (std::size_t s = 0; s < together.size(); ++s)
-            if (together[s] != 0 && facets_.twin[s] >= 0 && seam_[s] != 0)
-                parted[u(polygons.find(static_cast<idx>(s) / 3))] = 1;
+            if (together[s] != 0 && facets_.twin[s] >= 0 && seam_[s] != 0) parted[u(polygon[s / 3])] = 1;
         if (std::count(parted.begin(), parted.end(), char(1)) == 0) return;
         const auto label = [&](std::size_t c)
         {
-            const idx p = polygons.find(static_cast<idx>(c));
+            const idx p = polygon[c];
             return parted[u(p)] ? p : -1;
         };
-        renew(
-            label, [](idx) { return std::numeric_limits<double>::infinity(); },
+        auto laid = triangles_as_laid();
+        lay_anew(
+            laid, label, [](idx) { return std::numeric_limits<double>::infinity(); },
             [](std::size_t, std::size_t) { return vec2(0.0); });
         std::vector<idx> triangles, number(mesh_.points().size(), -1);
         for (std::size_t c = 0; c < parted.size(); ++c)
@@ -306,17 +352,14 @@ private:
         few.initial = {};
         few.max_iterations = report_.complete ? few.max_iterations : 0; // their starts are made at once
         const auto maps = flatten_charts(queue_, part.charts, few);
-        std::vector<std::array<vec2, 3>> uv(mesh_.cells().size());
-        std::vector<double> energy(mesh_.cells().size());
         for (idx k = 0; k < part.charts.charts(); ++k)
             for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
             {
                 const auto c = u(part.triangles[i]);
-                energy[u(polygons.find(part.triangles[i]))] = maps.charts[u(k)].energy;
-                for (std::size_t j = 0; j < 3; ++j) uv[c][j] = maps.uv[u(part.charts.surface.cells()[i][j])];
+                laid.energy[c] = maps.charts[u(k)].energy;
+                for (std::size_t j = 0; j < 3; ++j) laid.uv[3 * c + j] = maps.uv[u(part.charts.surface.cells()[i][j])];
             }
-        renew(
-            label, [&](idx p) { return energy[u(p)]; }, [&](std::size_t c, std::size_t k) { return uv[c][k]; });
+        cut(laid);
         report_.notes.push_back("polygons that were in several charts became charts by themselves");
         mend(unfit());
     }
@@ -384,7 +427,9 @@ private:
     void certify_all(std::size_t crossing, std::span<const char> pinned)
     {
         const auto& cut = charts_->surface;
-        summarize();
+        summarize(report_, *charts_, uv_, energy_, layout_);
+        report_.tiles = params_.packing.tiles;
+        report_.seam_length = length_of_seams(mesh_, facets_, seam_);
         if (!report_.reason.empty()) return;
         report_.flips = certify<2>(cut.cells(), std::span<const vec2>(uv_));
         const auto sealed = certify_packing(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex, pinned);
@@ -398,46 +443,6 @@ private:
             report_.reason = std::to_string(report_.overlaps) + " charts overlap in the atlas";
         else if (!sealed.holds(params_.packing.padding, params_.packing.resolution))
             report_.reason = "charts are nearer to each other, or to the border, than the padding";
-    }
-
-    void summarize()
-    {
-        const auto& cut = charts_->surface;
-        const ideal_elements<triangle> ideal(cut);
-        double in_space = 0, in_plane = 0;
-        for (std::size_t k = 0; k + 1 < charts_->first_cell.size(); ++k)
-        {
-            chart_summary chart{.triangles = charts_->first_cell[k + 1] - charts_->first_cell[k],
-                                .tile = layout_.places.empty() ? 0 : layout_.places[k].tile,
-                                .energy = energy_[k]};
-            for (auto c = u(charts_->first_cell[k]); c < u(charts_->first_cell[k + 1]); ++c)
-            {
-                chart.area += ideal.measure[c];
-                const auto& t = cut.cells()[c];
-                in_plane += orient(uv_[u(t[0])], uv_[u(t[1])], uv_[u(t[2])]).det / 2;
-            }
-            in_space += chart.area;
-            report_.worst = std::max(report_.worst, chart.energy);
-            report_.charts.push_back(chart);
-        }
-        const double scale = std::sqrt(in_space / in_plane);
-        double sum = 0;
-        for (std::size_t c = 0; c < cut.cells().size(); ++c)
-        {
-            const mat2 S = scale * shape_matrix<2>(cut.cells()[c], std::span<const vec2>(uv_), ideal.inverse[c]);
-            const double det = glm::determinant(S);
-            sum += ideal.measure[c] * (det > 0 ? energy::isometric{}(element<double, 2>{S, det, ideal.measure[c]})
-                                               : std::numeric_limits<double>::infinity());
-        }
-        report_.distortion = sum / in_space;
-        report_.utilization = layout_.utilization;
-        report_.tiles = params_.packing.tiles;
-        for (std::size_t s = 0; s < seam_.size(); ++s)
-            if (facets_.twin[s] > static_cast<idx>(s) && seam_[s] != 0)
-            {
-                const auto [a, b] = side_vertices(mesh_, static_cast<idx>(s));
-                report_.seam_length += glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
-            }
     }
 
     queue& queue_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/core/parallel.hpp>
 #include <taut/exact/crossings.hpp>
 #include <taut/exact/predicates.hpp>
 #include <taut/mesh/facets.hpp>
@@ -27,25 +28,31 @@ struct seen_patches
     static constexpr double most_energy = 6.25; ///< that of a triangle which is seen at 60 degrees
 };
 
-/// Grows patches in breadth.
+/// Grows patches in breadth, in one region of a surface.
 class patch_growing
 {
 public:
-    /// wanted: one flag a triangle; keep: one flag a side, borders that no patch leads over, or empty
-    patch_growing(const mesh<triangle>& m, const facet_table& f, std::span<const char> wanted,
-                  std::span<const char> keep)
-        : mesh_(m), facets_(f), wanted_(wanted), keep_(keep), touched_(m.points().size(), -1), seen_(m.points().size())
+    /// patches: those of all regions; it reads and writes what there is of triangles of its own, which gets numbers
+    /// from 0
+    patch_growing(const mesh<triangle>& m, const facet_table& f, std::span<const char> regions, char own,
+                  std::span<const char> keep, seen_patches& patches)
+        : mesh_(m),
+          facets_(f),
+          regions_(regions),
+          own_(own),
+          keep_(keep),
+          touched_(m.points().size(), -1),
+          seen_(m.points().size()),
+          patches_(patches)
     {
-        patches_.patch.assign(m.cells().size(), -1);
-        patches_.uv.resize(m.cells().size());
     }
 
-    /// largest: triangles of a patch at most
-    seen_patches run(std::size_t largest)
+    /// Returns the energies of the patches.
+    std::vector<double> run(std::size_t largest)
     {
-        for (std::size_t c = 0; c < wanted_.size(); ++c)
+        for (std::size_t c = 0; c < regions_.size(); ++c)
         {
-            if (!wanted_[c] || patches_.patch[c] >= 0) continue;
+            if (regions_[c] != own_ || patches_.patch[c] >= 0) continue;
             for (std::size_t most = largest;; most = std::min(most, front_.size()) / 8)
             {
                 grow(static_cast<idx>(c), most);
@@ -53,7 +60,7 @@ public:
                 undo();
             }
         }
-        return std::move(patches_);
+        return std::move(energy_);
     }
 
 private:
@@ -62,7 +69,7 @@ private:
     /// Grows a patch around a triangle.
     void grow(idx seed, std::size_t largest)
     {
-        const auto id = static_cast<idx>(patches_.energy.size());
+        const auto id = static_cast<idx>(energy_.size());
         double area = 0, sum = 0;
         const auto take = [&](idx c, double cosine)
         {
@@ -96,16 +103,16 @@ private:
             {
                 if (!leads_on(s)) continue;
                 const idx t = facets_.twin[u(s)], c = t / 3;
-                if (!wanted_[u(c)] || patches_.patch[u(c)] >= 0 || !stays_disk(t, id)) continue;
+                if (patches_.patch[u(c)] >= 0 || !stays_disk(t, id)) continue;
                 if (const double cosine = see(c); cosine > 0) take(c, cosine);
             }
-        patches_.energy.push_back(sum / area);
+        energy_.push_back(sum / area);
     }
 
     /// Whether the border of the last patch, which is a disk, meets itself.
     bool overlaps() const
     {
-        const auto id = static_cast<idx>(patches_.energy.size()) - 1;
+        const auto id = static_cast<idx>(energy_.size()) - 1;
         std::vector<std::array<idx, 2>> border;
         for (const idx c : front_)
             for (idx s = 3 * c; s < 3 * c + 3; ++s)
@@ -122,7 +129,7 @@ private:
             patches_.patch[u(c)] = -1;
             for (const idx v : mesh_.cells()[u(c)]) touched_[u(v)] = -1;
         }
-        patches_.energy.pop_back();
+        energy_.pop_back();
     }
 
     vec3 doubled_normal(idx c) const
@@ -131,7 +138,11 @@ private:
         return glm::cross(x[1] - x[0], x[2] - x[0]);
     }
 
-    bool leads_on(idx side) const { return facets_.twin[u(side)] >= 0 && (keep_.empty() || !keep_[u(side)]); }
+    bool leads_on(idx side) const
+    {
+        const idx t = facets_.twin[u(side)];
+        return t >= 0 && regions_[u(t) / 3] == own_ && (keep_.empty() || !keep_[u(side)]);
+    }
 
     /// Whether the patch remains a disk with the triangle behind a side: it meets it in that edge and nothing else, or
     /// in edges that meet.
@@ -161,12 +172,63 @@ private:
 
     const mesh<triangle>& mesh_;
     const facet_table& facets_;
-    std::span<const char> wanted_, keep_;
+    std::span<const char> regions_;
+    char own_;
+    std::span<const char> keep_;
     std::vector<idx> touched_; // one a vertex: the last patch that has it
     std::vector<vec2> seen_;   // one a vertex: where it was seen last
     std::vector<idx> front_;   // the triangles of the last patch
     vec3 origin_{0.0}, normal_{0.0}, across_{0.0}, up_{0.0};
-    seen_patches patches_;
+    seen_patches& patches_;
+    std::vector<double> energy_; // one a patch
 };
+
+/// regions: one a triangle, from 1; 0: no patch is wanted there. None leads from one into another, so that they are
+/// parted at the same time.
+/// keep: one flag a side, borders that no patch leads over, or empty; largest: triangles of a patch at most
+inline seen_patches lay_as_seen(const mesh<triangle>& m, const facet_table& f, std::span<const char> regions,
+                                std::span<const char> keep, std::size_t largest)
+{
+    seen_patches patches{
+        std::vector<idx>(m.cells().size(), -1), std::vector<std::array<vec2, 3>>(m.cells().size()), {}};
+    const char last = *std::max_element(regions.begin(), regions.end());
+    std::vector<std::vector<double>> energy(static_cast<std::size_t>(last));
+    parallel_for(
+        energy.size(),
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t r = begin; r < end; ++r)
+                energy[r] = patch_growing(m, f, regions, static_cast<char>(r + 1), keep, patches).run(largest);
+        },
+        0, 1);
+    std::vector<idx> first{0}; // patch of each region; of what is in none, whatever
+    for (const auto& some : energy)
+    {
+        first.push_back(static_cast<idx>(patches.energy.size()));
+        patches.energy.insert(patches.energy.end(), some.begin(), some.end());
+    }
+    for (std::size_t c = 0; c < regions.size(); ++c) patches.patch[c] += first[static_cast<std::size_t>(regions[c])];
+    return patches;
+}
+
+/// The octant that each triangle is in, of those about the mean of the vertices: 1 to 8.
+inline std::vector<char> octants(const mesh<triangle>& m)
+{
+    vec3 sum(0.0);
+    for (const vec3& x : m.points()) sum += x;
+    const vec3 middle = sum / static_cast<double>(m.points().size());
+    std::vector<char> octant(m.cells().size());
+    parallel_for(octant.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t c = begin; c < end; ++c)
+                     {
+                         const auto x = m.rest(static_cast<idx>(c));
+                         const auto above = glm::greaterThan((x[0] + x[1] + x[2]) / 3.0, middle);
+                         octant[c] = static_cast<char>(1 + above.x + 2 * above.y + 4 * above.z);
+                     }
+                 });
+    return octant;
+}
 
 } // namespace taut::detail

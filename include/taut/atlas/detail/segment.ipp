@@ -18,6 +18,7 @@
 #include <taut/atlas/detail/surface_charts.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/segment.hpp>
+#include <taut/mesh/boundary.hpp>
 
 namespace taut::detail
 {
@@ -28,7 +29,7 @@ class segmenting : surface_charts
 public:
     using surface_charts::surface_charts;
 
-    segmentation run()
+    uncut_segmentation run()
     {
         cut_by_estimate();
         if (budget_.over()) // pieces without maps, and without records of their own
@@ -87,6 +88,7 @@ private:
             ratio = found;
         }
         seam_ = tree.seams(facets_, tree.labels(chosen));
+        if (budget_.over()) return;
         straighten(mesh_, facets_, seam_, params_.seams, params_.together, budget_);
         report_.straighten_seconds += budget_.lap();
     }
@@ -451,11 +453,33 @@ private:
     }
 };
 
-TAUT_INLINE segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
-                                         const segment_params& params)
+TAUT_INLINE uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f,
+                                               const charts_to_maps& flatten, const segment_params& params)
 {
     params.validate();
     return segmenting(m, f, flatten, params).run();
+}
+
+TAUT_INLINE segmentation cut_apart(const mesh<triangle>& m, const facet_table& f, uncut_segmentation made,
+                                   const segment_params& params)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    segmentation r{{}, cut_charts(m, f, made.seam), {}, {}, made.report};
+    r.seam = std::move(made.seam);
+    r.uv.resize(r.charts.surface.points().size());
+    for (std::size_t i = 0; i < r.charts.cell_origins.size(); ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            r.uv[u(r.charts.surface.cells()[i][j])] = made.uv[3 * u(r.charts.cell_origins[i]) + j];
+    for (idx k = 0; k < r.charts.charts(); ++k)
+    {
+        const auto first = u(r.charts.cell_origins[u(r.charts.first_cell[u(k)])]);
+        const double energy = made.energy[first];
+        r.energy.push_back(energy);
+        r.report.unmapped += !(energy < std::numeric_limits<double>::infinity());
+        r.report.above += energy > params.max_distortion;
+        r.report.crossing += made.crosses[first];
+    }
+    return r;
 }
 
 } // namespace taut::detail

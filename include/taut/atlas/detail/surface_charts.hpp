@@ -198,30 +198,29 @@ protected:
         return glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
     }
 
-    segmentation result()
+    uncut_segmentation result()
     {
-        segmentation r{seam_, cut_charts(mesh_, facets_, seam_), {}, {}, {}};
-        r.uv.resize(r.charts.surface.points().size());
-        for (std::size_t i = 0; i < r.charts.cell_origins.size(); ++i)
-            for (std::size_t j = 0; j < 3; ++j)
-                r.uv[u(r.charts.surface.cells()[i][j])] = uv_[3 * u(r.charts.cell_origins[i]) + j];
+        uncut_segmentation r;
         double area = 0;
-        for (idx k = 0; k < r.charts.charts(); ++k)
+        for (const record& one : charts_)
         {
-            const idx first = r.charts.cell_origins[u(r.charts.first_cell[u(k)])];
-            const record& one = charts_[u(chart_[u(first)])];
-            r.energy.push_back(one.energy);
-            report_.unmapped += !(one.energy < infinite);
-            report_.above += one.energy > params_.max_distortion;
-            report_.crossing += one.shape.crosses;
-            if (!(one.energy < infinite)) continue;
+            if (one.triangles.empty() || !(one.energy < infinite)) continue;
             area += one.area;
             report_.largest_distortion = std::max(report_.largest_distortion, one.energy);
         }
         if (area > 0) report_.distortion = 4 + total_excess() / area;
         for (std::size_t s = 0; s < seam_.size(); ++s)
             if (facets_.twin[s] > static_cast<idx>(s) && seam_[s]) report_.seam_length += length(s);
+        r.energy.reserve(chart_.size());
+        r.crosses.reserve(chart_.size());
+        for (const idx k : chart_)
+        {
+            r.energy.push_back(charts_[u(k)].energy);
+            r.crosses.push_back(charts_[u(k)].shape.crosses);
+        }
         report_.total_seconds = budget_.total();
+        r.seam = std::move(seam_);
+        r.uv = std::move(uv_);
         r.report = report_;
         return r;
     }

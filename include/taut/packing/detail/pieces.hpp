@@ -40,6 +40,7 @@ inline std::vector<vec2> convex_hull(std::vector<vec2> points)
     points.erase(std::unique(points.begin(), points.end()), points.end());
     if (points.size() < 3) return points;
     std::vector<vec2> hull;
+    hull.reserve(points.size() + 1);
     for (int half = 0; half < 2; ++half)
     {
         const std::size_t floor = hull.size() + 1;
@@ -111,6 +112,8 @@ inline std::vector<piece> make_pieces(std::span<const vec2> uv, const chart_outl
                 }
                 p.centre = low / 2.0 + high / 2.0;
                 std::vector<vec2> points;
+                points.reserve(edges.size());
+                p.edges.reserve(edges.size());
                 for (const auto& [a, b] : edges)
                 {
                     p.edges.push_back({p.density * (at(a) - p.centre), p.density * (at(b) - p.centre)});

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,18 +22,16 @@ struct shelf_layout
     std::vector<idx> tiles;
 };
 
-/// border, gap: to the border of a tile and between boxes
-inline shelf_layout lay_on_shelves(std::span<const piece> pieces, std::span<const idx> by_height, double scale,
-                                   idx tiles, double border, double gap)
+/// boxes: the high ones first; border, gap: to the border of a tile and between boxes
+inline shelf_layout lay_on_shelves(std::span<const vec2> boxes, double scale, idx tiles, double border, double gap)
 {
-    shelf_layout out{scale, std::vector<vec2>(pieces.size()), std::vector<idx>(pieces.size())};
+    shelf_layout out{scale, std::vector<vec2>(boxes.size()), std::vector<idx>(boxes.size())};
     const double end = 1 - border;
     double x = border, y = border, shelf = 0;
     idx tile = 0;
-    for (const idx i : by_height)
+    for (std::size_t c = 0; c < boxes.size(); ++c)
     {
-        const auto c = static_cast<std::size_t>(i);
-        const vec2 size = scale * pieces[c].box;
+        const vec2 size = scale * boxes[c];
         if (x + size.x > end && x > border)
         {
             x = border;
@@ -60,16 +57,20 @@ inline shelf_layout lay_on_shelves(std::span<const piece> pieces, std::span<cons
 /// Throws packing_error where the gaps alone fill the tiles.
 inline shelf_layout lay_on_shelves(std::span<const piece> pieces, idx tiles, double border, double gap)
 {
-    std::vector<idx> order(pieces.size());
-    std::iota(order.begin(), order.end(), idx{0});
-    const auto at = [&](idx c) -> const piece& { return pieces[static_cast<std::size_t>(c)]; };
-    std::stable_sort(order.begin(), order.end(), [&](idx a, idx b) { return at(a).box.y > at(b).box.y; });
+    std::vector<std::pair<double, idx>> order; // by height
+    for (std::size_t c = 0; c < pieces.size(); ++c) order.emplace_back(-pieces[c].box.y, static_cast<idx>(c));
+    std::sort(order.begin(), order.end());
+    std::vector<vec2> boxes;
     double most = 0;
-    for (const piece& p : pieces) most = std::max({most, p.box.x, p.box.y});
+    for (const auto& [height, c] : order)
+    {
+        boxes.push_back(pieces[static_cast<std::size_t>(c)].box);
+        most = std::max({most, boxes.back().x, boxes.back().y});
+    }
     shelf_layout best;
     double high = 1 / most, low = high;
     for (int step = 0; step < 60 && !(best.scale > 0); ++step, low /= 2)
-        best = lay_on_shelves(pieces, order, low, tiles, border, gap);
+        best = lay_on_shelves(boxes, low, tiles, border, gap);
     if (!(best.scale > 0))
         throw packing_error(packing_fault::no_room, {},
                             "the padding around " + std::to_string(pieces.size()) + " charts takes all of " +
@@ -79,11 +80,18 @@ inline shelf_layout lay_on_shelves(std::span<const piece> pieces, idx tiles, dou
     high = std::min(high, 2 * low);
     for (int step = 0; step < 10; ++step) // to a thousandth
     {
-        auto next = lay_on_shelves(pieces, order, (low + high) / 2, tiles, border, gap);
+        auto next = lay_on_shelves(boxes, (low + high) / 2, tiles, border, gap);
         (next.scale > 0 ? low : high) = (low + high) / 2;
         if (next.scale > 0) best = std::move(next);
     }
-    return best;
+    shelf_layout by_piece = best;
+    for (std::size_t k = 0; k < order.size(); ++k)
+    {
+        const auto c = static_cast<std::size_t>(order[k].second);
+        by_piece.corners[c] = best.corners[k];
+        by_piece.tiles[c] = best.tiles[k];
+    }
+    return by_piece;
 }
 
 } // namespace taut::detail

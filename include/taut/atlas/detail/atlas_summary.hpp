@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <taut/atlas/atlas_report.hpp>
+#include <taut/atlas/chart_mesh.hpp>
+#include <taut/core/parallel.hpp>
+#include <taut/energy/isometric.hpp>
+#include <taut/exact/predicates.hpp>
+#include <taut/mesh/facets.hpp>
+#include <taut/mesh/ideal.hpp>
+#include <taut/packing/pack.hpp>
+
+namespace taut::detail
+{
+
+/// Puts in a report what charts are like, each by itself and all of them at one common scale.
+/// uv: one a vertex of charts.surface, in the tiles; energy: one a chart; layout: without places where there is none
+inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv,
+                      std::span<const double> energy, const packing& layout)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    const auto& cells = charts.surface.cells();
+    const ideal_elements<triangle> ideal(charts.surface);
+    std::vector<double> values(cells.size()); // one a triangle
+    const auto for_each_cell = [&](const auto& value)
+    {
+        parallel_for(values.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t c = begin; c < end; ++c) values[c] = value(c);
+                     });
+    };
+    for_each_cell([&](std::size_t c)
+                  { return orient(uv[u(cells[c][0])], uv[u(cells[c][1])], uv[u(cells[c][2])]).det / 2; });
+    double in_space = 0, in_plane = 0;
+    for (const double area : values) in_plane += area;
+    for (idx k = 0; k < charts.charts(); ++k)
+    {
+        chart_summary chart{.triangles = charts.first_cell[u(k) + 1] - charts.first_cell[u(k)],
+                            .tile = layout.places.empty() ? 0 : layout.places[u(k)].tile,
+                            .energy = energy[u(k)]};
+        for (auto c = u(charts.first_cell[u(k)]); c < u(charts.first_cell[u(k) + 1]); ++c)
+            chart.area += ideal.measure[c];
+        in_space += chart.area;
+        report.worst = std::max(report.worst, chart.energy);
+        report.charts.push_back(chart);
+    }
+    const double scale = std::sqrt(in_space / in_plane);
+    for_each_cell(
+        [&](std::size_t c)
+        {
+            const mat2 S = scale * shape_matrix<2>(cells[c], uv, ideal.inverse[c]);
+            const double det = glm::determinant(S);
+            return ideal.measure[c] * (det > 0 ? taut::energy::isometric{}(element<double, 2>{S, det, ideal.measure[c]})
+                                               : std::numeric_limits<double>::infinity());
+        });
+    double sum = 0;
+    for (const double x : values) sum += x;
+    report.distortion = sum / in_space;
+    report.utilization = layout.utilization;
+}
+
+/// seam: one flag a side of a surface, whose facets are `f`
+inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
+{
+    double length = 0;
+    for (std::size_t s = 0; s < seam.size(); ++s)
+    {
+        if (f.twin[s] <= static_cast<idx>(s) || seam[s] == 0) continue;
+        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
+        length += glm::distance(m.points()[static_cast<std::size_t>(a)], m.points()[static_cast<std::size_t>(b)]);
+    }
+    return length;
+}
+
+} // namespace taut::detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <taut/atlas/chart_mesh.hpp>
+
+namespace taut::detail
+{
+
+/// The boundary loops of chart k as boundary_loops() has those of all charts. A vertex has one fan of triangles.
+inline std::vector<std::vector<idx>> border_loops(const chart_mesh& charts, idx k)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    const idx first = charts.first_vertex[u(k)];
+    const std::span cells(charts.surface.cells().data() + charts.first_cell[u(k)],
+                          charts.surface.cells().data() + charts.first_cell[u(k) + 1]);
+    static thread_local std::vector<idx> start, ends, next; // ends of the sides that start at each vertex
+    start.assign(u(charts.first_vertex[u(k) + 1] - first) + 2, 0);
+    ends.resize(3 * cells.size());
+    next.assign(start.size() - 2, -1); // along the border
+    for (const auto& t : cells)
+        for (const idx v : t) ++start[u(v - first) + 2];
+    for (std::size_t v = 2; v < start.size(); ++v) start[v] += start[v - 1];
+    for (const auto& t : cells)
+        for (std::size_t j = 0; j < 3; ++j) ends[u(start[u(t[j] - first) + 1]++)] = t[(j + 1) % 3] - first;
+    const auto ends_of = [&](idx v)
+    { return std::span(ends).subspan(u(start[u(v)]), u(start[u(v) + 1] - start[u(v)])); };
+    for (idx v = 0; v < static_cast<idx>(next.size()); ++v) std::sort(ends_of(v).begin(), ends_of(v).end());
+    for (idx v = 0; v < static_cast<idx>(next.size()); ++v)
+        for (const idx w : ends_of(v))
+        {
+            const auto back = ends_of(w);
+            if (!std::binary_search(back.begin(), back.end(), v)) next[u(v)] = w;
+        }
+    std::vector<std::vector<idx>> loops;
+    for (idx v = 0; v < static_cast<idx>(next.size()); ++v)
+    {
+        if (next[u(v)] < 0) continue;
+        auto& loop = loops.emplace_back();
+        for (idx w = v, after; (after = next[u(w)]) >= 0; w = after)
+        {
+            loop.push_back(first + w);
+            next[u(w)] = -1;
+        }
+    }
+    return loops;
+}
+
+} // namespace taut::detail
