@@ -32,6 +32,26 @@ mesh<tetrahedron> bar()
     return {std::move(points), m.cells()};
 }
 
+/// So many cubes, each of n^3 of them, on top of each other.
+mesh<tetrahedron> tower(int n, int cubes)
+{
+    const auto cube = test::cube(n);
+    const auto layer = static_cast<std::size_t>((n + 1) * (n + 1));
+    std::vector<vec3> points;
+    std::vector<mesh<tetrahedron>::cell> cells;
+    for (int k = 0; k < cubes; ++k)
+    {
+        for (auto t : cube.cells())
+        {
+            for (idx& v : t) v += k * n * static_cast<idx>(layer);
+            cells.push_back(t);
+        }
+        for (std::size_t v = k > 0 ? layer : 0; v < cube.points().size(); ++v)
+            points.push_back(cube.points()[v] + vec3(0, 0, k));
+    }
+    return {std::move(points), std::move(cells)};
+}
+
 std::vector<idx> where(const mesh<tetrahedron>& m, auto&& inside)
 {
     std::vector<idx> ids;
@@ -154,6 +174,23 @@ TEST_CASE("deform: handles that turn are brought to their places at once, and wh
     const auto sliding = deform(q, m, params);
     check_promises(m, params.constraints, sliding);
     CHECK(!stage(sliding, "draft"));
+}
+
+TEST_CASE("deform: slender volumes are drafted on coarser ones, so that few steps are left")
+{
+    constexpr int length = 90;
+    const auto m = tower(4, length);
+    queue q;
+    deform_params<tetrahedron> params;
+    const auto end = where(m, [](const vec3& p) { return p.z == length; });
+    const auto bend = turn(std::numbers::pi / 2, {1, 0, 0});
+    params.constraints = taut::constraints(m).fix(bottom(m)).move(
+        end,
+        [&](const vec3& p) { return bend(p - vec3(0, 0, length - 3)) + vec3(0, -0.5 * length, 0.7 * length - 3); });
+    const auto r = deform(q, m, params);
+    check_promises(m, params.constraints, r);
+    CHECK(r.report.converged);
+    CHECK(r.report.steps <= 8); // 59 from a draft of the mesh itself
 }
 
 TEST_CASE("deform: an energy that is 0 at rest takes steps from there, in any precision")

@@ -7,7 +7,9 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <taut/hierarchy/coarser_volume.hpp>
 #include <taut/hierarchy/make_volume_hierarchy.hpp>
+#include <taut/mesh/validate.hpp>
 
 namespace
 {
@@ -56,6 +58,19 @@ std::pair<vec3, double> interpolated(const hierarchy<tetrahedron>& h, std::size_
         sum += P.weights[i][k];
     }
     return {x, sum};
+}
+
+double volume_of(const mesh<tetrahedron>& m)
+{
+    double sum = 0;
+    for (idx c = 0; c < m.cell_count(); ++c)
+    {
+        const auto t = m.rest(c);
+        const double det = glm::dot(glm::cross(t[1] - t[0], t[2] - t[0]), t[3] - t[0]);
+        CHECK(det > 0);
+        sum += det / 6;
+    }
+    return sum;
 }
 
 bool same(const hierarchy<tetrahedron>& a, const hierarchy<tetrahedron>& b)
@@ -174,4 +189,49 @@ TEST_CASE("volume hierarchy: the caller may stop it, and wrong parameters are na
     CHECK_THROWS_WITH_AS(make_hierarchy(m, std::vector<char>(3)), doctest::Contains("held"), parameter_error);
     CHECK_THROWS_WITH_AS(make_hierarchy(m, {}, {.min_vertices = 1}), doctest::Contains("min_vertices"),
                          parameter_error);
+}
+
+TEST_CASE("coarser volume: a valid mesh of fewer vertices that has the same boundary, nearly")
+{
+    for (const auto& m : {test::cube(12), test::jittered_cube(12, 1), notched_cube(14)})
+    {
+        std::vector<char> kept;
+        for (const vec3& p : m.points()) kept.push_back(p.z == 0);
+        for (const auto& held : {std::vector<char>(), kept})
+        {
+            const auto coarse = make_coarser(m, held);
+            const auto &left = coarse.vertices, &into = coarse.into;
+            CHECK(check(coarse.volume).empty());
+            CHECK(volume_of(coarse.volume) == doctest::Approx(volume_of(m)).epsilon(0.05));
+            CHECK(4 * left.size() < m.points().size());
+            CHECK(std::is_sorted(left.begin(), left.end()));
+            bool same_places = true, near_by = true;
+            for (std::size_t k = 0; k < left.size(); ++k)
+            {
+                const auto v = static_cast<std::size_t>(left[k]);
+                same_places &= coarse.volume.points()[k] == m.points()[v] && into[v] == static_cast<idx>(k);
+            }
+            for (std::size_t v = 0; v < into.size(); ++v)
+                near_by &=
+                    glm::distance(m.points()[v], coarse.volume.points()[static_cast<std::size_t>(into[v])]) < 0.7;
+            CHECK(same_places);
+            CHECK(near_by);
+            if (!held.empty()) // one layer: each of its vertices has a neighbour that is not held
+                CHECK(std::count(kept.begin(), kept.end(), 1) ==
+                      std::count_if(left.begin(), left.end(),
+                                    [&](idx v) { return kept[static_cast<std::size_t>(v)] != 0; }));
+        }
+    }
+}
+
+TEST_CASE("coarser volume: size and place do not change it, and the caller may stop it")
+{
+    const auto m = test::jittered_cube(9, 5);
+    const auto here = make_coarser(m);
+    auto points = m.points();
+    for (vec3& p : points) p *= 0x1p-200;
+    CHECK(make_coarser(mesh<tetrahedron>(points, m.cells())).vertices == here.vertices);
+    CHECK(make_coarser(m, {}, 8, [] { return false; }).volume.cells() == m.cells());
+    CHECK_THROWS_WITH_AS(make_coarser(m, std::vector<char>(3)), doctest::Contains("kept"), parameter_error);
+    CHECK_THROWS_WITH_AS(make_coarser(m, {}, 1), doctest::Contains("factor"), parameter_error);
 }

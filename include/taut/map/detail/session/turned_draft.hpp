@@ -13,6 +13,7 @@
 #include <taut/exact/certify.hpp>
 #include <taut/map/deform_params.hpp>
 #include <taut/map/detail/gradient_fit.hpp>
+#include <taut/map/detail/session/coarse_draft.hpp>
 #include <taut/map/detail/shape_path.hpp>
 #include <taut/measure/rigid_motion.hpp>
 #include <taut/mesh/incidence.hpp>
@@ -68,9 +69,9 @@ inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, 
 struct mended_draft
 {
     std::vector<vec3> x;                       ///< certified; empty: none was found
-    int steps = 0;                             ///< of Newton's method on a part of the mesh
-    std::size_t vertices = 0;                  ///< of that part
-    std::vector<untangle_stage_report> stages; ///< of its untangling
+    int steps = 0;                             ///< of Newton's method on coarser volumes and on parts
+    std::size_t vertices = 0;                  ///< of the part of the mesh itself
+    std::vector<untangle_stage_report> stages; ///< of untanglings
 };
 
 /// Whether a gradient inverts, or shrinks to less than `least` in some direction.
@@ -106,54 +107,116 @@ inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson,
     return inside;
 }
 
-/// The shape at hand, which is injective (`draft` of the problem), with held vertices at their places (`initial`), to
-/// which bodies of them turn: a turned_draft. What has shrunk there, with its neighbours, is untangled and minimised by
-/// itself, with the shape at hand as that at rest: else such elements, though few, would cut the steps of all.
-inline mended_draft draft_of(const queue& q, const untangle_problem<tetrahedron>& problem, const held_paths<3>& paths,
-                             untangle_params how, precision arithmetic)
+/// A draft of one problem, and what all levels of that have in common.
+class draft_maker
 {
-    const budget clock(how.time_limit);
-    const mesh<tetrahedron> here(problem.draft, problem.rest.cells());
-    const gradient_fit<tetrahedron> poisson(here, problem.draft);
-    mended_draft found{.x = turned_draft(poisson, here, paths, problem.held, problem.draft, problem.initial)};
-    const auto certified = [](const mesh<tetrahedron>& m, const std::vector<vec3>& x)
-    { return bool(certify<3>(m.cells(), std::span<const vec3>(x))); };
-    const auto none = [&]
+public:
+    using problem = untangle_problem<tetrahedron>;
+
+    draft_maker(const queue& q, const untangle_params& how, precision arithmetic)
+        : queue_(q), how_(how), clock_(how.time_limit), arithmetic_(arithmetic)
+    {
+        how_.rounds = 1;
+        how_.stages = {"lead"}; // others leave elements next to flat, which cut the steps that follow
+    }
+
+    /// The shape at hand, which is injective (`draft` of the problem), with held vertices at their places (`initial`),
+    /// to which bodies of them turn: that of a coarser volume, where there is one, or else a turned_draft. What has
+    /// shrunk there, with its neighbours, is untangled and minimised by itself, with the shape at hand as that at rest:
+    /// else such elements, though few, would cut the steps of all.
+    mended_draft draft(const problem& p) const
+    {
+        const mesh<tetrahedron> here(p.draft, p.rest.cells());
+        const gradient_fit<tetrahedron> poisson(here, p.draft);
+        mended_draft found = from_coarser(p, here, poisson);
+        if (!found.x.empty() && mend(p, here, poisson, found)) return found;
+        if (!clock_.in_time()) return without_shape(found);
+        found.x = turned_draft(poisson, here, paths(p), p.held, p.draft, p.initial);
+        return mend(p, here, poisson, found) ? found : without_shape(found);
+    }
+
+private:
+    static held_paths<3> paths(const problem& p) { return {p.rest.cells(), p.held, p.draft, p.initial}; }
+
+    static mended_draft without_shape(mended_draft found)
     {
         found.x.clear();
         return found;
-    };
-    if (const auto inside = around_shrunk(poisson, here, found.x); !inside.empty())
-    {
-        const auto part = part_of<tetrahedron>({here, found.x, problem.held, {}, {}, problem.owners}, inside);
-        if (!part || !clock.in_time()) return none();
-        found.vertices = part->vertices.size();
-        auto start = part->problem.initial;
-        if (!certified(part->problem.rest, start))
-        {
-            how.rounds = 1;
-            how.stages = {"lead"}; // others leave elements next to flat, which cut the steps that follow
-            how.time_limit = clock.left();
-            auto untangled = untangle(q, part->problem, how);
-            found.stages = std::move(untangled.stages);
-            if (!untangled || !clock.in_time()) return none();
-            start = std::move(untangled.map);
-        }
-        live_map<tetrahedron> live(q, part->problem.rest, deform_params<tetrahedron>{}, arithmetic, start);
-        live.constrain(part->problem.held, {}, {});
-        const solve::stopping_params enough{
-            .gradient_tolerance = 1e-3, .max_iterations = 30, .time_limit = clock.left()};
-        found.steps = live.minimize({.stopping = enough}, how.observer).iterations;
-        const auto mended = live.coordinates();
-        for (std::size_t k = 0; k < mended.size(); ++k)
-            for (int i = 0; i < 3; ++i)
-                if (!part->problem.held.test(k, i))
-                    found.x[static_cast<std::size_t>(part->vertices[k])][i] = mended[k][i];
     }
-    constexpr double flat = 0.03; // such elements would cut the steps of all for long
-    for (std::size_t c = 0; c < here.cells().size(); ++c)
-        if (shrinks(poisson.gradient(c, found.x), flat)) return none();
-    return certified(here, found.x) ? found : none();
-}
+
+    static bool certified(const mesh<tetrahedron>& m, const std::vector<vec3>& x)
+    {
+        return bool(certify<3>(m.cells(), std::span<const vec3>(x)));
+    }
+
+    /// The minimum on a coarser volume, carried up: there limbs decide which way they buckle, which takes many steps,
+    /// whatever the size.
+    mended_draft from_coarser(const problem& p, const mesh<tetrahedron>& here,
+                              const gradient_fit<tetrahedron>& poisson) const
+    {
+        const auto smaller = coarser(p, clock_);
+        if (!smaller) return {};
+        const problem& small = smaller->problem;
+        mended_draft found = draft(small);
+        if (found.x.empty() && clock_.in_time()) found.x = untangled(small, found);
+        if (found.x.empty() || !clock_.in_time()) return without_shape(found);
+        constexpr double nearly = 1e-5; // before that limbs may still buckle
+        minimise(small, nearly, 60, found);
+        found.vertices = 0;
+        found.x = carried_up(poisson, here, smaller->thinned, found.x, p.held, p.initial);
+        return found;
+    }
+
+    /// Untangles and minimises what has shrunk; whether the shape is a good one then.
+    bool mend(const problem& p, const mesh<tetrahedron>& here, const gradient_fit<tetrahedron>& poisson,
+              mended_draft& found) const
+    {
+        if (const auto inside = around_shrunk(poisson, here, found.x); !inside.empty())
+        {
+            const auto part = part_of<tetrahedron>({here, found.x, p.held, {}, {}, p.owners}, inside);
+            if (!part) return false;
+            found.vertices = part->vertices.size();
+            mended_draft mended{.x = part->problem.initial};
+            if (!certified(part->problem.rest, mended.x)) mended.x = untangled(part->problem, found);
+            if (mended.x.empty() || !clock_.in_time()) return false;
+            minimise(part->problem, 1e-3, 30, mended);
+            found.steps += mended.steps;
+            for (std::size_t k = 0; k < mended.x.size(); ++k)
+                for (int i = 0; i < 3; ++i)
+                    if (!part->problem.held.test(k, i))
+                        found.x[static_cast<std::size_t>(part->vertices[k])][i] = mended.x[k][i];
+        }
+        constexpr double flat = 0.03; // such elements would cut the steps of all for long
+        for (std::size_t c = 0; c < here.cells().size(); ++c)
+            if (shrinks(poisson.gradient(c, found.x), flat)) return false;
+        return certified(here, found.x);
+    }
+
+    /// An injective map, or none.
+    std::vector<vec3> untangled(const problem& p, mended_draft& booked) const
+    {
+        auto how = how_;
+        how.time_limit = clock_.left();
+        auto result = untangle(queue_, p, how);
+        booked.stages.insert(booked.stages.end(), result.stages.begin(), result.stages.end());
+        return result ? std::move(result.map) : std::vector<vec3>();
+    }
+
+    /// From the shape found on, to a relative gradient, with so many steps at most.
+    void minimise(const problem& p, double gradient, int steps, mended_draft& found) const
+    {
+        live_map<tetrahedron> live(queue_, p.rest, deform_params<tetrahedron>{}, arithmetic_, found.x);
+        live.constrain(p.held, {}, {});
+        const solve::stopping_params enough{
+            .gradient_tolerance = gradient, .max_iterations = steps, .time_limit = clock_.left()};
+        found.steps += live.minimize({.stopping = enough}, how_.observer).iterations;
+        found.x = live.coordinates();
+    }
+
+    queue queue_;
+    untangle_params how_;
+    budget clock_;
+    precision arithmetic_;
+};
 
 } // namespace taut::detail
