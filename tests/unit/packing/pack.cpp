@@ -307,7 +307,8 @@ TEST_CASE("pack: charts keep away from walls, and fill what these leave")
     for (const int tiles : {1, 2})
         for (const int count : {1, 40})
         {
-            taut::pack_params params{.tiles = tiles};
+            taut::pack_params params;
+            params.tiles = tiles;
             chart_set walls;
             add_wall(params, walls, 0, {0, 0}, {1, 0.4});
             add_wall(params, walls, tiles - 1, {0.3, 0.5}, {0.4, 1});
@@ -334,7 +335,8 @@ TEST_CASE("pack: charts keep away from walls, and fill what these leave")
             if (count == 40) CHECK(p.utilization * tiles > 0.25 + (tiles - 1) * 0.3);
         }
     // A run that has no time has a layout, too; what is full has none.
-    taut::pack_params params{.time_limit = taut::budget::seconds(1e-9)};
+    taut::pack_params params;
+    params.time_limit = taut::budget::seconds(1e-9);
     chart_set walls;
     add_wall(params, walls, 0, {0.25, 0.25}, {0.5, 0.5});
     const auto p = packed(squares(5), params);

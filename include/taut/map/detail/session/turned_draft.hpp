@@ -176,7 +176,8 @@ private:
             const auto part = part_of<tetrahedron>({here, found.x, p.held, {}, {}, p.owners}, inside);
             if (!part) return false;
             found.vertices = part->vertices.size();
-            mended_draft mended{.x = part->problem.initial};
+            mended_draft mended;
+            mended.x = part->problem.initial;
             if (!certified(part->problem.rest, mended.x)) mended.x = untangled(part->problem, found);
             if (mended.x.empty() || !clock_.in_time()) return false;
             minimise(part->problem, 1e-3, 30, mended);
