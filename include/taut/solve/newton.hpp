@@ -127,10 +127,11 @@ private:
     {
         f_.linearize(x_, exact);
         if (!monitor_.proceed()) return monitor_.reason();
+        const bool hard = model_.looks > 1; // the last system; easy ones gain nothing by the last direction
         model_ = pcg_.solve(
             g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
             [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_,
-            [this] { return monitor_.proceed(); }, exact ? system_steps_ : 0, exact ? &last_d_ : nullptr);
+            [this] { return monitor_.proceed(); }, exact ? system_steps_ : 0, exact && hard ? &last_d_ : nullptr);
         report_.products += model_.steps;
         exact_ = exact;
         if (!exact_ && along_stand_in_) conjugate();
