@@ -240,38 +240,51 @@ private:
     /// d += p c, with p = z - p_last B; d = p c the first time.
     void add(const std::vector<double>& c, const small& B, vector& d, bool first)
     {
-        std::vector<const vector*> terms;
-        std::vector<double> factors;
-        for (std::size_t k = 0; k < c.size(); ++k)
-        {
-            terms.push_back(&z_[k]);
-            factors.push_back(c[k]);
-        }
-        if (first) return space_.linear_combination(factors, terms, d);
+        sum_of sum;
+        if (!first) sum.add(1, d);
+        for (std::size_t k = 0; k < c.size(); ++k) sum.add(c[k], z_[k]);
         for (std::size_t i = 0; i < B.size(); ++i)
         {
-            double sum = 0;
-            for (std::size_t k = 0; k < c.size(); ++k) sum -= B[i][k] * c[k];
-            terms.push_back(&p_[i]);
-            factors.push_back(sum);
+            double factor = 0;
+            for (std::size_t k = 0; k < c.size(); ++k) factor -= B[i][k] * c[k];
+            sum.add(factor, p_[i]);
         }
-        for (std::size_t i = 0; i < terms.size(); ++i) space_.axpby(factors[i], *terms[i], 1, d);
+        sum.make(space_, d);
     }
 
     /// Makes the block the last one, and the residual that of the new d.
     void advance(const std::vector<double>& c, const small& B, const small& K)
     {
-        for (std::size_t i = 0; i < B.size(); ++i)
-            for (std::size_t k = 0; k < z_.size(); ++k)
+        for (std::size_t k = 0; k < z_.size() && !B.empty(); ++k)
+            for (auto [next, last] : {std::pair(&z_[k], &p_), std::pair(&w_[k], &q_)})
             {
-                space_.axpby(-B[i][k], p_[i], 1, z_[k]);
-                space_.axpby(-B[i][k], q_[i], 1, w_[k]);
+                sum_of sum;
+                sum.add(1, *next);
+                for (std::size_t i = 0; i < B.size(); ++i) sum.add(-B[i][k], (*last)[i]);
+                sum.make(space_, *next);
             }
         std::swap(p_, z_);
         std::swap(q_, w_);
         K_ = K;
-        for (std::size_t k = 0; k < c.size(); ++k) space_.axpby(c[k], q_[k], 1, r_);
+        sum_of sum;
+        sum.add(1, r_);
+        for (std::size_t k = 0; k < c.size(); ++k) sum.add(c[k], q_[k]);
+        sum.make(space_, r_);
     }
+
+    /// A linear combination, term by term.
+    struct sum_of
+    {
+        void add(double factor, const vector& term)
+        {
+            factors.push_back(factor);
+            terms.push_back(&term);
+        }
+        void make(Space& space, vector& out) const { space.linear_combination(factors, terms, out); }
+
+        std::vector<double> factors;
+        std::vector<const vector*> terms;
+    };
 
     /// The c with K c = -b for the first k unknowns; empty if that part of K is not positive definite.
     static std::vector<double> minimiser(const small& K, const std::vector<double>& b, std::size_t k)

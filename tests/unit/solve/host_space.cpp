@@ -22,6 +22,9 @@ TEST_CASE_TEMPLATE("host space: its operations are those of linear algebra", T, 
     CHECK(z == x);
     space.linear_combination(std::array{2.0, -1.0}, std::array{&x, &y}, z);
     CHECK(z == std::vector<T>{-2, 9, 0});
+    z = x;
+    space.linear_combination(std::array{2.0, -1.0}, std::array<const std::vector<T>*, 2>{&z, &y}, z);
+    CHECK(z == std::vector<T>{-2, 9, 0});
 
     std::array<double, 4> products{};
     space.multi_dot(std::array{&x, &y}, std::array{&y, &x}, products);

@@ -56,10 +56,14 @@ R"cl(#line 1 "kernels/block_sparse.cl"
 #define LOAD(p, i) (*(__global const REALV*)((p) + (i)))
 #define STORE(v, p, i) *(__global REALV*)((p) + (i)) = (v)
 #define LOAD_INT(p, i) (*(__global const INTV*)((p) + (i)))
+/// Places one after the other: from loads that are not volatile compilers make gathers of the hardware, and those took
+/// twice as long (AVX-512, Zen 4).
+#define PICK(p, at) (*(volatile __global const REAL*)((p) + (at)))
 #define GATHER(p, at)                                                                                                  \
-    (REALV)((p)[(at).s0], (p)[(at).s1], (p)[(at).s2], (p)[(at).s3], (p)[(at).s4], (p)[(at).s5], (p)[(at).s6],          \
-            (p)[(at).s7], (p)[(at).s8], (p)[(at).s9], (p)[(at).sa], (p)[(at).sb], (p)[(at).sc], (p)[(at).sd],          \
-            (p)[(at).se], (p)[(at).sf])
+    (REALV)(PICK(p, (at).s0), PICK(p, (at).s1), PICK(p, (at).s2), PICK(p, (at).s3), PICK(p, (at).s4),                  \
+            PICK(p, (at).s5), PICK(p, (at).s6), PICK(p, (at).s7), PICK(p, (at).s8), PICK(p, (at).s9),                  \
+            PICK(p, (at).sa), PICK(p, (at).sb), PICK(p, (at).sc), PICK(p, (at).sd), PICK(p, (at).se),                  \
+            PICK(p, (at).sf))
 #define WHERE_INT(test, yes, no) select((INTV)(no), (INTV)(yes), test)
 #define WHERE(test, yes, no) select((REALV)(no), (REALV)(yes), test)
 #endif
@@ -73,20 +77,44 @@ R"cl(#line 1 "kernels/block_sparse.cl"
 /// Where entry (r, c) of a packed symmetric block is.
 #define PACK(r, c) ((r) <= (c) ? (r) * D - (r) * ((r) - 1) / 2 + (c) - (r) : (c) * D - (c) * ((c) - 1) / 2 + (r) - (c))
 
+/// out = the rows of x that `at` names, lane by lane.
+#if V == 1
+inline void gather(const int stride, __global const int* at, __global const REAL* x, REALV* out)
+{
+    UNROLLED (int c = 0; c < D; ++c) out[c] = x[c * stride + *at];
+}
+#else
+#define LANE_OF(s, k)                                                                                                  \
+    {                                                                                                                  \
+        const uint j = ((volatile __global const uint*)at)[k];                                                         \
+        UNROLLED (int c = 0; c < D; ++c) out[c].s = PICK(x + c * stride, j);                                           \
+    }
+inline __attribute__((always_inline)) void gather(const int stride, __global const int* at, __global const REAL* x,
+                                                  REALV* out)
+{
+    // clang-format off
+    LANE_OF(s0, 0) LANE_OF(s1, 1) LANE_OF(s2, 2) LANE_OF(s3, 3) LANE_OF(s4, 4) LANE_OF(s5, 5) LANE_OF(s6, 6)
+    LANE_OF(s7, 7) LANE_OF(s8, 8) LANE_OF(s9, 9) LANE_OF(sa, 10) LANE_OF(sb, 11) LANE_OF(sc, 12) LANE_OF(sd, 13)
+    LANE_OF(se, 14) LANE_OF(sf, 15)
+    // clang-format on
+}
+#endif
+
 /// sum = rows of A x
 inline void multiply(const int slice, const int lane, const int stride, __global const int* offsets,
                      __global const int* columns, __global const REAL* A, __global const REAL* x, REALV* sum)
 {
-    UNROLLED (int c = 0; c < D; ++c) sum[c] = 0;
+    REALV s[D]; // in registers, which memory behind a pointer is not
+    UNROLLED (int c = 0; c < D; ++c) s[c] = 0;
     const int end = offsets[slice + 1];
     for (int at = offsets[slice]; at < end; at += C)
     {
-        const INTV j = LOAD_INT(columns, at + lane);
         REALV xj[D];
-        UNROLLED (int c = 0; c < D; ++c) xj[c] = GATHER(x + c * stride, j);
+        gather(stride, columns + at + lane, x, xj);
         UNROLLED (int r = 0; r < D; ++r)
-            UNROLLED (int c = 0; c < D; ++c) sum[r] += LOAD(A, at * D * D + (r * D + c) * C + lane) * xj[c];
+            UNROLLED (int c = 0; c < D; ++c) s[r] += LOAD(A, at * D * D + (r * D + c) * C + lane) * xj[c];
     }
+    UNROLLED (int c = 0; c < D; ++c) sum[c] = s[c];
 }
 
 /// y = inverse r for packed blocks [entry * stride + row]
@@ -221,7 +249,8 @@ __kernel void assemble(const int cells, __global const int* offsets, __global co
         UNROLLED (int e = 0; e < PACKED; ++e) sum[e] += entries(blocks, from + e * cells, none);
     }
     UNROLLED (int r = 0; r < D; ++r)
-        UNROLLED (int c = 0; c < D; ++c)
+)cl"
+R"cl(        UNROLLED (int c = 0; c < D; ++c)
             STORE(sum[PACK(r, c)], A, offsets[slice] * D * D + (r * D + c) * C + lane);
 
     for (int place = offsets[slice] + C; place < offsets[slice + 1]; place += C)
@@ -248,8 +277,7 @@ __kernel void assemble(const int cells, __global const int* offsets, __global co
 inline void product_row(const int slice, const int lane, const int rows, const int fine_stride,
                         __global const int* transpose_offsets, __global const int* transpose,
                         __global const int* prolongation, __global const REAL* weights,
-)cl"
-R"cl(                        __global const int* fine_offsets, __global const int* fine_columns, __global const REAL* fine,
+                        __global const int* fine_offsets, __global const int* fine_columns, __global const REAL* fine,
                         __global const int* offsets, __global const int* columns, __global REAL* coarse)
 {
     const int start = offsets[slice], stop = offsets[slice + 1];
@@ -292,30 +320,6 @@ R"cl(                        __global const int* fine_offsets, __global const in
     }
 }
 
-#if V > 1
-/// Blocks of 16 rows, entry by entry at from + e * C, side by side.
-inline void read_blocks(__global const REAL* from, REALV* blocks)
-{
-#if D == 2
-#define LOW(x, y)                                                                                                      \
-    (REALV)((x).s0, (y).s0, (x).s1, (y).s1, (x).s2, (y).s2, (x).s3, (y).s3, (x).s4, (y).s4, (x).s5, (y).s5, (x).s6,    \
-            (y).s6, (x).s7, (y).s7)
-#define HIGH(x, y)                                                                                                     \
-    (REALV)((x).s8, (y).s8, (x).s9, (y).s9, (x).sa, (y).sa, (x).sb, (y).sb, (x).sc, (y).sc, (x).sd, (y).sd, (x).se,    \
-            (y).se, (x).sf, (y).sf)
-    const REALV a = LOAD(from, 0), b = LOAD(from, C), c = LOAD(from, 2 * C), d = LOAD(from, 3 * C);
-    const REALV ac = LOW(a, c), bd = LOW(b, d), ac2 = HIGH(a, c), bd2 = HIGH(b, d);
-    blocks[0] = LOW(ac, bd);
-    blocks[1] = HIGH(ac, bd);
-    blocks[2] = LOW(ac2, bd2);
-    blocks[3] = HIGH(ac2, bd2);
-#else
-    for (int e = 0; e < D * D; ++e)
-        for (int lane = 0; lane < C; ++lane) ((REAL*)blocks)[lane * D * D + e] = from[e * C + lane];
-#endif
-}
-#endif
-
 /// Values of the coarse matrix P' A P. On GPUs an item does a row. On CPUs it does a group of `size` rows, and sums row i
 /// of A P once for all of its rows that fine row i goes to. Nonzeros of a row are told apart by the colours of their
 /// columns, `count` in all; where those of a row do not differ, its own colour has the flag CLASH, and it is summed term
@@ -350,12 +354,11 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
         }
         for (int at = fine_offsets[slice]; at < end; at += C)
         {
-            REALV blocks[D * D];
-            read_blocks(fine + at * D * D, blocks);
             for (int n = 0; n < lane_count; ++n)
             {
                 const int lane = lanes[n], j = fine_columns[at + lane], code = codes[j];
-                const REAL* block = (const REAL*)blocks + lane * D * D;
+                REAL block[D * D];
+                UNROLLED (int e = 0; e < D * D; ++e) block[e] = PICK(fine, at * D * D + e * C + lane);
                 REAL* product = (REAL*)(products + lane * parts);
                 UNROLLED (int l = 0; l < K; ++l)
                 {
@@ -439,9 +442,10 @@ inline void prolong_rows(const int i, const int stride, const int coarse_stride,
     UNROLLED (int c = 0; c < D; ++c) sum[c] = LOAD(x, c * stride + i);
     UNROLLED (int k = 0; k < K; ++k)
     {
-        const INTV j = LOAD_INT(columns, k * stride + i);
+        REALV xj[D];
+        gather(coarse_stride, columns + k * stride + i, coarse, xj);
         const REALV w = LOAD(weights, k * stride + i);
-        UNROLLED (int c = 0; c < D; ++c) sum[c] += w * GATHER(coarse + c * coarse_stride, j);
+        UNROLLED (int c = 0; c < D; ++c) sum[c] += w * xj[c];
     }
     UNROLLED (int c = 0; c < D; ++c) STORE(sum[c], x, c * stride + i);
 }
@@ -485,15 +489,15 @@ __kernel void dense(const int size, const int pitch, __global const int* at, __g
 /// answer. Elimination turns rows into those of L^-1 place by place: A = L d L', X = sum of (row / sqrt d)' (row / sqrt
 /// d), which is semi-definite as computed. A pivot that is not well positive takes its unknown out.
 ///
-/// Where the sum of all entries between equal components is nothing but rounding, the matrix does not see a translation.
+)cl"
+R"cl(/// Where the sum of all entries between equal components is nothing but rounding, the matrix does not see a translation.
 /// It is made stiff against that, as what the shift would answer there is noise, and large.
 #if TEAM > 1
 #define SYNC barrier(CLK_GLOBAL_MEM_FENCE)
 #else
 #define SYNC
 #endif
-)cl"
-R"cl(__kernel void invert_dense(const int rows, const int size, const int pitch, const REAL shift,
+__kernel void invert_dense(const int rows, const int size, const int pitch, const REAL shift,
                            __global const int* offsets, __global const int* columns, __global const REAL* A,
                            __global const int* numbers, __global REAL* work, __global REAL* X)
 {
