@@ -61,8 +61,12 @@
 #define SLICE ((int)get_global_id(0) / (C / V))
 #define LANE ((int)get_global_id(0) % (C / V))
 #define PACKED (D * (D + 1) / 2)
+#if K > 3
+#define COLOURS 128
+#else
 #define COLOURS 64
-#define CLASH COLOURS
+#endif
+#define CLASH 256
 
 /// Where entry (r, c) of a packed symmetric block is.
 #define PACK(r, c) ((r) <= (c) ? (r) * D - (r) * ((r) - 1) / 2 + (c) - (r) : (c) * D - (c) * ((c) - 1) / 2 + (r) - (c))
@@ -390,7 +394,7 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
         }
         for (int at = start; at < offsets[slice + 1]; at += C)
         {
-            const int J = columns[at + lane], c = colours[J] % COLOURS;
+            const int J = columns[at + lane], c = colours[J] % CLASH;
             const bool none = J == I && at > start;
             UNROLLED (int e = 0; e < D * D; ++e)
                 coarse[at * D * D + e * C + lane] = none ? 0 : ((const REAL*)(sums + r * parts))[c * D * D + e];

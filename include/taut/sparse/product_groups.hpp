@@ -2,9 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
+#include <bitset>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -17,14 +16,16 @@ namespace taut::detail
 /// contribute. Nonzeros of a coarse row are told apart by the colours of their columns.
 struct product_groups
 {
-    static constexpr idx most_colours = 64, clash = 64;
+    static constexpr idx clash = 256;
+    /// Colours of the columns of P' A P, at most, for K weights a row: stars have many more vertices in space.
+    static constexpr idx most_colours(std::size_t K) { return K > 3 ? 128 : 64; }
 
     /// coarse: the pattern of the product, t: the transpose of P.
     product_groups(const transfer_weights& P, const transposed_weights& t, const block_pattern& coarse,
                    std::size_t rows_a_group)
         : size(rows_a_group)
     {
-        colour(coarse);
+        colour(coarse, most_colours(P.K));
         code(P);
         visit(P, t, static_cast<std::size_t>(coarse.slice));
     }
@@ -37,26 +38,28 @@ struct product_groups
 
 private:
     /// Greedily, a colouring of the squared graph.
-    void colour(const block_pattern& p)
+    void colour(const block_pattern& p, idx most)
     {
+        using set = std::bitset<most_colours(transfer_weights::most)>;
         colours.assign(p.rows(), 0);
-        std::vector<std::uint64_t> used(p.rows(), 0); // colours seen from each row
+        std::vector<set> used(p.rows()); // colours seen from each row
         const auto C = static_cast<std::size_t>(p.slice);
         for (std::size_t J = 0; J < p.rows(); ++J)
         {
             const std::size_t first = p.place(J, 0), end = first + p.width(J) * C;
-            std::uint64_t taken = 0;
+            set taken;
             for (std::size_t at = first; at < end; at += C) taken |= used[static_cast<std::size_t>(p.columns[at])];
-            const idx free = std::countr_one(taken);
+            idx free = 0;
+            while (free < most && taken[static_cast<std::size_t>(free)]) ++free;
             for (std::size_t at = first; at < end; at += C)
             {
                 const auto I = static_cast<std::size_t>(p.columns[at]);
-                if (free == most_colours)
+                if (free == most)
                     colours[I] |= clash;
                 else
-                    used[I] |= std::uint64_t{1} << free;
+                    used[I].set(static_cast<std::size_t>(free));
             }
-            if (free == most_colours) continue;
+            if (free == most) continue;
             colours[J] |= free;
             count = std::max(count, free + 1);
         }
@@ -70,7 +73,7 @@ private:
         {
             for (std::size_t i = begin; i < end; ++i)
                 for (std::size_t k = 0; k < P.K; ++k)
-                    if (P.weight(i, k) != 0) codes[i] |= colours[P.column(i, k)] % most_colours << 8 * k;
+                    if (P.weight(i, k) != 0) codes[i] |= colours[P.column(i, k)] % clash << 8 * k;
         };
         parallel_for(codes.size(), some);
     }

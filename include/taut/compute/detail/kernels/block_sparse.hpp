@@ -71,8 +71,12 @@ R"cl(#line 1 "kernels/block_sparse.cl"
 #define SLICE ((int)get_global_id(0) / (C / V))
 #define LANE ((int)get_global_id(0) % (C / V))
 #define PACKED (D * (D + 1) / 2)
+#if K > 3
+#define COLOURS 128
+#else
 #define COLOURS 64
-#define CLASH COLOURS
+#endif
+#define CLASH 256
 
 /// Where entry (r, c) of a packed symmetric block is.
 #define PACK(r, c) ((r) <= (c) ? (r) * D - (r) * ((r) - 1) / 2 + (c) - (r) : (c) * D - (c) * ((c) - 1) / 2 + (r) - (c))
@@ -248,9 +252,9 @@ __kernel void assemble(const int cells, __global const int* offsets, __global co
         const INTV s = LOAD_INT(diagonal_slots, at + lane), none = s == NONE, from = WHERE_INT(none, (INTV)0, s);
         UNROLLED (int e = 0; e < PACKED; ++e) sum[e] += entries(blocks, from + e * cells, none);
     }
-    UNROLLED (int r = 0; r < D; ++r)
 )cl"
-R"cl(        UNROLLED (int c = 0; c < D; ++c)
+R"cl(    UNROLLED (int r = 0; r < D; ++r)
+        UNROLLED (int c = 0; c < D; ++c)
             STORE(sum[PACK(r, c)], A, offsets[slice] * D * D + (r * D + c) * C + lane);
 
     for (int place = offsets[slice] + C; place < offsets[slice + 1]; place += C)
@@ -401,7 +405,7 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
         }
         for (int at = start; at < offsets[slice + 1]; at += C)
         {
-            const int J = columns[at + lane], c = colours[J] % COLOURS;
+            const int J = columns[at + lane], c = colours[J] % CLASH;
             const bool none = J == I && at > start;
             UNROLLED (int e = 0; e < D * D; ++e)
                 coarse[at * D * D + e * C + lane] = none ? 0 : ((const REAL*)(sums + r * parts))[c * D * D + e];
@@ -487,10 +491,10 @@ __kernel void dense(const int size, const int pitch, __global const int* at, __g
 ///
 /// The matrix is scaled to a unit diagonal and shifted, so that directions which it does not see get a large, finite
 /// answer. Elimination turns rows into those of L^-1 place by place: A = L d L', X = sum of (row / sqrt d)' (row / sqrt
-/// d), which is semi-definite as computed. A pivot that is not well positive takes its unknown out.
-///
 )cl"
-R"cl(/// Where the sum of all entries between equal components is nothing but rounding, the matrix does not see a translation.
+R"cl(/// d), which is semi-definite as computed. A pivot that is not well positive takes its unknown out.
+///
+/// Where the sum of all entries between equal components is nothing but rounding, the matrix does not see a translation.
 /// It is made stiff against that, as what the shift would answer there is noise, and large.
 #if TEAM > 1
 #define SYNC barrier(CLK_GLOBAL_MEM_FENCE)
