@@ -34,8 +34,12 @@ struct chart_mesh
 inline std::vector<char> seams_between(const facet_table& f, std::span<const idx> chart)
 {
     std::vector<char> seam(f.twin.size(), 0);
-    for (std::size_t s = 0; s < seam.size(); ++s)
-        if (f.twin[s] >= 0) seam[s] = chart[s / 3] != chart[static_cast<std::size_t>(f.twin[s]) / 3];
+    parallel_for(seam.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t s = begin; s < end; ++s)
+                         if (f.twin[s] >= 0) seam[s] = chart[s / 3] != chart[static_cast<std::size_t>(f.twin[s]) / 3];
+                 });
     return seam;
 }
 

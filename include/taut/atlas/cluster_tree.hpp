@@ -61,8 +61,12 @@ struct cluster_tree
     std::vector<char> seams(const facet_table& f, std::span<const idx> label) const
     {
         std::vector<char> seam = seams_between(f, label);
-        for (std::size_t s = 0; s < seam.size(); ++s)
-            if (f.twin[s] >= 0 && sewn[s] > label[s / 3]) seam[s] = 1;
+        parallel_for(seam.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t s = begin; s < end; ++s)
+                             if (f.twin[s] >= 0 && sewn[s] > label[s / 3]) seam[s] = 1;
+                     });
         return seam;
     }
 };

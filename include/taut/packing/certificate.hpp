@@ -73,23 +73,6 @@ inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<c
     const auto at = [uv](idx v) { return uv[static_cast<std::size_t>(v)]; };
     const auto is_pinned = [pinned](idx c) { return !pinned.empty() && pinned[static_cast<std::size_t>(c)] != 0; };
     packing_certificate sealed;
-    for (std::size_t c = 0; c + 1 < outlines.first.size(); ++c)
-    {
-        if (is_pinned(static_cast<idx>(c))) continue;
-        vec2 low(std::numeric_limits<double>::infinity()), high = -low;
-        for (idx e = outlines.first[c]; e < outlines.first[c + 1]; ++e)
-            for (const idx v : outlines.edges[static_cast<std::size_t>(e)])
-            {
-                low = glm::min(low, at(v));
-                high = glm::max(high, at(v));
-            }
-        const vec2 tile = glm::floor(low / 2.0 + high / 2.0);
-        const vec2 inside = glm::min(low - tile, tile + 1.0 - high);
-        if (std::min(inside.x, inside.y) >= sealed.border) continue;
-        sealed.border = std::min(inside.x, inside.y);
-        sealed.outermost = static_cast<idx>(c);
-    }
-
     detail::overlap_search search(uv, cells, outlines, 100'000);
     const auto chart = search.chart_of_edge();
     const detail::edge_tree tree(outlines.edges, uv, outlines.first);
@@ -107,15 +90,36 @@ inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<c
                                       return d > 0;
                                   });
     };
+    const auto find_border = [&]
+    {
+        for (std::size_t c = 0; c + 1 < outlines.first.size(); ++c)
+        {
+            if (is_pinned(static_cast<idx>(c))) continue;
+            vec2 low(std::numeric_limits<double>::infinity()), high = -low;
+            for (idx e = outlines.first[c]; e < outlines.first[c + 1]; ++e)
+                for (const idx v : outlines.edges[static_cast<std::size_t>(e)])
+                {
+                    low = glm::min(low, at(v));
+                    high = glm::max(high, at(v));
+                }
+            const vec2 tile = glm::floor(low / 2.0 + high / 2.0);
+            const vec2 inside = glm::min(low - tile, tile + 1.0 - high);
+            if (std::min(inside.x, inside.y) >= sealed.border) continue;
+            sealed.border = std::min(inside.x, inside.y);
+            sealed.outermost = static_cast<idx>(c);
+        }
+    };
     parallel_for(
-        2,
+        3,
         [&](std::size_t begin, std::size_t end)
         {
             for (std::size_t task = begin; task < end; ++task)
                 if (task == 0)
+                    find_gap();
+                else if (task == 1)
                     search.nested(tree);
                 else
-                    find_gap();
+                    find_border();
         },
         0, 1);
     // Borders that meet have no distance.

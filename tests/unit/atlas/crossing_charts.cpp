@@ -66,6 +66,18 @@ TEST_CASE("crossing charts: a strip that runs over itself, and spirals that do n
     CHECK_FALSE(crosses(m, arc_of(40, 1, 3, 0)));
 }
 
+TEST_CASE("crossing charts: three triangles about a corner that go around it more than once")
+{
+    const mesh<triangle> fan({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                             {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}});
+    for (const double angle : {1.0, 2.0, 2.2})
+    {
+        std::vector<vec2> uv{{0, 0}};
+        for (int k = 0; k < 4; ++k) uv.emplace_back(std::cos(k * angle), std::sin(k * angle));
+        CHECK(crosses(fan, uv) == (3 * angle > 2 * std::numbers::pi));
+    }
+}
+
 TEST_CASE(
     "crossing charts: an annulus around its hole, and one whose loops do not meet though it covers its middle twice")
 {

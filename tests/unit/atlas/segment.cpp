@@ -242,3 +242,19 @@ TEST_CASE("segment: who stops it at once gets pieces without maps")
     CHECK(test::check_flattenable(m, facets(m), result.seam) == result.charts.charts());
     CHECK(result.charts.surface.cell_count() == m.cell_count());
 }
+
+TEST_CASE("segment: who stops it while first charts are looked at gets pieces without maps, and no seam is moved")
+{
+    const auto m = test::bumpy(80);
+    int calls = 0;
+    const auto flatten = [&](const chart_mesh& charts)
+    {
+        ++calls;
+        return test::flatten_on_host(charts);
+    };
+    const auto result = segment(m, facets(m), flatten, {.observer = [&](const progress&) { return calls == 0; }});
+    CHECK(calls == 1);
+    CHECK(result.report.straighten_seconds == 0);
+    CHECK(result.report.unmapped == result.charts.charts());
+    CHECK(test::check_flattenable(m, facets(m), result.seam) == result.charts.charts());
+}

@@ -30,13 +30,18 @@ inline std::vector<std::vector<idx>> border_loops(const chart_mesh& charts, idx 
         for (std::size_t j = 0; j < 3; ++j) ends[u(start[u(t[j] - first) + 1]++)] = t[(j + 1) % 3] - first;
     const auto ends_of = [&](idx v)
     { return std::span(ends).subspan(u(start[u(v)]), u(start[u(v) + 1] - start[u(v)])); };
-    for (idx v = 0; v < static_cast<idx>(next.size()); ++v) std::sort(ends_of(v).begin(), ends_of(v).end());
+    constexpr std::size_t few = 12; // that are searched one by one
+    for (idx v = 0; v < static_cast<idx>(next.size()); ++v)
+        if (ends_of(v).size() > few) std::sort(ends_of(v).begin(), ends_of(v).end());
+    const auto leads = [&](idx v, idx w)
+    {
+        const auto ends_there = ends_of(v);
+        return ends_there.size() > few ? std::binary_search(ends_there.begin(), ends_there.end(), w)
+                                       : std::find(ends_there.begin(), ends_there.end(), w) != ends_there.end();
+    };
     for (idx v = 0; v < static_cast<idx>(next.size()); ++v)
         for (const idx w : ends_of(v))
-        {
-            const auto back = ends_of(w);
-            if (!std::binary_search(back.begin(), back.end(), v)) next[u(v)] = w;
-        }
+            if (!leads(w, v)) next[u(v)] = w;
     std::vector<std::vector<idx>> loops;
     for (idx v = 0; v < static_cast<idx>(next.size()); ++v)
     {

@@ -34,6 +34,13 @@ inline bool overlaps_itself(std::span<const std::vector<idx>> loops, std::span<c
            std::count_if(loops.begin(), loops.end(), left) != 1;
 }
 
+/// Whether chart k has so many triangles that it can overlap itself without flips: two lie on either side of their
+/// edge.
+inline bool may_overlap(const chart_mesh& charts, std::size_t k)
+{
+    return charts.first_cell[k + 1] - charts.first_cell[k] > 2;
+}
+
 /// One flag a chart, without flips, of genus 0: 1 where it overlaps itself.
 /// uv: one a vertex of charts.surface, finite
 inline std::vector<char> crossing_charts(const chart_mesh& charts, std::span<const vec2> uv)
@@ -44,7 +51,7 @@ inline std::vector<char> crossing_charts(const chart_mesh& charts, std::span<con
         [&](std::size_t begin, std::size_t end)
         {
             for (std::size_t k = begin; k < end; ++k)
-                crossing[k] = overlaps_itself(border_loops(charts, static_cast<idx>(k)), uv);
+                crossing[k] = may_overlap(charts, k) && overlaps_itself(border_loops(charts, static_cast<idx>(k)), uv);
         },
         0, 8);
     return crossing;

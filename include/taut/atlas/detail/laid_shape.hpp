@@ -81,8 +81,9 @@ inline std::vector<std::array<idx, 2>> meeting_triangles(const chart_mesh& chart
 }
 
 /// The shapes of charts, one each; of those without a map, whose energy is infinite, nothing is known.
+/// whole: false where all that is asked is which charts overlap themselves
 inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<const vec2> uv,
-                                           std::span<const double> energy)
+                                           std::span<const double> energy, bool whole)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     std::vector<laid_shape> shapes(u(charts.charts()));
@@ -93,8 +94,10 @@ inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<c
             for (std::size_t i = begin; i < end; ++i)
             {
                 if (!(energy[i] < std::numeric_limits<double>::infinity())) continue;
+                if (!whole && !may_overlap(charts, i)) continue;
                 const auto loops = border_loops(charts, static_cast<idx>(i));
-                shapes[i].crosses = overlaps_itself(loops, uv);
+                shapes[i].crosses = may_overlap(charts, i) && overlaps_itself(loops, uv);
+                if (!whole) continue;
                 if (shapes[i].crosses) shapes[i].meetings = meeting_triangles(charts, i, loops, uv);
                 std::vector<vec2> rim;
                 for (const auto& loop : loops)

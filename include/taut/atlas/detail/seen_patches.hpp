@@ -56,7 +56,7 @@ public:
             for (std::size_t most = largest;; most = std::min(most, front_.size()) / 8)
             {
                 grow(static_cast<idx>(c), most);
-                if (front_.size() == 1 || !overlaps()) break;
+                if (front_.size() <= 2 || !overlaps()) break; // two lie on either side of their edge
                 undo();
             }
         }

@@ -75,7 +75,7 @@ private:
                 }
         };
         double ratio = 0.5; // of distortion to its estimate
-        for (int pass = 0; pass < 3 && !budget_.over(); ++pass)
+        for (int pass = 0; pass < 3 && budget_.proceed(); ++pass)
         {
             strain = 0;
             for (idx n = 0; n < tree.nodes(); ++n) strain += chosen[u(n)] ? tree.strain[u(n)] : 0;
@@ -83,12 +83,13 @@ private:
                 if (chosen[u(n)]) undo(n);
             report_.tree_seconds += budget_.lap();
             if (pass == 0) part_hopeless(mesh_, facets_, tree, chosen);
+            if (!budget_.proceed()) break;
             const double found = found_ratio(tree, chosen);
             if (!(found > 1.25 * ratio)) break;
             ratio = found;
         }
         seam_ = tree.seams(facets_, tree.labels(chosen));
-        if (budget_.over()) return;
+        if (!budget_.proceed()) return;
         straighten(mesh_, facets_, seam_, params_.seams, params_.together, budget_);
         report_.straighten_seconds += budget_.lap();
     }
@@ -268,6 +269,7 @@ private:
         report_.tree_seconds += budget_.lap();
         if (budget_.over()) return; // the charts that there are have maps
         part_hopeless(part.charts.surface, f, tree, chosen);
+        if (!budget_.proceed()) return;
         auto seam = tree.seams(f, tree.labels(chosen));
         straighten(part.charts.surface, f, seam, keep, together, budget_);
         if (budget_.over()) return;
@@ -404,6 +406,7 @@ private:
         if (involved.empty()) return false;
         if (std::count(open.begin(), open.end(), 0) > 0) part = part_of(mesh_, triangles_of(involved), seam, number_);
         const auto [maps, shapes] = flatten(part);
+        if (budget_.over()) return false;
 
         struct trial
         {

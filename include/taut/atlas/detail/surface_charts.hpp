@@ -124,7 +124,7 @@ protected:
         budget_.lap();
         chart_maps maps = flatten_(part.charts, start);
         report_.flatten_seconds += budget_.lap();
-        auto shapes = laid_shapes(part.charts, maps.uv, maps.energy);
+        auto shapes = laid_shapes(part.charts, maps.uv, maps.energy, budget_.proceed()); // of a run that ends now, less
         return {std::move(maps), std::move(shapes)};
     }
 

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <taut/core/parallel.hpp>
@@ -48,40 +49,56 @@ inline void append_face(std::string& text, std::span<const idx> vertices, std::s
     text += 'f';
     for (std::size_t k = 0; k < vertices.size(); ++k)
     {
-        text += ' ';
-        append_number(text, vertices[k] + 1);
-        if (texcoords[k] >= 0 || normals) text += '/';
-        if (texcoords[k] >= 0) append_number(text, texcoords[k] + 1);
-        if (!normals) continue;
-        text += '/';
-        append_number(text, vertices[k] + 1);
+        char corner[40];
+        char* at = corner;
+        const auto put = [&](char before, idx number)
+        {
+            *at++ = before;
+            at = std::to_chars(at, at + 12, number + 1).ptr;
+        };
+        put(' ', vertices[k]);
+        if (texcoords[k] >= 0)
+            put('/', texcoords[k]);
+        else if (normals)
+            *at++ = '/';
+        if (normals) put('/', vertices[k]);
+        text.append(corner, at);
     }
     text += '\n';
 }
 
 /// Writes n items one after the other, each as append(text, i) puts it; blocks of them are put in words at the same
-/// time.
+/// time, and while those before them are written.
 template <class Out, class Append>
 void write_items(Out& out, std::size_t n, const Append& append, std::size_t block = 4096)
 {
-    std::array<std::string, 16> texts;
+    std::array<std::string, 16> texts, written;
+    const auto put = [&](std::size_t b, std::size_t start)
+    {
+        texts[b].clear();
+        for (std::size_t i = start; i < std::min(n, start + block); ++i) append(texts[b], i);
+    };
+    const auto write = [&]
+    {
+        for (std::string& text : written) out.write(std::exchange(text, {}));
+    };
     for (std::size_t first = 0; first < n; first += block * texts.size())
     {
         const std::size_t blocks = std::min(texts.size(), (n - first + block - 1) / block);
         parallel_for(
-            blocks,
+            blocks + 1,
             [&](std::size_t begin, std::size_t end)
             {
                 for (std::size_t b = begin; b < end; ++b)
-                {
-                    texts[b].clear();
-                    const std::size_t start = first + b * block;
-                    for (std::size_t i = start; i < std::min(n, start + block); ++i) append(texts[b], i);
-                }
+                    if (b == 0)
+                        write();
+                    else
+                        put(b - 1, first + (b - 1) * block);
             },
-            0, 2);
-        for (std::size_t b = 0; b < blocks; ++b) out.write(texts[b]);
+            0, 3);
+        std::swap(texts, written);
     }
+    write();
 }
 
 template <class Out>
