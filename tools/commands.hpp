@@ -27,6 +27,8 @@ command add_eval(CLI::App& program);
 command add_view(CLI::App& program);
 command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_devices(CLI::App& program);
+/// Hidden: of build_elsewhere().
+command add_build_kernels(CLI::App& program);
 
 /// All of them, in the order in which the help lists them.
 inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_clock::time_point launch)
@@ -34,7 +36,7 @@ inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_
     return {add_unwrap(program, launch), add_atlas(program, launch),  add_untangle(program, launch),
             add_deform(program, launch), add_smooth(program, launch), add_paste(program, launch),
             add_check(program),          add_eval(program),           add_view(program),
-            add_batch(program, launch),  add_devices(program)};
+            add_batch(program, launch),  add_devices(program),        add_build_kernels(program)};
 }
 
 } // namespace taut::tools

@@ -5,6 +5,8 @@
 
 #include <taut/compute/queue.hpp>
 
+#include "build_elsewhere.hpp"
+
 namespace taut::tools
 {
 
@@ -12,7 +14,8 @@ namespace taut::tools
 inline queue open_queue(const std::string& device, bool need_double)
 {
     const device_requirements needs{.fp64 = need_double};
-    return queue(device.empty() ? choose_device(needs) : find_device(device, needs, "--device "));
+    const auto chosen = device.empty() ? choose_device(needs) : find_device(device, needs, "--device ");
+    return queue(chosen, {.build_elsewhere = build_elsewhere(chosen, device)});
 }
 
 } // namespace taut::tools

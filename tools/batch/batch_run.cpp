@@ -24,8 +24,6 @@
 #include "job_files.hpp"
 #include "kernel_cache.hpp"
 
-extern char** environ;
-
 namespace taut::tools::batch
 {
 
@@ -44,8 +42,7 @@ std::size_t processors()
 /// That of this process, with a cache of its own and its share of the processors, unless the user has said how many.
 std::vector<std::string> environment_of(const kernel_cache& cache, std::size_t threads)
 {
-    std::vector<std::string> all;
-    for (char** one = environ; *one; ++one) all.emplace_back(*one);
+    auto all = environment();
     const auto has = [&](const std::string& name)
     { return std::any_of(all.begin(), all.end(), [&](const auto& v) { return v.starts_with(name + '='); }); };
     for (const std::string name : {"TAUT_THREADS", "POCL_MAX_PTHREAD_COUNT"})

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "child.hpp"
+#include "../child.hpp"
 #include "job.hpp"
 #include "result.hpp"
 

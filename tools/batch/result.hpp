@@ -10,7 +10,7 @@
 
 #include <taut/io/atomic_file.hpp>
 
-#include "child.hpp"
+#include "../child.hpp"
 #include "job.hpp"
 #include "job_files.hpp"
 

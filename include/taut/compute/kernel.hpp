@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <span>
@@ -53,7 +54,8 @@ public:
         const auto use = state_->enter();
         for (const auto& p : signature_)
             if (p.type == "double") detail::require_fp64(*state_, scalar_type::f64, "kernel " + name_);
-        state_->ask_between_builds();
+        do state_->ask_between_builds();
+        while (state_->cache.under_way(source, options));
         kernel_ = state_->cache.find(source, name_, options);
         count_ = kernel_.get_info<cl_uint>(CL_KERNEL_NUM_ARGS);
     }
@@ -142,6 +144,24 @@ private:
 
 namespace detail
 {
+
+/// A kernel that is built when it is first launched: until then its program may be built elsewhere.
+class late_kernel
+{
+public:
+    late_kernel() = default;
+    explicit late_kernel(std::function<kernel()> build) : build_(std::move(build)) {}
+
+    event operator()(range r, std::initializer_list<named_argument> arguments) const
+    {
+        if (!built_) built_ = build_();
+        return built_(r, arguments);
+    }
+
+private:
+    std::function<kernel()> build_;
+    mutable kernel built_;
+};
 
 template <class T>
 struct argument_traits

@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
 #include <taut/compute/detail/build_excerpt.hpp>
+#include <taut/compute/detail/program_builder.hpp>
 #include <taut/compute/device.hpp>
 #include <taut/compute/errors.hpp>
 
@@ -20,10 +22,28 @@ namespace taut
 class program_cache
 {
 public:
-    /// quick: see queue_options.
-    program_cache(boost::compute::context context, taut::device device, bool quick)
-        : context_(std::move(context)), device_(std::move(device)), quick_(quick)
+    /// quick, elsewhere: see queue_options.
+    program_cache(boost::compute::context context, taut::device device, bool quick, program_builder elsewhere)
+        : context_(std::move(context)), device_(std::move(device)), quick_(quick), elsewhere_(std::move(elsewhere))
     {
+    }
+
+    /// A program that will be needed: the other builder hears of it, once.
+    void expect(const std::string& source, const std::string& options)
+    {
+        if (!elsewhere_ || quick_) return;
+        const auto [found, unknown] = entries_.try_emplace(options + '\0' + source);
+        if (unknown) found->second.under_way = elsewhere_(source, options);
+    }
+
+    /// Whether a program is being built elsewhere still, after a moment.
+    bool under_way(const std::string& source, const std::string& options)
+    {
+        const auto found = entries_.find(options + '\0' + source);
+        if (found == entries_.end() || !found->second.under_way) return false;
+        if (found->second.under_way()) return true;
+        found->second.under_way = nullptr;
+        return false;
     }
 
     /// The kernel of that name, built at the first request. Throws build_error if the compiler refuses the source and
@@ -58,6 +78,7 @@ private:
     {
         boost::compute::program program;
         bool built = false;
+        std::function<bool()> under_way; ///< elsewhere
         std::unordered_map<std::string, boost::compute::kernel> kernels;
     };
 
@@ -95,6 +116,7 @@ private:
     boost::compute::context context_;
     taut::device device_;
     bool quick_;
+    program_builder elsewhere_;
     std::unordered_map<std::string, entry> entries_;
     std::size_t builds_ = 0;
     double seconds_ = 0;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <taut/compute/choose_device.hpp>
+#include <taut/compute/detail/program_builder.hpp>
 #include <taut/compute/queue_counters.hpp>
 
 namespace taut
@@ -32,6 +33,9 @@ struct queue_options
     /// cache. With PoCL they are built in less than half of the time and take several times as long. The environment's
     /// TAUT_BUILD=quick has the same effect on every queue.
     bool quick_builds = false;
+
+    /// Called for programs that are known to be needed some time before they are.
+    program_builder build_elsewhere = {};
 };
 
 /// An in-order queue of commands to one device, with its context and its cache of built programs. Copies share all of

@@ -38,12 +38,18 @@ struct newton_kernels
 
     newton_kernels(const queue& q, const any_energy& energy, const real_types& of,
                    capping_elements capping = capping_elements::relaxed)
-        : newton_kernels(traced_program(q, record(energy, of, detail::form_for(q.device()), capping)), energy, of,
-                         capping)
+        : newton_kernels(traced(q, energy, of, capping), energy, of, capping)
     {
     }
 
 private:
+    static traced_program traced(const queue& q, const any_energy& energy, const real_types& of,
+                                 capping_elements capping)
+    {
+        detail::expect_block_kernels(q, of.vector, Element::dimension);
+        return {q, record(energy, of, detail::form_for(q.device()), capping)};
+    }
+
     newton_kernels(const traced_program& p, const any_energy& energy, const real_types& of, capping_elements capping)
         : first(p), second(p), types(of)
     {

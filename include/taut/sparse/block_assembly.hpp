@@ -60,7 +60,7 @@ private:
     std::size_t values_, reach_ = 0;
     idx cells_;
     buffer<idx> diagonal_offsets_, diagonal_slots_, slot_offsets_, slots_;
-    kernel assemble_;
+    detail::late_kernel assemble_;
 };
 
 } // namespace taut

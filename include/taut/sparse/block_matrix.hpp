@@ -21,22 +21,32 @@ namespace taut
 namespace detail
 {
 
-/// A kernel of kernels/block_sparse.cl for D x D blocks and interpolations of K weights a row.
-inline kernel transfer_kernel(queue& q, const char* name, scalar_type real, int D, int K, lane_form form)
+/// Options of kernels/block_sparse.cl for D x D blocks and interpolations of K weights a row.
+inline std::string block_options(scalar_type real, int D, int K, lane_form form)
 {
     const bool wide = real == scalar_type::f64;
-    return {q, kernels::block_sparse, name,
-            "-DREAL=" + std::string(spelling(real)) + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
-                " -DD=" + std::to_string(D) + " -DK=" + std::to_string(K) + " -DC=" + std::to_string(form.slice) +
-                " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
-                " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f"),
-            real};
+    return "-DREAL=" + std::string(spelling(real)) + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
+           " -DD=" + std::to_string(D) + " -DK=" + std::to_string(K) + " -DC=" + std::to_string(form.slice) +
+           " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
+           " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f");
+}
+
+inline late_kernel transfer_kernel(queue q, const char* name, scalar_type real, int D, int K, lane_form form)
+{
+    return late_kernel([=]() mutable
+                       { return kernel(q, kernels::block_sparse, name, block_options(real, D, K, form), real); });
 }
 
 /// A kernel that knows no interpolation: of the program that those of simplices with D + 1 corners are in.
-inline kernel block_kernel(queue& q, const char* name, scalar_type real, int D, lane_form form)
+inline late_kernel block_kernel(const queue& q, const char* name, scalar_type real, int D, lane_form form)
 {
     return transfer_kernel(q, name, real, D, D + 1, form);
+}
+
+/// Says that matrices of simplices will be needed, some time before they are.
+inline void expect_block_kernels(const queue& q, scalar_type real, int D)
+{
+    q.state()->cache.expect(kernels::block_sparse, block_options(real, D, D + 1, lane_form::for_device(q.device())));
 }
 
 } // namespace detail
@@ -220,7 +230,7 @@ private:
         std::size_t rows, stride, places;
         block_pattern host;
         buffer<idx> offsets, columns;
-        kernel product, smooth, jacobi, invert;
+        detail::late_kernel product, smooth, jacobi, invert;
     };
 
     explicit block_matrix(std::shared_ptr<structure> shared)

@@ -129,7 +129,7 @@ private:
     range product_items_{0};
     buffer<idx> columns_, transpose_offsets_, transpose_, codes_, colours_, visit_offsets_, visits_;
     real_buffer weights_;
-    kernel prolong_, restrict_, galerkin_;
+    detail::late_kernel prolong_, restrict_, galerkin_;
 };
 
 } // namespace taut

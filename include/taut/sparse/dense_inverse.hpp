@@ -82,7 +82,7 @@ private:
     range items_{0}, team_{0};
     buffer<idx> numbers_, at_;
     real_buffer work_, inverse_;
-    kernel invert_, apply_;
+    late_kernel invert_, apply_;
 };
 
 } // namespace taut::detail

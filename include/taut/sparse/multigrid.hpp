@@ -156,7 +156,7 @@ private:
     detail::dense_inverse coarsest_;
     double first_, momentum_, second_;
     bool fused_ = false;
-    kernel small_cycle_;
+    detail::late_kernel small_cycle_;
 };
 
 } // namespace taut

@@ -88,6 +88,44 @@ TEST_CASE("kernel: quick builds leave optimisations out, and results as they are
     CHECK(options_of(asked).find("-cl-opt-disable") != std::string::npos);
 }
 
+TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built here if nobody else has")
+{
+    const std::string text = "__kernel void add_to(__global float* y, const float a) { y[get_global_id(0)] += a; }";
+    std::vector<std::string> told;
+    int asked = 0;
+    bool works = true;
+    taut::queue q(taut::choose_device(), {.build_elsewhere = [&](const std::string& source, const std::string& options)
+                                          {
+                                              CHECK(source == text);
+                                              told.push_back(options);
+                                              return works ? std::function<bool()>([&] { return ++asked < 3; })
+                                                           : std::function<bool()>();
+                                          }});
+    const auto right = [&](const std::string& options)
+    {
+        const auto add_to = q.kernel<taut::buffer<float>, float>(text, "add_to", options);
+        taut::buffer<float> y(q, std::vector<float>(64, 1.0F));
+        add_to(64, y, 2.0F);
+        return y.download() == std::vector<float>(64, 3.0F);
+    };
+    auto& cache = q.state()->cache;
+    cache.expect(text, "-DA");
+    cache.expect(text, "-DA");
+    CHECK(told == std::vector<std::string>{"-DA"});
+    CHECK(asked == 0);
+    CHECK(right("-DB")); // another program waits for nobody
+    CHECK(asked == 0);
+    CHECK(right("-DA"));
+    CHECK(right("-DA"));
+    CHECK(asked == 3);
+    cache.expect(text, "-DA"); // it is there
+    works = false;
+    cache.expect(text, "-DC");
+    CHECK(right("-DC"));
+    CHECK(told == std::vector<std::string>{"-DA", "-DC"});
+    CHECK(q.counters().builds == 3);
+}
+
 TEST_CASE("kernel: a compiler's refusal shows kernel, log, device and the numbered lines around the error")
 {
     taut::queue q;

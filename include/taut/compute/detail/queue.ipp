@@ -49,7 +49,8 @@ std::shared_ptr<queue_state> open(const taut::device& device, queue_options opti
         const cl_command_queue_properties flags = options.profiling ? CL_QUEUE_PROFILING_ENABLE : 0;
         boost::compute::command_queue commands(context, boost::compute::device(device.native()), flags);
         return std::make_shared<queue_state>(device, context, std::move(commands),
-                                             options.quick_builds || wants_quick_builds());
+                                             options.quick_builds || wants_quick_builds(),
+                                             std::move(options.build_elsewhere));
     }
     catch (const boost::compute::opencl_error& e)
     {
@@ -60,7 +61,7 @@ std::shared_ptr<queue_state> open(const taut::device& device, queue_options opti
 } // namespace detail
 
 TAUT_INLINE queue::queue(const taut::device& device, queue_options options)
-    : state_(detail::open(device, options,
+    : state_(detail::open(device, std::move(options),
                           [&] { return boost::compute::context(boost::compute::device(device.native())); }))
 {
 }
@@ -68,7 +69,7 @@ TAUT_INLINE queue::queue(const taut::device& device, queue_options options)
 TAUT_INLINE queue::queue(cl_context context, queue_options options)
 {
     auto adopted = detail::adopt([&] { return boost::compute::context(context); });
-    state_ = detail::open(taut::device(adopted.get_device().id()), options, [&] { return adopted; });
+    state_ = detail::open(taut::device(adopted.get_device().id()), std::move(options), [&] { return adopted; });
 }
 
 TAUT_INLINE queue::queue(cl_command_queue native)

@@ -19,8 +19,12 @@ namespace taut::detail
 /// What a queue and its buffers and kernels share. It lives as long as any of them.
 struct queue_state
 {
-    queue_state(taut::device d, boost::compute::context c, boost::compute::command_queue q, bool quick)
-        : device(std::move(d)), context(std::move(c)), commands(std::move(q)), cache(context, device, quick)
+    queue_state(taut::device d, boost::compute::context c, boost::compute::command_queue q, bool quick,
+                program_builder elsewhere = {})
+        : device(std::move(d)),
+          context(std::move(c)),
+          commands(std::move(q)),
+          cache(context, device, quick, std::move(elsewhere))
     {
     }
 

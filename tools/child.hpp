@@ -15,7 +15,7 @@
 
 #include <taut/io/atomic_file.hpp>
 
-namespace taut::tools::batch
+namespace taut::tools
 {
 
 struct limits
@@ -24,6 +24,9 @@ struct limits
     std::uint64_t memory = std::numeric_limits<std::uint64_t>::max(); ///< bytes that are resident
     double grace = 5; ///< seconds from being asked to end until it is made to
 };
+
+/// NAME=VALUE of this process.
+std::vector<std::string> environment();
 
 /// How a child ended.
 struct child_end
@@ -84,4 +87,4 @@ private:
     double killed_at_ = std::numeric_limits<double>::infinity(); ///< seconds
 };
 
-} // namespace taut::tools::batch
+} // namespace taut::tools

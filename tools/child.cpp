@@ -15,7 +15,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace taut::tools::batch
+extern char** environ;
+
+namespace taut::tools
 {
 
 namespace
@@ -59,6 +61,13 @@ std::pair<io::detail::descriptor, io::detail::descriptor> make_pipe()
 }
 
 } // namespace
+
+std::vector<std::string> environment()
+{
+    std::vector<std::string> all;
+    for (char** one = environ; *one; ++one) all.emplace_back(*one);
+    return all;
+}
 
 child::child(const std::vector<std::string>& args, const std::vector<std::string>& environment, const limits& bounds)
     : bounds_(bounds)
@@ -174,4 +183,4 @@ void child::drain(std::size_t stream)
     }
 }
 
-} // namespace taut::tools::batch
+} // namespace taut::tools

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/objective/element_hessian.hpp>
+#include <taut/objective/mesh_levels.hpp>
+#include <taut/objective/newton_plan.hpp>
+#include <taut/sparse/block_assembly.hpp>
+#include <taut/sparse/multigrid.hpp>
+
+#include "commands.hpp"
+#include "shared_options.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct build_options
+{
+    int dimension = 2;
+    std::string real, device;
+};
+
+/// A square or a cube of n points a side. In each of its small ones, each way along the axes from the first corner to
+/// the last is a cell (Kuhn).
+template <class Element>
+mesh<Element> block(idx n)
+{
+    constexpr std::size_t D = Element::dimension;
+    const std::array<idx, 3> steps = {1, n, n * n};
+    std::vector<vec3> points;
+    std::vector<typename mesh<Element>::cell> cells;
+    for (idx k = 0; k < (D == 3 ? n : 1); ++k)
+        for (idx j = 0; j < n; ++j)
+            for (idx i = 0; i < n; ++i)
+            {
+                points.emplace_back(i, j, k);
+                if (std::max({i, j, D == 3 ? k : 0}) + 1 == n) continue;
+                std::array<std::size_t, D> way;
+                std::iota(way.begin(), way.end(), std::size_t(0));
+                do {
+                    auto& cell = cells.emplace_back();
+                    cell[0] = static_cast<idx>(points.size()) - 1;
+                    for (std::size_t c = 0; c < D; ++c) cell[c + 1] = cell[c] + steps[way[c]];
+                    const int turns =
+                        D == 2 ? way[0] > way[1] : (way[0] > way[1]) + (way[0] > way[D - 1]) + (way[1] > way[D - 1]);
+                    if (turns % 2 == 1) std::swap(cell[D - 1], cell[D]);
+                } while (std::next_permutation(way.begin(), way.end()));
+            }
+    return {std::move(points), std::move(cells)};
+}
+
+/// Launches what matrices of a mesh of so many points a side launch, once: drivers compile at the first launch.
+template <class Element>
+void build(queue& q, scalar_type real, idx side)
+{
+    const mesh_levels<Element> levels(block<Element>(side));
+    newton_plan<Element> plan(levels, 0, lane_form::for_device(q.device()));
+    multigrid cycle(q, real, std::move(plan.cycle));
+    const block_assembly assemble(cycle.matrix(), plan.assembly);
+    real_buffer hessians(q, real, hessian_slots<Element::dimension>::count * plan.layout->cell_stride);
+    hessians.fill(0);
+    auto x = cycle.matrix().vector(), y = cycle.matrix().vector();
+    assemble(hessians, cycle.matrix());
+    cycle.refresh();
+    cycle.matrix().multiply(x, y);
+    cycle.apply(x, y);
+    q.finish();
+}
+
+exit_code run(const build_options& options)
+{
+    queue q(options.device.empty() ? choose_device({}) : find_device(options.device, {}, "--device "));
+    const auto real = options.real == spelling(scalar_type::f64) ? scalar_type::f64 : scalar_type::f32;
+    // With levels, and without.
+    for (const idx side : options.dimension == 2 ? std::array{48, 4} : std::array{16, 3})
+        options.dimension == 2 ? build<triangle>(q, real, side) : build<tetrahedron>(q, real, side);
+    return exit_code::valid;
+}
+
+} // namespace
+
+command add_build_kernels(CLI::App& program)
+{
+    const auto options = std::make_shared<build_options>();
+    auto& app = *program.add_subcommand("build-kernels", "Compile the kernels of matrices into the driver's cache");
+    app.group(""); // not in the help
+    app.add_option("dimension", options->dimension)->required()->check(CLI::Range(2, 3));
+    app.add_option("real", options->real)->required();
+    add_device(app, options->device);
+    return [options] { return run(*options); };
+}
+
+} // namespace taut::tools
