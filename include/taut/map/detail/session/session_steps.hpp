@@ -126,8 +126,14 @@ protected:
     /// Brings held coordinates nearer to their places.
     void follow(run_clock& clock)
     {
-        if (draft(clock)) return;
+        drafted_ = false;
+        if (may_draft(clock) && turns() && draft(clock)) return;
         bool arrived = follow_parts(clock, last.x);
+        if (!arrived && hard_)
+        {
+            if (draft(clock)) return;
+            if (may_step(clock)) arrived = follow_parts(clock, user_coordinates());
+        }
         // In the plane steps stick where pins are in each other's way, which no arithmetic changes.
         if (D == 3 && !arrived && stuck_ && may_step(clock) && in_double())
             arrived = follow_parts(clock, user_coordinates());
@@ -146,15 +152,25 @@ protected:
         }
     }
 
-    /// Where bodies of held vertices turn in space: takes a shape with them at their places that is made at once, if
-    /// there is one and the budget lasts for some twenty steps. Whether it did.
+    /// In space, where the budget lasts for some twenty steps.
+    bool may_draft(const run_clock& clock) const
+    {
+        return D == 3 && Element::oriented && held_.slides().empty() && lasts(clock, 20);
+    }
+
+    /// Whether bodies of held vertices turn on the way.
+    bool turns() const
+    {
+        return held_paths<D>(rest().cells(), marks(), scaled(last.x), scaled(held_.places())).parts() > 1;
+    }
+
+    /// Takes a shape with held vertices at their places that is made at once, if there is one. Whether it did.
     bool draft(run_clock& clock)
     {
+        drafted_ = true;
+        hard_ = false;
         if constexpr (D == 3 && Element::oriented)
         {
-            if (!held_.slides().empty() || !lasts(clock, 20)) return false;
-            const held_paths<D> paths(rest().cells(), marks(), scaled(last.x), scaled(held_.places()));
-            if (paths.parts() == 1) return false;
             auto how = untangling_;
             how.time_limit = clock.left();
             how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
@@ -214,10 +230,12 @@ protected:
                 proof_sought_ = true;
                 feasible = !proved(user_coordinates());
             }
+            if (!drafted_ && at.left > 0.75 * gap) hard_ = may_draft(clock);
             progress p = seen();
             p.iteration = at.iterations;
             p.value = at.value;
-            return feasible && at.iterations < steps_left_ && clock.left().count() > step_seconds_ && clock.proceed(p);
+            return feasible && !hard_ && at.iterations < steps_left_ && clock.left().count() > step_seconds_ &&
+                   clock.proceed(p);
         };
         const auto found = live_->follow(gap, proceed);
         steps_left_ -= found.iterations;
@@ -381,6 +399,8 @@ private:
     std::chrono::duration<double> limit_;
     stage_report followed_;     ///< what bringing held coordinates to their places came to so far
     bool proof_sought_ = false; ///< that what is asked now cannot be
+    bool drafted_ = false;      ///< a draft was tried on this way
+    bool hard_ = false;         ///< the way is one to draft: the first step came less than a quarter of it
     bool stuck_ = false;        ///< steps bring held coordinates no nearer to their places
     double step_seconds_ = 0;   ///< of the last step
     int steps_left_ = 0;

@@ -121,23 +121,22 @@ public:
     }
 
     /// The shape at hand, which is injective (`draft` of the problem), with held vertices at their places (`initial`),
-    /// to which bodies of them turn: that of a coarser volume, where there is one, or else a turned_draft. What has
-    /// shrunk there, with its neighbours, is untangled and minimised by itself, with the shape at hand as that at rest:
-    /// else such elements, though few, would cut the steps of all.
+    /// to which they move: that of a coarser volume, where there is one, or else a turned_draft, where bodies of them
+    /// turn. What has shrunk there, with its neighbours, is untangled and minimised by itself, with the shape at hand
+    /// as that at rest: else such elements, though few, would cut the steps of all.
     mended_draft draft(const problem& p) const
     {
         const mesh<tetrahedron> here(p.draft, p.rest.cells());
         const gradient_fit<tetrahedron> poisson(here, p.draft);
         mended_draft found = from_coarser(p, here, poisson);
         if (!found.x.empty() && mend(p, here, poisson, found)) return found;
-        if (!clock_.in_time()) return without_shape(found);
-        found.x = turned_draft(poisson, here, paths(p), p.held, p.draft, p.initial);
+        const held_paths<3> paths(p.rest.cells(), p.held, p.draft, p.initial);
+        if (paths.parts() == 1 || !clock_.in_time()) return without_shape(found);
+        found.x = turned_draft(poisson, here, paths, p.held, p.draft, p.initial);
         return mend(p, here, poisson, found) ? found : without_shape(found);
     }
 
 private:
-    static held_paths<3> paths(const problem& p) { return {p.rest.cells(), p.held, p.draft, p.initial}; }
-
     static mended_draft without_shape(mended_draft found)
     {
         found.x.clear();
@@ -160,7 +159,7 @@ private:
         mended_draft found = draft(small);
         if (found.x.empty() && clock_.in_time()) found.x = untangled(small, found);
         if (found.x.empty() || !clock_.in_time()) return without_shape(found);
-        constexpr double nearly = 1e-5; // before that limbs may still buckle
+        constexpr double nearly = 1e-6; // before that limbs may still buckle
         minimise(small, nearly, 60, found);
         found.vertices = 0;
         found.x = carried_up(poisson, here, smaller->thinned, found.x, p.held, p.initial);
