@@ -131,12 +131,16 @@ private:
         model_ = pcg_.solve(
             g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
             [this](const vector& v, vector& out) { f_.precondition(v, out); }, d_,
-            [this] { return monitor_.proceed(); }, exact ? system_steps_ : 0, exact && hard ? &last_d_ : nullptr);
+            [this] { return monitor_.proceed(); }, exact ? system_steps_ : 0, exact && hard ? &last_d_ : nullptr,
+            noise());
         report_.products += model_.steps;
         exact_ = exact;
         if (!exact_ && along_stand_in_) conjugate();
         return pending_ ? settle(model_.gradient_squared) : std::nullopt;
     }
+
+    /// Of values near the current one.
+    double noise() const { return rounding_ * f_.size(value_); }
 
     /// Makes d_, a direction of the stand-in, conjugate to the last one (Hestenes & Stiefel 1952, with the stand-in as
     /// preconditioner), as far as the change of the gradient along that one tells.
@@ -168,7 +172,6 @@ private:
         if (!(model_.slope < 0)) return std::nullopt;
         const double armijo = common_.search.sufficient_decrease;
         constexpr int rounds = 8;
-        const double noise = rounding_ * f_.size(value_);
         double unit = 1, longest = 1;
         const bool far = !exact_;
         const double most = far ? 4 : 1;
@@ -186,11 +189,11 @@ private:
             monitor_.count(int(a.size()), 0);
             double least = std::numeric_limits<double>::infinity();
             const auto good = [&](std::size_t i)
-            { return values[i] <= value_ + armijo * unit * a[i] * model_.slope + noise; };
+            { return values[i] <= value_ + armijo * unit * a[i] * model_.slope + noise(); };
             for (std::size_t i = 0; i < a.size(); ++i)
                 if (good(i)) least = std::min(least, values[i]);
             for (std::size_t i = 0; i < a.size(); ++i)
-                if (good(i) && values[i] <= least + noise)
+                if (good(i) && values[i] <= least + noise())
                     return trial{unit * a[i], values[i], unit < most && a[i] == 1};
         }
         return std::nullopt;

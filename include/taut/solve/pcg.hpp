@@ -62,9 +62,10 @@ public:
     /// between blocks of steps; where it says no, d is what there is. max_steps: in the place of
     /// pcg_params::max_steps, unless it is 0. known: a direction that d is likely to have a part of, not d itself; the
     /// last step of the first block, which takes no preconditioning. Where it brings much, the search goes on.
+    /// noise: of values; where the model falls by no more, a negative curvature is taken for rounding, too.
     template <class Product, class Preconditioner, class Proceed = always>
     pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d, Proceed&& proceed = {},
-                     int max_steps = 0, const vector* known = nullptr)
+                     int max_steps = 0, const vector* known = nullptr, double noise = 0)
     {
         if (max_steps == 0) max_steps = params_.max_steps;
         pcg_result result;
@@ -94,7 +95,8 @@ public:
                 more = !longer.empty();
                 if (!more)
                 {
-                    if (result.steps > 0 || k > 1) n = descent(K, in.zr, k, result.decrease + gained);
+                    const double fallen = result.decrease + gained;
+                    if ((result.steps > 0 || k > 1) && fallen > noise) n = descent(K, in.zr, k, fallen);
                     if (k > s && n.empty()) // what is known lies in the space already
                     {
                         drop_last(K);

@@ -210,6 +210,14 @@ TEST_CASE("pcg: a direction of negative curvature becomes half of the slope")
             CHECK(result.slope == doctest::Approx(-4 * result.decrease));
             // Along it the model falls further: n'A n < 0, and n is conjugate to what was found before.
             CHECK(space.dot(d, Ad) < 2 * result.decrease);
+
+            // Where the model falls by no more than the noise of values, it is left.
+            const auto wary = solver.solve(
+                g, A, M, d, [] { return true; }, 0, nullptr, 1e6);
+            CHECK_FALSE(wary.negative);
+            CHECK(wary.decrease > 0);
+            CHECK(wary.slope == doctest::Approx(-2 * wary.decrease));
+            CHECK(wary.slope == doctest::Approx(space.dot(g, d)));
         }
 }
 
