@@ -21,7 +21,7 @@ namespace taut::solve
 /// | `axpby(a, x, b, y)`               | y = a x + b y; b == 0 never reads y                                      |
 /// | `dot(x, y)`                       | x'y                                                                      |
 /// | `multi_dot(left, right, out)`     | out[i * right.size() + j] = left[i]'right[j]                             |
-/// | `linear_combination(a, x, out)`   | out = sum of a[i] x[i]; out may be x[0], and no other of them             |
+/// | `linear_combination(a, x, out)`   | out = sum of a[i] x[i]; out may be x[0], and no other of them            |
 template <class S>
 concept vector_space = std::movable<typename S::vector> &&
     requires(S& space, const typename S::vector& x, typename S::vector& y, double a, std::span<const double> many,
