@@ -53,6 +53,8 @@ std::string generate(dice& random)
 }
 
 /// The text without vt statements and without the texture coordinates of faces: by other code than the reader's.
+/// Without blank lines, and with CR for CR LF, as a CR that comes to stand before the LF of a blank line is one with
+/// it.
 std::string without_texcoords(const std::string& text)
 {
     std::string result;
@@ -84,9 +86,10 @@ std::string without_texcoords(const std::string& text)
             while (at < text.size() && text[at] != '\n' && text[at] != '\r') words[0].second += text[at++];
         }
         std::string end;
-        if (at < text.size()) end = text.compare(at, 2, "\r\n") == 0 ? "\r\n" : text.substr(at, 1);
-        at += end.size();
-        if (words[0].second == "vt") continue;
+        if (at < text.size()) end = text[at];
+        at += text.compare(at, 2, "\r\n") == 0 ? 2 : end.size();
+        if (words[0].second == "vt" || (words.size() == 1 && words[0].first.empty() && words[0].second.empty()))
+            continue;
         bool corners = false;
         for (auto& [blanks, word] : words)
         {
