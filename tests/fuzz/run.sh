@@ -1,17 +1,23 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# run.sh READER FOLDER SECONDS [SEED]: runs the fuzzer of a reader that was built into FOLDER, from the committed corpus
-# and what it learnt before; seed 1 unless told, so that a test says the same each time; 0: another each time. An input that breaks a promise, crashes, hangs or takes 2 GB ends the run and is kept in FOLDER.
+# run.sh READER FOLDER runs|seconds N: runs the fuzzer of a reader that was built into FOLDER, from the committed corpus.
+# runs: N inputs, the same each time. seconds: others each time, from what it learnt before, too. An input that breaks a
+# promise, crashes, hangs or takes 2 GB ends the run and is kept in FOLDER.
 set -eu
-reader=$1 folder=$2 seconds=$3 seed=${4:-1}
-here=$(cd "$(dirname "$0")" && pwd)
+reader=$1 folder=$2 limit=$3 n=$4
+corpus=$(cd "$(dirname "$0")" && pwd)/corpus/$reader
 
-mkdir -p "$folder/learnt/$reader"
+if [ "$limit" = runs ]; then
+    # The order of a folder's files is another on each disk.
+    set -- -seed=1 -runs="$n" -seed_inputs="$(printf '%s\n' "$corpus"/* | LC_ALL=C sort | paste -sd, -)"
+else
+    mkdir -p "$folder/learnt/$reader"
+    set -- -max_total_time="$n" "$folder/learnt/$reader" "$corpus"
+fi
 log=$folder/$reader.log
-if ! "$folder/fuzz-$reader" -seed="$seed" -max_total_time="$seconds" -max_len=4096 -timeout=30 -rss_limit_mb=2048 \
-    -print_final_stats=1 -artifact_prefix="$folder/$reader-" "$folder/learnt/$reader" "$here/corpus/$reader" \
-    >"$log" 2>&1; then
+if ! "$folder/fuzz-$reader" -max_len=4096 -timeout=30 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="$folder/$reader-" "$@" >"$log" 2>&1; then
     tail -n 80 "$log"
     exit 1
 fi
-echo "$reader: no failure in $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, $seconds s"
+echo "$reader: no failure in $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs"

@@ -70,6 +70,8 @@ TEST_CASE("gmsh: errors tell the line, or the byte, and the remedy")
     refuses(replace_once(text, "$Elements\n3", "$Elements\n2"), "$Elements does not end here, where its counts say");
     refuses(replace_once(fourth, "$EndEntities\n", "$EndEntities\n$PartitionedEntities\n$EndPartitionedEntities\n"),
             "save it without them");
+    refuses(replace_once(fourth, "$Entities\n0 0 1 2", "$Entities\n0 0 1 1"),
+            "$Entities does not end here, where its counts say");
     refuses(replace_once(fourth, "0 0 0 0.5", "nan 0 0 0.5"), "point 0 has a coordinate that is not finite");
     const std::string binary = test::gmsh2_text(s, {.text = false});
     refuses(replace_once(binary, std::string("\1\0\0\0", 4), "abcd"), "order of bytes");

@@ -127,6 +127,11 @@ TEST_CASE("VTU: errors tell the line and the remedy")
     refuses(exchange(text, "Name=\"offsets\"", "Name=\"ends\""), "no array offsets in <Cells>");
     refuses(exchange(text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\""), "points need three components");
     refuses(exchange(raw, "offset=\"0\"", "offset=\"99999\""), "no offset");
+    // The points are bytes 44 to 163 behind the mark, with their number before them.
+    refuses(exchange(raw, "<PointData>",
+                     "<PointData><DataArray type='Float64' Name='old' NumberOfComponents='3' format='appended' "
+                     "offset='40'/>"),
+            "line 6: array 'old' has bytes of the points");
     refuses(exchange(text, "\">5 10 10</DataArray>", "\">5 10 42</DataArray>"), "polyhedra");
 
     // What is wrong with an attribute alone costs its groups.

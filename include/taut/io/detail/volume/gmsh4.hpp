@@ -31,7 +31,11 @@ public:
             sections_.go_to("PartitionedEntities");
             from_.fail("a mesh in partitions; save it without them (gmsh: Mesh > Unpartition)");
         }
-        if (sections_.has("Entities")) read_entities();
+        if (sections_.has("Entities"))
+        {
+            read_entities();
+            sections_.leave("Entities");
+        }
         read_nodes();
         sections_.leave("Nodes");
         read_elements();

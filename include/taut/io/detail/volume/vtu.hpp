@@ -202,6 +202,35 @@ private:
                          to_.reserve_points(points_);
                          for (std::size_t v = 0; v < points_; ++v) to_.add_point(from);
                      });
+        if (a.tag.attribute_or("format", "ascii") == "appended") require_own_bytes(a);
+    }
+
+    /// Offsets can name bytes that other arrays have, which would change with the points.
+    void require_own_bytes(const array& points)
+    {
+        const auto [begin, end] = appended_bytes(points);
+        for (const auto& other : arrays_)
+        {
+            if (&other == &points || other.tag.attribute_or("format", "ascii") != "appended") continue;
+            const auto [first, last] = appended_bytes(other);
+            if (first < end && begin < last)
+                fail(other.tag,
+                     "array '" + std::string(other.tag.attribute_or("Name", "")) +
+                         "' has bytes of the points; save the mesh with an offset of its own for each array");
+        }
+    }
+
+    /// From the header of an array to its end.
+    std::pair<std::size_t, std::size_t> appended_bytes(const array& a)
+    {
+        std::pair<std::size_t, std::size_t> result;
+        with_numbers(a,
+                     [&](const number_source& from, std::size_t size)
+                     {
+                         const auto begin = static_cast<std::size_t>(from.in().position() - from.in().start());
+                         result = {begin - size_of(header_), begin + size};
+                     });
+        return result;
     }
 
     void read_cells()
