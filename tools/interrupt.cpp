@@ -33,6 +33,14 @@ enum class standing
 std::atomic<standing> state{standing::nothing};
 std::atomic<int> asked_by{SIGINT};
 
+/// Never returns to a thread that still asks while the program is ended: what is done from here on is done for nobody.
+standing present() noexcept
+{
+    standing now = state;
+    for (; now == standing::leaving; now = state) ::pause();
+    return now;
+}
+
 exit_code code_of(int signal) noexcept
 {
     return signal == SIGTERM ? exit_code::terminated : exit_code::interrupted;
@@ -115,15 +123,15 @@ void limit_time(double seconds)
 void keep(bool something)
 {
     const auto wanted = something ? standing::something : standing::nothing;
-    auto now = state.load();
+    auto now = present();
     while (now == standing::nothing || now == standing::something)
         if (now == wanted || state.compare_exchange_weak(now, wanted)) return;
-    while (now == standing::leaving) ::pause(); // what is done from here on is done for nobody
+    present();
 }
 
 bool interrupted() noexcept
 {
-    return state.load(std::memory_order_relaxed) == standing::asked;
+    return present() == standing::asked;
 }
 
 exit_code interruption() noexcept

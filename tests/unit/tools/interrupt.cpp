@@ -99,6 +99,17 @@ TEST_CASE("interrupt: with something to keep, the first signal asks and the seco
                       send(signal);
                       wait_for_the_end();
                   }) == code);
+        CHECK(exit_code_of(
+                  [&]
+                  {
+                      keep(true);
+                      send(signal);
+                      wait_for(interrupted);
+                      send(signal);
+                      while (interrupted()) // until the other thread has ended the program
+                      {
+                      }
+                  }) == code);
     }
 }
 
