@@ -138,6 +138,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["stop"] = identifier(r.map.solve.stop);
     json["iterations"] = r.map.solve.iterations;
     json["hessian_products"] = r.map.solve.products;
+    json["eliminations"] = r.map.solve.eliminations;
     json["evaluations"] = r.map.solve.evaluations;
     json["gradients"] = r.map.solve.gradients;
     json["gradient"] = finite(r.map.solve.gradient_norm);

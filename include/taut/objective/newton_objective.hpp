@@ -2,15 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <taut/objective/element_hessian.hpp>
 #include <taut/objective/map_objective.hpp>
 #include <taut/objective/newton_plan.hpp>
+#include <taut/objective/nonlinear_elimination.hpp>
 #include <taut/objective/vertex_relaxation.hpp>
 #include <taut/sparse/block_assembly.hpp>
 #include <taut/sparse/multigrid.hpp>
@@ -96,17 +99,24 @@ public:
           cycle_(q, kernels_->types.vector, std::move(host.cycle)),
           assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))) // freed once they are on the device
     {
-        if (kernels_->relaxation)
-            relaxation_.emplace(
-                q, host.layout, std::shared_ptr<const relaxation_kernels<Element>>(kernels_, &*kernels_->relaxation),
-                this->arrays(), constraints.touched(static_cast<std::size_t>(host.layout->vertex_count)));
+        if (!kernels_->relaxation) return;
+        const auto touched = constraints.touched(static_cast<std::size_t>(host.layout->vertex_count));
+        relaxation_.emplace(q, host.layout,
+                            std::shared_ptr<const relaxation_kernels<Element>>(kernels_, &*kernels_->relaxation),
+                            this->arrays(), touched);
+        if constexpr (eliminates)
+            elimination_.emplace(q, host.layout, this->arrays(), kernels_->first, kernels_->second, kernels_->types,
+                                 weights, energy, touched);
     }
 
     /// As map_objective::constrain.
     void constrain(const point_constraints<D>& c)
     {
         base::constrain(c);
-        if (relaxation_) relaxation_->keep_still(c.touched(static_cast<std::size_t>(this->layout().vertex_count)));
+        if (!relaxation_) return;
+        const auto touched = c.touched(static_cast<std::size_t>(this->layout().vertex_count));
+        relaxation_->keep_still(touched);
+        if constexpr (eliminates) elimination_->keep_still(touched);
     }
 
     void linearize(const point& x, bool exact)
@@ -148,6 +158,13 @@ public:
     /// Moves the vertices of the worst elements alone; whether there were any.
     bool relax(point& x) { return relaxation_ && (*relaxation_)(x).vertices > 0; }
 
+    /// Minimises what a step has found far from quadratic by itself, on surfaces; whether there was anything.
+    bool eliminate(point& x, const vector& unexpected, const std::function<bool()>& proceed)
+    {
+        if constexpr (eliminates) return elimination_ && (*elimination_)(x, unexpected, proceed);
+        return false;
+    }
+
     /// As map_objective::warm_up, and what is Newton's.
     void warm_up(point& x)
     {
@@ -160,6 +177,8 @@ public:
     }
 
 private:
+    static constexpr bool eliminates = std::is_same_v<Element, triangle>;
+
     /// The matrices of all levels, of the element Hessians without what is held.
     void assemble()
     {
@@ -181,6 +200,7 @@ private:
     multigrid cycle_;
     block_assembly assemble_;
     std::optional<vertex_relaxation<Element>> relaxation_;
+    std::optional<nonlinear_elimination> elimination_;
     std::optional<block_matrix> indefinite_;
     bool exact_ = false;
 };

@@ -12,7 +12,7 @@
 #include <taut/compute/vector_space.hpp>
 #include <taut/objective/element_arrays.hpp>
 #include <taut/objective/relaxation_kernels.hpp>
-#include <taut/objective/relaxation_schedule.hpp>
+#include <taut/objective/detail/relaxation_schedule.hpp>
 
 namespace taut
 {

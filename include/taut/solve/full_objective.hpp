@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -138,10 +139,24 @@ public:
         return std::nullopt;
     }
 
+    /// Whether there is anything to eliminate() with.
+    static constexpr bool eliminates =
+        requires(O & f, point& x, const vector& unexpected, const std::function<bool()>& proceed)
+    {
+        f.eliminate(x, unexpected, proceed);
+    };
+
     /// Whether x was moved.
     bool relax(point& x)
     {
         if constexpr (requires { f_.relax(x); }) return f_.relax(x);
+        return false;
+    }
+
+    /// Whether x was moved.
+    bool eliminate(point& x, const vector& unexpected, const std::function<bool()>& proceed)
+    {
+        if constexpr (eliminates) return f_.eliminate(x, unexpected, proceed);
         return false;
     }
 

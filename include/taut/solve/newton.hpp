@@ -246,12 +246,15 @@ private:
         taken_ = t.step;
         constexpr double near_end = 1e-2;
         near_end_ = !(step_.value_before - value_ > near_end * f_.size(value_));
-        if (full)
+        const bool eliminates = full_objective<Objective>::eliminates && step_.iteration >= params_.eliminate_from &&
+                                step_.value_before - value_ < params_.eliminate_below * f_.size(value_);
+        if (full && !eliminates)
         {
             std::swap(g_, full_gradient_);
             return settle(*full_square_);
         }
         const bool relaxed = t.step < params_.relax_below && f_.relax(x_);
+        if (eliminates) return eliminate(std::min(1.0, t.step));
         if (!relaxed && !near_end_ && f_.gradient(x_, g_))
         {
             monitor_.count(0, 1);
@@ -261,6 +264,31 @@ private:
         double square;
         value_ = step_.value = f_.value_gradient(x_, g_, square);
         monitor_.count(1, 1);
+        return settle(square);
+    }
+
+    /// The end of accept() where what the last step found far from quadratic is minimised by itself: where the
+    /// gradient is not (1 - share) times the one before, as it is where the model holds.
+    std::optional<solve::stop> eliminate(double share)
+    {
+        double square;
+        value_ = step_.value = f_.value_gradient(x_, g_, square);
+        monitor_.count(1, 1);
+        if (!unexpected_) unexpected_.emplace(f_.space().make());
+        f_.space().copy(g_, *unexpected_);
+        f_.space().axpby(share - 1, last_g_, 1, *unexpected_);
+        const vector* const both[] = {&*unexpected_, &last_g_};
+        std::array<double, 4> products;
+        f_.space().multi_dot(both, both, products);
+        const double limit = params_.eliminate_above * params_.eliminate_above * products[3];
+        if (products[0] > limit && std::sqrt(square) > common_.stopping.gradient_tolerance * scale_ &&
+            f_.eliminate(x_, *unexpected_, [this] { return monitor_.proceed(); }))
+        {
+            value_ = step_.value = f_.value_gradient(x_, g_, square);
+            monitor_.count(1, 1);
+            ++report_.eliminations;
+            along_stand_in_ = false; // the last direction says nothing of where x is now
+        }
         return settle(square);
     }
 
@@ -310,6 +338,7 @@ private:
     pcg_result model_;
     step_record step_;
     double value_ = 0, scale_ = 1, taken_ = 0;
+    std::optional<vector> unexpected_;  // of the last gradient, by the model
     std::optional<double> full_square_; // norm of full_gradient_ squared, if it came with the trial steps
     bool exact_ = false;                // d_ is of the Hessian itself
     bool along_stand_in_ = false;       // last_d_ is of the stand-in

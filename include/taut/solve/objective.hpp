@@ -48,6 +48,9 @@ using vector_of = typename space_of<O>::vector;
 /// | `value_scale()`                   | a rise of f that is typical for the problem, below which values do not   |
 /// |                                   | say what is much or little; without it, 0                                |
 /// | `relax(x)`                        | lowers f by other means than steps along one direction; whether it moved |
+/// | `eliminate(x, unexpected,         | the same, where it is farthest from quadratic: there the vectors of      |
+/// |  proceed)`                        | `unexpected`, a gradient less what a model expected, are longest; asks   |
+/// |                                   | proceed() whether to go on                                               |
 /// | `rounding()`                      | the rounding error of a value by the larger of the value and its scale,  |
 /// |                                   | where it is above that of double                                         |
 /// | `waits()`                         | how often the host has waited for a device so far                        |

@@ -281,11 +281,22 @@ struct newton_params
     /// After a step shorter than this the objective is asked to relax what cut it short. Range [0, 1].
     double relax_below = 0.5;
 
+    /// From this iteration on, and once one lowers the value by less than that part, the objective is asked to minimise
+    /// by itself where a step has brought a gradient that the model did not expect; earlier, the whole is too far from
+    /// where its parts belong. Ranges >= 1 and >= 0; 0: never.
+    int eliminate_from = 10;
+    double eliminate_below = 1e-3;
+    /// And only if what was not expected is longer than this part of the gradient before. Range > 0.
+    double eliminate_above = 0.3;
+
     void validate() const
     {
         pcg.validate();
         if (!(exact_below >= 0 && exact_below < 1)) throw parameter_error("newton.exact_below", "must be in [0, 1)");
         if (!(relax_below >= 0 && relax_below <= 1)) throw parameter_error("newton.relax_below", "must be in [0, 1]");
+        if (!(eliminate_from >= 1)) throw parameter_error("newton.eliminate_from", "must be at least 1");
+        if (!(eliminate_below >= 0)) throw parameter_error("newton.eliminate_below", "must be at least 0");
+        if (!(eliminate_above > 0)) throw parameter_error("newton.eliminate_above", "must be above 0");
     }
 };
 

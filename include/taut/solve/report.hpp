@@ -34,6 +34,7 @@ struct report
     int iterations = 0;       ///< accepted steps
     int evaluations = 0;      ///< values computed, those that came with a gradient included
     int gradients = 0;        ///< gradients computed
+    int eliminations = 0;     ///< iterations after which parts were minimised by themselves (Newton's method)
     int products = 0;         ///< Hessian products, nearly all with a preconditioning (Newton's method)
     int restarts = 0;         ///< times the method forgot what it knew of earlier steps
     int skipped_pairs = 0;    ///< steps without positive curvature, left out of the quasi-Newton memory
@@ -62,6 +63,7 @@ inline report joined(report first, report next)
     next.evaluations += first.evaluations;
     next.gradients += first.gradients;
     next.products += first.products;
+    next.eliminations += first.eliminations;
     next.restarts += first.restarts;
     next.skipped_pairs += first.skipped_pairs;
     next.seconds += first.seconds;

@@ -413,6 +413,56 @@ TEST_CASE("newton: finds the minimum of Rosenbrock's function in few iterations"
     }
 }
 
+namespace
+{
+
+/// Rosenbrock's function, of which a part may be minimised by itself: here all of it.
+struct with_elimination : decltype(rosenbrock(2))
+{
+    explicit with_elimination(std::size_t n) : decltype(rosenbrock(2))(rosenbrock(n)) {}
+
+    bool eliminate(std::vector<double>& x, const std::vector<double>& unexpected, const std::function<bool()>& proceed)
+    {
+        ++asked;
+        longest = std::max(longest, std::abs(*std::max_element(unexpected.begin(), unexpected.end())));
+        if (!moves || !proceed()) return false;
+        std::fill(x.begin(), x.end(), 1.0);
+        return true;
+    }
+
+    bool moves = true;
+    int asked = 0;
+    double longest = 0;
+};
+
+} // namespace
+
+TEST_CASE("newton: goes on from where parts were minimised by themselves")
+{
+    const std::size_t n = 8;
+    const newton_common_params common{.stopping = {.gradient_tolerance = 1e-10, .max_iterations = 200}};
+    const auto run = [&](with_elimination& f, newton_params how, std::vector<double> x)
+    { return newton(f, x, how, common); };
+    const std::vector<double> x(n, -1.2);
+    with_elimination f(n);
+    const auto found = run(f, {.eliminate_from = 4, .eliminate_below = 1, .eliminate_above = 1e-3}, x);
+    CHECK(found.iterations == 4);
+    CHECK(found.eliminations == 1);
+    CHECK(found.stop == stop::gradient);
+    CHECK(found.value == doctest::Approx(1));
+    CHECK(f.longest > 0);
+
+    with_elimination still(n), never(n);
+    still.moves = false;
+    const auto in_vain = run(still, {.eliminate_from = 4, .eliminate_below = 1, .eliminate_above = 1e-3}, x);
+    const auto without = run(never, {.eliminate_below = 0}, x);
+    CHECK(still.asked > 1);
+    CHECK(never.asked == 0);
+    CHECK(in_vain.eliminations == 0);
+    CHECK(in_vain.iterations == without.iterations);
+    CHECK(in_vain.value == without.value);
+}
+
 TEST_CASE("newton: a quadratic takes one iteration for each space of directions")
 {
     const std::size_t n = 12;

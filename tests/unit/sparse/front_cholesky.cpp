@@ -115,3 +115,18 @@ TEST_CASE("isometric Newton: steps go down to a map that no displacement improve
         }
     }
 }
+
+TEST_CASE("front Cholesky: says whether the sum was positive definite, on meshes of all sizes")
+{
+    for (const auto& m : {taut::test::single_triangle(), taut::test::grid(12, 9), taut::test::bumpy(40)})
+    {
+        auto blocks = random_blocks(m.cells().size());
+        taut::detail::front_cholesky solver(m.cells(), std::vector<char>(m.points().size(), 0));
+        solver.factorize(blocks, 1e-12);
+        CHECK(solver.definite());
+        for (block& b : blocks)
+            for (std::size_t k = 0; k < 6; ++k) b[k][k] -= 5;
+        solver.factorize(blocks, 1e-12);
+        CHECK_FALSE(solver.definite());
+    }
+}
