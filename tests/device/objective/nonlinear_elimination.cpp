@@ -126,7 +126,7 @@ TEST_CASE("nonlinear elimination: a disturbed spot is minimised, and what is aro
         auto g = s.f.space().make();
         const double before = s.f.value_gradient(s.x, g);
         REQUIRE(std::isfinite(before));
-        REQUIRE(before > s.least * 1.001);
+        REQUIRE(before > s.least * 1.0005);
         const auto places = s.x.download();
 
         REQUIRE(s.f.eliminate(s.x, g, always));
@@ -153,8 +153,8 @@ TEST_CASE("nonlinear elimination: patches have the data of their cells")
     const std::size_t stride = s.f.layout().vertex_stride;
     const double steep = length_at(g.download(), s.spot, stride);
     REQUIRE(s.f.eliminate(s.x, g, always));
-    CHECK(s.f.value_gradient(s.x, g) < before);
-    CHECK(length_at(g.download(), s.spot, stride) < 1e-2 * steep);
+    CHECK(s.f.value_gradient(s.x, g) - s.least < 0.02 * (before - s.least));
+    CHECK(length_at(g.download(), s.spot, stride) < 0.1 * steep);
 }
 
 TEST_CASE("nonlinear elimination: pinned and otherwise bound vertices stay bit for bit")
