@@ -191,7 +191,7 @@ private:
     {
         const auto& kernel = kernels_->second;
         kernel.launch(this->cells(), this->arrays()->with(x.data(), {kernel.as_argument(sign), {"hessian", hessian_}}));
-        this->springs().add_hessian(hessian_, [](idx j, idx k) { return hessian_slots<D>::at(j, k, j, k); });
+        this->springs().add_hessian(hessian_);
     }
 
     std::shared_ptr<const kernels> kernels_;

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include <taut/compute/handler.hpp>
+#include <taut/compute/record.hpp>
 #include <taut/compute/vector_space.hpp>
 #include <taut/constrain/point_constraints.hpp>
 #include <taut/mesh/layout.hpp>
+#include <taut/objective/element_hessian.hpp>
 #include <taut/objective/real_types.hpp>
 
 namespace taut
@@ -76,6 +79,7 @@ public:
                 }
             }
         }
+        if (!kernels_) kernels_ = std::make_shared<const kernels>(queue_, types_);
         cell_ = buffer<idx>(queue_, cell);
         vertex_ = buffer<idx>(queue_, vertex);
         stiffness_ = real_buffer(queue_, types_.vector, stiffness);
@@ -85,27 +89,7 @@ public:
     /// To the energies of elements at x.
     void add_energy(const device_vector& x, real_buffer& energies)
     {
-        if (count_ == 0) return;
-        queue_.submit(
-            [&](handler& h)
-            {
-                const list l(*this, h);
-                const auto p = x.data().read(h);
-                const auto e = energies.read_write(h);
-                h.parallel_for("spring_energy", count(),
-                               [&](auto i)
-                               {
-                                   auto sum = e[l.cell[i]];
-                                   for (idx j = 0; j < idx(corners); ++j)
-                                       for (idx k = 0; k < D; ++k)
-                                       {
-                                           const auto gap =
-                                               cast(types_.vector, p[l.place(i, j, k)] - l.at_target(i, j, k));
-                                           sum = sum + l.stiff(i, j, k) * gap * gap;
-                                       }
-                                   e[l.cell[i]] = sum;
-                               });
-            });
+        launch_energies(x, stiffness_, stiffness_, std::array{0.0}, energies);
     }
 
     /// To the energies of elements at x + unit[0] a d, `steps.size()` segments of cell_stride each.
@@ -113,114 +97,158 @@ public:
     void add_energies(const device_vector& x, const device_vector& d, const real_buffer& unit,
                       const std::array<double, N>& steps, real_buffer& energies)
     {
-        if (count_ == 0) return;
-        queue_.submit(
-            [&](handler& h)
-            {
-                const list l(*this, h);
-                const auto p = x.data().read(h);
-                const auto along = d.data().read(h);
-                const auto u = unit.read(h);
-                std::array<sym<double>, N> a;
-                for (std::size_t n = 0; n < N; ++n) a[n] = h.uniform(types_.vector, steps[n]);
-                const auto e = energies.read_write(h);
-                h.parallel_for("spring_along", count(),
-                               [&](auto i)
-                               {
-                                   for (std::size_t n = 0; n < N; ++n)
-                                   {
-                                       const auto at = l.cell[i] + static_cast<idx>(n) * l.cells;
-                                       auto sum = e[at];
-                                       for (idx j = 0; j < idx(corners); ++j)
-                                           for (idx k = 0; k < D; ++k)
-                                           {
-                                               const auto v = l.place(i, j, k);
-                                               const auto gap = cast(types_.vector, p[v] - l.at_target(i, j, k)) +
-                                                                u[0] * a[n] * along[v];
-                                               sum = sum + l.stiff(i, j, k) * gap * gap;
-                                           }
-                                       e[at] = sum;
-                                   }
-                               });
-            });
+        launch_energies(x, d.data(), unit, steps, energies);
     }
 
     /// To the gradients of corners.
     void add_gradient(const device_vector& x, real_buffer& corner_gradients)
     {
-        if (count_ == 0) return;
-        queue_.submit(
-            [&](handler& h)
-            {
-                const list l(*this, h);
-                const auto p = x.data().read(h);
-                const auto g = corner_gradients.read_write(h);
-                h.parallel_for("spring_gradient", count(),
-                               [&](auto i)
-                               {
-                                   for (idx j = 0; j < idx(corners); ++j)
-                                       for (idx k = 0; k < D; ++k)
-                                       {
-                                           const auto slot = l.cell[i] + (j * D + k) * l.cells;
-                                           const auto gap = p[l.place(i, j, k)] - l.at_target(i, j, k);
-                                           g[slot] = g[slot] + 2.0 * cast(types_.position, l.stiff(i, j, k)) * gap;
-                                       }
-                               });
-            });
+        if (count_ > 0) kernels_->gradient(count_, with({{"x", x.data()}, {"corner_gradient", corner_gradients}}));
     }
 
-    /// To the Hessians of elements, packed as hessian_slots say: slot(j, k) is that of coordinate k of corner j.
-    template <class Slot>
-    void add_hessian(real_buffer& hessian, const Slot& slot)
+    /// To the Hessians of elements, packed as hessian_slots say.
+    void add_hessian(real_buffer& hessian)
     {
-        if (count_ == 0) return;
-        queue_.submit(
-            [&](handler& h)
-            {
-                const list l(*this, h);
-                const auto H = hessian.read_write(h);
-                h.parallel_for("spring_hessian", count(),
-                               [&](auto i)
-                               {
-                                   for (idx j = 0; j < idx(corners); ++j)
-                                       for (idx k = 0; k < D; ++k)
-                                       {
-                                           const auto at = l.cell[i] + static_cast<idx>(slot(j, k)) * l.cells;
-                                           H[at] = H[at] + 2.0 * l.stiff(i, j, k);
-                                       }
-                               });
-            });
+        if (count_ > 0) kernels_->hessian(count_, with({{"hessian", hessian}}));
     }
 
 private:
+    using real = sym<double>;
+    static constexpr int trials = 4;
+
     /// The springs as a kernel sees them.
     struct list
     {
         in_array<idx> cell, vertex;
         in_array<double> stiffness, target;
-        sym<idx> n, cells, vertices;
+        sym<idx> count, cells, vertices;
 
-        list(const spring_terms& c, handler& h)
-            : cell(c.cell_.read(h)),
-              vertex(c.vertex_.read(h)),
-              stiffness(c.stiffness_.read(h)),
-              target(c.target_.read(h)),
-              n(h.uniform(static_cast<idx>(c.count_))),
-              cells(h.uniform(c.cell_stride_)),
-              vertices(h.uniform(c.vertex_stride_))
+        list(recording& r, const real_types& types)
+            : cell(r.in<idx>("cell")),
+              vertex(r.in<idx>("vertex")),
+              stiffness(r.in<double>("stiffness", types.vector)),
+              target(r.in<double>("target", types.position)),
+              count(r.scalar<idx>("count")),
+              cells(r.scalar<idx>("cell_stride")),
+              vertices(r.scalar<idx>("vertex_stride"))
         {
         }
-        auto place(sym<idx> i, idx j, idx k) const { return vertex[i + j * n] + k * vertices; }
-        auto stiff(sym<idx> i, idx j, idx k) const { return stiffness[i + (j * D + k) * n]; }
-        auto at_target(sym<idx> i, idx j, idx k) const { return target[i + (j * D + k) * n]; }
+        auto place(sym<idx> i, idx j, idx k) const { return vertex[i + j * count] + k * vertices; }
+        auto stiff(sym<idx> i, idx j, idx k) const { return stiffness[i + (j * D + k) * count]; }
+        auto at_target(sym<idx> i, idx j, idx k) const { return target[i + (j * D + k) * count]; }
     };
 
-    range count() const { return {count_}; }
+    /// One work-item an element that carries springs, or such an element and a step length.
+    struct kernels
+    {
+        recorded_kernel energies, gradient, hessian;
+
+        kernels(const queue& q, const real_types& types) : kernels(program(q, types)) {}
+        explicit kernels(const traced_program& p)
+            : energies(p, "spring_energies"), gradient(p, "spring_gradient"), hessian(p, "spring_hessian")
+        {
+        }
+
+        static traced_program program(const queue& q, const real_types& types)
+        {
+            const auto form = detail::form_for(q.device());
+            return {q, {record_energies(types, form), record_gradient(types, form), record_hessian(types, form)}};
+        }
+
+        static kernel_text record_energies(const real_types& types, kernel_form form)
+        {
+            recording r(types.vector);
+            const list l(r, types);
+            const auto p = r.in<double>("x", types.position);
+            const auto d = r.in<double>("d", types.vector);
+            const auto unit = r.in<double>("unit", types.vector);
+            auto energies = r.inout<double>("energy", types.vector);
+            const auto item = r.global_id(), i = item % l.count, trial = item / l.count;
+            real a = r.scalar<double>("step0", types.vector);
+            for (int t = 1; t < trials; ++t)
+                a = select(trial == t, r.scalar<double>("step" + std::to_string(t), types.vector), a);
+            const auto at = l.cell[i] + trial * l.cells;
+            real sum = energies[at];
+            for (idx j = 0; j < idx(corners); ++j)
+                for (idx k = 0; k < D; ++k)
+                {
+                    const auto v = l.place(i, j, k);
+                    const auto along = d[select(a == 0.0, sym<idx>(0), v)]; // d may be short where no step is taken
+                    const auto gap = cast(types.vector, p[v] - l.at_target(i, j, k)) + unit[sym<idx>(0)] * a * along;
+                    sum = sum + l.stiff(i, j, k) * gap * gap;
+                }
+            energies[at] = sum;
+            return r.finish("spring_energies", form, kernel_use::seldom);
+        }
+
+        static kernel_text record_gradient(const real_types& types, kernel_form form)
+        {
+            recording r(types.vector);
+            const list l(r, types);
+            const auto p = r.in<double>("x", types.position);
+            auto g = r.inout<double>("corner_gradient", types.position);
+            const auto i = r.global_id();
+            for (idx j = 0; j < idx(corners); ++j)
+                for (idx k = 0; k < D; ++k)
+                {
+                    const auto slot = l.cell[i] + (j * D + k) * l.cells;
+                    const auto gap = p[l.place(i, j, k)] - l.at_target(i, j, k);
+                    g[slot] = g[slot] + 2.0 * cast(types.position, l.stiff(i, j, k)) * gap;
+                }
+            return r.finish("spring_gradient", form, kernel_use::seldom);
+        }
+
+        static kernel_text record_hessian(const real_types& types, kernel_form form)
+        {
+            recording r(types.vector);
+            const list l(r, types);
+            auto H = r.inout<double>("hessian", types.vector);
+            const auto i = r.global_id();
+            for (idx j = 0; j < idx(corners); ++j)
+                for (idx k = 0; k < D; ++k)
+                {
+                    const auto at = l.cell[i] + static_cast<idx>(hessian_slots<D>::at(j, k, j, k)) * l.cells;
+                    H[at] = H[at] + 2.0 * l.stiff(i, j, k);
+                }
+            return r.finish("spring_hessian", form, kernel_use::seldom);
+        }
+    };
+
+    std::vector<named_argument> with(std::initializer_list<named_argument> more) const
+    {
+        std::vector<named_argument> all = {{"cell", cell_},
+                                           {"vertex", vertex_},
+                                           {"stiffness", stiffness_},
+                                           {"target", target_},
+                                           {"count", static_cast<idx>(count_)},
+                                           {"cell_stride", cell_stride_},
+                                           {"vertex_stride", vertex_stride_}};
+        all.insert(all.end(), more);
+        return all;
+    }
+
+    template <std::size_t N>
+    void launch_energies(const device_vector& x, const real_buffer& d, const real_buffer& unit,
+                         const std::array<double, N>& steps, real_buffer& energies)
+    {
+        static_assert(N <= trials);
+        if (count_ == 0) return;
+        const auto step = [&](std::size_t k) { return steps[std::min(k, N - 1)]; };
+        kernels_->energies(N * count_, with({{"x", x.data()},
+                                             {"d", d},
+                                             {"unit", unit},
+                                             {"energy", energies},
+                                             {"step0", step(0)},
+                                             {"step1", step(1)},
+                                             {"step2", step(2)},
+                                             {"step3", step(3)}}));
+    }
 
     queue queue_;
     real_types types_;
     idx cell_stride_, vertex_stride_;
-    std::size_t count_ = 0; ///< elements that carry springs
+    std::shared_ptr<const kernels> kernels_; ///< none before there are springs
+    std::size_t count_ = 0;                  ///< elements that carry springs
     buffer<idx> cell_, vertex_;
     real_buffer stiffness_, target_;
 };
