@@ -101,7 +101,7 @@ public:
         detail::require_distinct(*state_, text, arguments_);
         detail::require_range(*state_, text, r, arguments_);
         const auto use = state_->enter();
-        const auto& kernel = state_->cache.find(text.source, text.name, {});
+        const auto& kernel = state_->cache.find(text.source, text.name, detail::few_functions);
         cl_uint i = 0;
         for (const auto& a : arguments_) a.set(*state_, kernel.get(), name, i++);
         detail::argument(detail::count_of(*state_, name, r)).set(*state_, kernel.get(), name, i);

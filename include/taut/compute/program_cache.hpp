@@ -9,9 +9,12 @@
 #include <utility>
 
 #include <taut/compute/detail/build_excerpt.hpp>
+#include <taut/compute/detail/few_functions.hpp>
+#include <taut/compute/detail/kernels/functions.hpp>
 #include <taut/compute/detail/program_builder.hpp>
 #include <taut/compute/device.hpp>
 #include <taut/compute/errors.hpp>
+#include <taut/compute/quirks.hpp>
 
 namespace taut
 {
@@ -86,8 +89,7 @@ private:
     {
         try
         {
-            target.program = boost::compute::program::create_with_source(source, context_);
-            target.program.build((quick_ ? "-cl-std=CL1.2 -cl-opt-disable " : "-cl-std=CL1.2 ") + options);
+            if (!built_without_header(target, source, options)) compile(target, source, options);
         }
         catch (const boost::compute::opencl_error& e)
         {
@@ -98,6 +100,29 @@ private:
         }
         target.built = true;
         ++builds_;
+    }
+
+    void compile(entry& target, const std::string& source, const std::string& options)
+    {
+        target.program = boost::compute::program::create_with_source(source, context_);
+        target.program.build((quick_ ? "-cl-std=CL1.2 -cl-opt-disable " : "-cl-std=CL1.2 ") + options);
+    }
+
+    /// Builds a program that says it calls few functions without OpenCL's header of all of them, where drivers leave it
+    /// out for its guard. False for other programs, and for what such a driver refuses: it may do better with the
+    /// header.
+    bool built_without_header(entry& target, const std::string& source, const std::string& options)
+    {
+        if (!quirks::reads_long_header(device_) || !options.starts_with(detail::few_functions)) return false;
+        try
+        {
+            compile(target, detail::kernels::functions + ("#line 1\n" + source), options + " -D_OPENCL_H_");
+            return true;
+        }
+        catch (const boost::compute::opencl_error&)
+        {
+            return false;
+        }
     }
 
     /// What the compiler said; a driver that failed earlier may have nothing to say.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/compute/detail/few_functions.hpp>
 #include <taut/compute/detail/joined_source.hpp>
 #include <taut/compute/kernel.hpp>
 #include <taut/compute/quirks.hpp>
@@ -220,7 +221,7 @@ private:
     {
         detail::require_fp64(*state_, text_);
         if (text_.form == kernel_form::item) state_->fail("kernel " + text_.name, "it was recorded without a count");
-        kernel_ = {q, source, text_.name, {}, std::vector<detail::parameter>{}};
+        kernel_ = {q, source, text_.name, detail::few_functions, std::vector<detail::parameter>{}};
     }
 
     /// arguments: all of them, and room for the count of indices.

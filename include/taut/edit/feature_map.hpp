@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <taut/compute/buffer.hpp>
+#include <taut/compute/detail/few_functions.hpp>
 #include <taut/compute/detail/kernels/feature_map.hpp>
 #include <taut/compute/kernel.hpp>
 #include <taut/core/csr.hpp>
@@ -112,7 +113,7 @@ inline std::vector<vec3> sample(queue& q, const feature_map& map, std::span<cons
     for (const vec2& p : points) at.push_back(map.in_texels(p));
     const buffer<float> texels(q, map.values), places(q, detail::floats_of(at));
     buffer<float> positions(q, 3 * points.size());
-    const kernel run(q, detail::kernels::feature_map, "map_sample");
+    const kernel run(q, detail::kernels::feature_map, "map_sample", detail::few_functions);
     run({padded(points.size(), 64), 64}, {{"count", static_cast<idx>(points.size())},
                                           {"width", map.width},
                                           {"height", map.height},
@@ -177,8 +178,8 @@ inline feature_map make_feature_map(queue& q, const feature& part, std::span<con
     const buffer<idx> starts(q, tiles.offsets), items(q, tiles.items);
     const buffer<float> places(q, detail::floats_of(corners)), values(q, positions);
     buffer<float> texels(q, 4 * count), next(q, 4 * count);
-    const kernel cover(q, detail::kernels::feature_map, "map_cover"),
-        go_on(q, detail::kernels::feature_map, "map_continue");
+    const kernel cover(q, detail::kernels::feature_map, "map_cover", detail::few_functions),
+        go_on(q, detail::kernels::feature_map, "map_continue", detail::few_functions);
     const range all(padded(count, 64), 64);
     cover(all, {{"width", map.width},
                 {"height", map.height},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <taut/compute/detail/few_functions.hpp>
 #include <taut/compute/detail/kernels/rbf.hpp>
 #include <taut/compute/kernel.hpp>
 #include <taut/compute/real_buffer.hpp>
@@ -36,8 +37,8 @@ public:
         polynomial_ = {q, type_, 12};
         out_ = {q, type_, 3 * count_};
         evaluate_ = {q, detail::kernels::rbf, "rbf_evaluate",
-                     "-DREAL=" + std::string(spelling(type_)) +
-                         " -DPHI=" + std::to_string(static_cast<int>(field.basis)),
+                     detail::few_functions + ("-DREAL=" + std::string(spelling(type_)) +
+                                              " -DPHI=" + std::to_string(static_cast<int>(field.basis))),
                      type_};
     }
 

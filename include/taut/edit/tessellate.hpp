@@ -32,7 +32,7 @@ struct map_cell
 /// feature or none is rougher than `tolerance`.
 inline std::vector<map_cell> split_cells(queue& q, const feature_map& map, std::size_t count, double tolerance)
 {
-    const kernel measure(q, kernels::feature_map, "map_roughness");
+    const kernel measure(q, kernels::feature_map, "map_roughness", few_functions);
     const buffer<float> texels(q, map.values);
     idx largest = 2;
     while (2 * largest < std::max(map.width, map.height)) largest *= 2;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/compute/detail/few_functions.hpp>
 #include <taut/compute/detail/kernels/block_sparse.hpp>
 #include <taut/compute/lane_form.hpp>
 #include <taut/compute/vector_space.hpp>
@@ -25,10 +26,11 @@ namespace detail
 inline std::string block_options(scalar_type real, int D, int K, lane_form form)
 {
     const bool wide = real == scalar_type::f64;
-    return "-DREAL=" + std::string(spelling(real)) + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
-           " -DD=" + std::to_string(D) + " -DK=" + std::to_string(K) + " -DC=" + std::to_string(form.slice) +
-           " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
-           " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f");
+    return few_functions +
+           ("-DREAL=" + std::string(spelling(real)) + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
+            " -DD=" + std::to_string(D) + " -DK=" + std::to_string(K) + " -DC=" + std::to_string(form.slice) +
+            " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
+            " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f"));
 }
 
 inline late_kernel transfer_kernel(queue q, const char* name, scalar_type real, int D, int K, lane_form form)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <taut/compute/detail/few_functions.hpp>
 #include <taut/compute/kernel.hpp>
+#include <taut/compute/quirks.hpp>
 
 #include "support/device.hpp"
 
@@ -86,6 +88,30 @@ TEST_CASE("kernel: quick builds leave optimisations out, and results as they are
     const taut::test::with_variable wish("TAUT_BUILD", "quick");
     taut::queue asked;
     CHECK(options_of(asked).find("-cl-opt-disable") != std::string::npos);
+}
+
+TEST_CASE("kernel: programs that say they call few functions are built without a long header, others with it")
+{
+    taut::queue q;
+    const auto without_header = [&](const std::string& options, const std::string& value)
+    {
+        const std::string source =
+            "__kernel void f(__global float* x) { const size_t i = get_global_id(0); x[i] = " + value + "; }";
+        taut::buffer<float> x(q, std::vector<float>(64, 9));
+        taut::kernel(q, source, "f", options)(64, x);
+        CHECK(x.download() == std::vector<float>(64, 3));
+        return contains(
+            q.state()
+                ->cache.find(source, "f", options)
+                .get_program()
+                .get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS, boost::compute::device(q.device().native())),
+            "_OPENCL_H_");
+    };
+    const std::string few = taut::detail::few_functions;
+    CHECK(without_header(few, "sqrt(x[i])") == taut::quirks::reads_long_header(q.device()));
+    CHECK(without_header(few + "-DX=x[i]", "sqrt(X)") == taut::quirks::reads_long_header(q.device()));
+    CHECK(!without_header("", "sqrt(x[i])"));
+    CHECK(!without_header(few, "half_sqrt(x[i]) > 2.9f ? 3 : 0")); // it calls another one all the same
 }
 
 TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built here if nobody else has")

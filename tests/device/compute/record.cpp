@@ -135,6 +135,23 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
     CHECK_THROWS_AS(taut::traced_program(q, {texts[0], texts[1], texts[0]}), taut::parameter_error);
 }
 
+TEST_CASE_TEMPLATE("trace: recordings call no functions but the few that are declared", T, float, double)
+{
+    taut::queue q;
+    taut::recording r;
+    const auto x = r.in<T>("x");
+    auto y = r.out<T>("y");
+    const auto v = x[r.global_id()];
+    y[r.global_id()] = abs(v) + floor(v) + sqrt(v) + cbrt(v) + exp(v) + log(v) + sin(v) + cos(v) + tan(v) + atan(v) +
+                       pow(v, taut::sym<T>(T(1.1)) * v) + min(v, taut::sym<T>(T(2))) + max(v, taut::sym<T>(T(2)));
+    const auto text = r.finish("all_functions", taut::detail::form_for(q.device()));
+    const taut::recorded_kernel built(q, text);
+    const auto program = q.state()->cache.find(text.source, "all_functions", taut::detail::few_functions).get_program();
+    const auto options = program.template get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS,
+                                                                      boost::compute::device(q.device().native()));
+    CHECK((options.find("_OPENCL_H_") != std::string::npos) == taut::quirks::reads_long_header(q.device()));
+}
+
 TEST_CASE("trace: a buffer that is written must not be bound twice")
 {
     taut::queue q;

@@ -12,6 +12,7 @@
 
 #include <taut/atlas/detail/chart_start.hpp>
 #include <taut/atlas/detail/panel_order.hpp>
+#include <taut/compute/detail/few_functions.hpp>
 #include <taut/compute/detail/kernels/charts.hpp>
 #include <taut/compute/kernel.hpp>
 #include <taut/compute/quirks.hpp>
@@ -60,8 +61,8 @@ public:
         : type(q.device().has_fp64() ? scalar_type::f64 : scalar_type::f32),
           team(quirks::wants_serial_items(q.device()) ? 1 : 64),
           newton_(q, source(type), "chart_newton",
-                  "-DREAL=" + std::string(spelling(type)) + " -DTEAM=" + std::to_string(team) +
-                      " -DEPSILON=" + (type == scalar_type::f64 ? "1e-11" : "1e-5f"),
+                  few_functions + ("-DREAL=" + std::string(spelling(type)) + " -DTEAM=" + std::to_string(team) +
+                                   " -DEPSILON=" + (type == scalar_type::f64 ? "1e-11" : "1e-5f")),
                   type)
     {
     }

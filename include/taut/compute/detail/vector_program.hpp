@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+
+#include <taut/compute/detail/few_functions.hpp>
 #include <taut/compute/detail/kernels/blas.hpp>
 #include <taut/compute/detail/kernels/gather.hpp>
 #include <taut/compute/detail/kernels/reduce.hpp>
@@ -22,8 +24,8 @@ inline const std::string& vector_program()
 /// Its build options for numbers of a type.
 inline std::string vector_options(scalar_type real, const device& d, const reduction_plan& plan)
 {
-    return "-DREAL=" + std::string(spelling(real)) + " -DFP64=" + (d.has_fp64() ? "1" : "0") +
-           " -DL=" + std::to_string(plan.local) + " -DV=" + std::to_string(plan.width);
+    return few_functions + ("-DREAL=" + std::string(spelling(real)) + " -DFP64=" + (d.has_fp64() ? "1" : "0") +
+                            " -DL=" + std::to_string(plan.local) + " -DV=" + std::to_string(plan.width));
 }
 
 } // namespace taut::detail

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/compute/detail/few_functions.hpp>
 #include <taut/compute/detail/kernels/untangle.hpp>
 #include <taut/compute/kernel.hpp>
 #include <taut/core/budget.hpp>
@@ -75,8 +76,9 @@ public:
           state_(queue_, state_size)
     {
         const std::string source = detail::kernels::untangle;
-        const std::string options = "-DD=" + std::to_string(D) + " -DL=" + std::to_string(items_) +
-                                    " -DV=" + std::to_string(form.lanes) + " -DC=" + std::to_string(form.slice);
+        const std::string options =
+            detail::few_functions + ("-DD=" + std::to_string(D) + " -DL=" + std::to_string(items_) +
+                                     " -DV=" + std::to_string(form.lanes) + " -DC=" + std::to_string(form.slice));
         elements_ = {queue_, source, "untangle_elements", options};
         decide_ = {queue_, source, "untangle_decide", options};
         move_ = {queue_, source, "untangle_move", options};
