@@ -49,15 +49,53 @@ fs::path kernels_of_pocl()
     return variable("POCL_KERNEL_CACHE") != "0" && ::access(folder.c_str(), W_OK) == 0 ? folder : fs::path();
 }
 
-/// What `taut build-kernels` is told to build the program with these options; empty for one that it does not build.
-std::vector<std::string> arguments_of(const std::string& options, const taut::device& device)
+/// What `taut build-kernels` is told.
+struct order
+{
+    std::vector<std::string> arguments; ///< none: it cannot
+    std::string input;
+};
+
+/// Of the kernels of matrices, the one whole program that it knows how to launch.
+order order_of(const std::string& options, const taut::device& device)
 {
     for (const int dimension : {2, 3})
         for (const auto real : {scalar_type::f32, scalar_type::f64})
             if (options == detail::block_options(real, dimension, dimension + 1, lane_form::for_device(device)))
-                return {"build-kernels", std::to_string(dimension), std::string(spelling(real))};
+                return {{"build-kernels", std::to_string(dimension), std::string(spelling(real))}, {}};
     return {};
 }
+
+order order_of(const std::string& source, const std::string& options, const std::vector<std::string>& kernels)
+{
+    order o{{"build-kernels"}, options + '\n'};
+    for (const auto& name : kernels) o.input += name + ' ';
+    o.input += '\n' + source;
+    return o;
+}
+
+/// A process at work.
+struct work
+{
+    work(const order& o, const fs::path& result) : process(o.arguments, environment(), patience, o.input), mark(result)
+    {
+    }
+
+    /// Waits a moment for its end.
+    bool goes_on()
+    {
+        if (over) return false;
+        auto news = process.news();
+        ::poll(news.data(), news.size(), moment);
+        over = process.look().has_value();
+        if (over) std::ofstream{mark}; // also where it failed: what it has not built, this process will
+        return !over;
+    }
+
+    child process;
+    fs::path mark;
+    bool over = false;
+};
 
 } // namespace
 
@@ -67,25 +105,27 @@ program_builder build_elsewhere(const taut::device& device, const std::string& w
     const bool useful =
         quirks::is_pocl(device) && device.compute_units() > 1 && std::thread::hardware_concurrency() > 1;
     if (!useful || folder.empty()) return {};
-    return [=](const std::string& source, const std::string& options) -> std::function<bool()>
+    const auto latest = std::make_shared<std::shared_ptr<work>>();
+    return [=](const std::string& source, const std::string& options,
+               const std::vector<std::string>& kernels) -> build_under_way
     {
+        auto order = kernels.empty() ? order_of(options, device) : order_of(source, options, kernels);
         const auto mark =
-            folder / ("taut-" + std::to_string(std::hash<std::string>()(device.label() + options + source)));
-        auto arguments = arguments_of(options, device);
+            folder /
+            ("taut-" + std::to_string(std::hash<std::string>()(device.label() + options + order.input + source)));
         std::error_code failure;
-        if (arguments.empty() || fs::exists(mark, failure)) return {};
-        if (!wish.empty()) arguments.insert(arguments.end(), {"--device", wish});
+        if (order.arguments.empty() || fs::exists(mark, failure)) return {};
+        if (*latest && (*latest)->goes_on())
+        {
+            // A third process would take from the other two what it gives: these kernels are for this one.
+            std::ofstream{mark};
+            return {};
+        }
+        if (!wish.empty()) order.arguments.insert(order.arguments.end(), {"--device", wish});
         try
         {
-            const auto process = std::make_shared<child>(arguments, environment(), patience);
-            return [=]
-            {
-                auto news = process->news();
-                ::poll(news.data(), news.size(), moment);
-                if (!process->look()) return true;
-                std::ofstream{mark};
-                return false;
-            };
+            *latest = std::make_shared<work>(order, mark);
+            return [at = *latest] { return at->goes_on(); };
         }
         catch (const std::system_error&)
         {

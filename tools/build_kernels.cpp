@@ -2,12 +2,16 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iostream>
 #include <memory>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <taut/compute/detail/signature.hpp>
+#include <taut/compute/record.hpp>
 #include <taut/objective/element_hessian.hpp>
 #include <taut/objective/mesh_levels.hpp>
 #include <taut/objective/newton_plan.hpp>
@@ -76,9 +80,37 @@ void build(queue& q, scalar_type real, idx side)
     q.finish();
 }
 
+/// Launches kernels once that standard input names: build options, names, and the source of recorded kernels, which do
+/// nothing for no indices.
+void build_named(queue& q)
+{
+    std::string options, names, source;
+    std::getline(std::cin, options);
+    std::getline(std::cin, names);
+    std::getline(std::cin, source, '\0');
+    const buffer<double> nothing(q, 1);
+    std::istringstream each(names);
+    for (std::string name; each >> name;)
+    {
+        std::vector<detail::argument> arguments;
+        for (const auto& p : detail::signature_of(source, name, scalar_type::f64))
+        {
+            const detail::argument number = p.type == "int" ? detail::argument(idx(0)) : detail::argument(0.0);
+            arguments.push_back(p.is_memory ? detail::argument(nothing) : number.as(p.type));
+        }
+        kernel(q, source, name, options)(detail::items_for(kernel_form::run, 1), arguments);
+    }
+    q.finish();
+}
+
 exit_code run(const build_options& options)
 {
     queue q(options.device.empty() ? choose_device({}) : find_device(options.device, {}, "--device "));
+    if (options.real.empty())
+    {
+        build_named(q);
+        return exit_code::valid;
+    }
     const auto real = options.real == spelling(scalar_type::f64) ? scalar_type::f64 : scalar_type::f32;
     // With levels, and without.
     for (const idx side : options.dimension == 2 ? std::array{48, 4} : std::array{16, 3})
@@ -91,10 +123,12 @@ exit_code run(const build_options& options)
 command add_build_kernels(CLI::App& program)
 {
     const auto options = std::make_shared<build_options>();
-    auto& app = *program.add_subcommand("build-kernels", "Compile the kernels of matrices into the driver's cache");
+    auto& app =
+        *program.add_subcommand("build-kernels", "Compile kernels into the driver's cache: those of matrices, or "
+                                                 "those that standard input names");
     app.group(""); // not in the help
-    app.add_option("dimension", options->dimension)->required()->check(CLI::Range(2, 3));
-    app.add_option("real", options->real)->required();
+    app.add_option("dimension", options->dimension)->check(CLI::Range(2, 3));
+    app.add_option("real", options->real);
     add_device(app, options->device);
     return [options] { return run(*options); };
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -41,13 +42,28 @@ std::pair<io::detail::descriptor, io::detail::descriptor> make_pipe()
     return {io::detail::descriptor(ends[0]), io::detail::descriptor(ends[1])};
 }
 
+/// A file without a name, to be read from its beginning.
+io::detail::descriptor file_of(const std::string& text)
+{
+    io::detail::descriptor file(::memfd_create("taut", MFD_CLOEXEC));
+    for (std::size_t at = 0; file && at < text.size();)
+    {
+        const auto written = ::write(*file, text.data() + at, text.size() - at);
+        if (written < 0) throw std::system_error(errno, std::generic_category(), "no memory for a file");
+        at += static_cast<std::size_t>(written);
+    }
+    if (!file || ::lseek(*file, 0, SEEK_SET) != 0) throw std::system_error(errno, std::generic_category(), "no file");
+    return file;
+}
+
 /// In the child between fork and exec, where nothing but plain system calls is safe.
-[[noreturn]] void become(char* const* args, char* const* environment, int out, int err, rlim_t memory, pid_t parent)
+[[noreturn]] void become(char* const* args, char* const* environment, int in, int out, int err, rlim_t memory,
+                         pid_t parent)
 {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(127); // it was over before that
-    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+    ::dup2(in, STDIN_FILENO);
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
     const rlimit none{0, 0}, data{memory, memory};
@@ -69,12 +85,14 @@ std::vector<std::string> environment()
     return all;
 }
 
-child::child(const std::vector<std::string>& args, const std::vector<std::string>& environment, const limits& bounds)
+child::child(const std::vector<std::string>& args, const std::vector<std::string>& environment, const limits& bounds,
+             const std::string& input)
     : bounds_(bounds)
 {
     std::vector<std::string> all = {"taut"}, variables = environment;
     all.insert(all.end(), args.begin(), args.end());
     const auto arguments = pointers_to(all), values = pointers_to(variables);
+    const auto in = file_of(input);
     auto [out, out_end] = make_pipe();
     auto [err, err_end] = make_pipe();
     // A fence for what grows faster than somebody looks: allocations beyond it fail.
@@ -82,7 +100,7 @@ child::child(const std::vector<std::string>& args, const std::vector<std::string
     const pid_t parent = ::getpid();
     process_ = ::fork();
     if (process_ < 0) throw std::system_error(errno, std::generic_category(), "no process");
-    if (process_ == 0) become(arguments.data(), values.data(), *out_end, *err_end, fence, parent);
+    if (process_ == 0) become(arguments.data(), values.data(), *in, *out_end, *err_end, fence, parent);
     streams_ = {std::move(out), std::move(err)};
     over_ = io::detail::descriptor(static_cast<int>(::syscall(SYS_pidfd_open, process_, 0)));
 }

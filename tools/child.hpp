@@ -46,14 +46,15 @@ struct child_end
     std::string printed, complaints; ///< the last 64 KiB of standard output and error
 };
 
-/// This program as a child process, in a process group of its own, without standard input. Over its time it is asked to
+/// This program as a child process, in a process group of its own. Over its time it is asked to
 /// end (SIGTERM), so that it keeps what it has, and after the grace it is killed; over its memory it is killed at once.
 /// It does not outlive this process, whatever ends that.
 class child
 {
 public:
-    /// environment: NAME=VALUE. Throws std::system_error if no process can be made.
-    child(const std::vector<std::string>& args, const std::vector<std::string>& environment, const limits& bounds);
+    /// environment: NAME=VALUE. input: what it reads. Throws std::system_error if no process can be made.
+    child(const std::vector<std::string>& args, const std::vector<std::string>& environment, const limits& bounds,
+          const std::string& input = {});
     ~child();
     child(const child&) = delete;
     child& operator=(const child&) = delete;

@@ -1063,6 +1063,7 @@ test_cold()
 {
     grid 20 >in.obj
     expect 0 unwrap in.obj -o warm.obj --quiet
+    expect 0 unwrap in.obj -o shape.obj --energy shape --quiet
     "$taut" devices | grep -q 'pthread' && [ -r /proc/self/environ ] && [ "$(nproc)" -gt 1 ] || exit 77
     same=$POCL_CACHE_DIR
     export POCL_CACHE_DIR="$PWD/cold"
@@ -1084,6 +1085,17 @@ test_cold()
         cmp -s warm.obj out.obj || fail "another map where the process beside $fate"
         [ -z "$(builders)" ] || fail "a process is left where it $fate"
         ls cold/taut-* >/dev/null 2>&1 || fail "nothing tells that kernels are built where it $fate"
+    done
+
+    # So has the next energy, for some of its kernels, once.
+    marks=$(ls cold/taut-* | wc -l)
+    for time in first second; do
+        expect 0 unwrap in.obj -o out.obj --energy shape --quiet
+        cmp -s shape.obj out.obj || fail "another map of the next energy, the $time time"
+        now=$(ls cold/taut-* | wc -l)
+        [ "$time" = second ] || [ "$now" -gt "$marks" ] || fail 'nothing tells of the kernels of the next energy'
+        [ "$time" = first ] || [ "$now" -eq "$marks" ] || fail 'kernels are built twice'
+        marks=$now
     done
 
     # Who ends the program ends both.

@@ -54,9 +54,9 @@ public:
         const auto use = state_->enter();
         for (const auto& p : signature_)
             if (p.type == "double") detail::require_fp64(*state_, scalar_type::f64, "kernel " + name_);
-        do state_->ask_between_builds();
-        while (state_->cache.under_way(source, options));
+        state_->await(state_->cache.under_way(source, options));
         kernel_ = state_->cache.find(source, name_, options);
+        under_way_ = state_->cache.under_way(source, options, name_);
         count_ = kernel_.get_info<cl_uint>(CL_KERNEL_NUM_ARGS);
     }
 
@@ -84,7 +84,7 @@ public:
         }
         for (std::size_t i = 0; i < bound.size(); ++i)
             if (!bound[i]) refuse("it needs an argument " + signature_[i].name);
-        return state_->launch(kernel_, name_, r);
+        return enqueue(r);
     }
 
     /// By position; OpenCL checks sizes only. Throws parameter_error for another number of arguments.
@@ -95,7 +95,7 @@ public:
             refuse("it takes " + std::to_string(count_) + " arguments, not " + std::to_string(arguments.size()));
         cl_uint i = 0;
         for (const auto& a : arguments) a.set(*state_, kernel_.get(), name_, i++);
-        return state_->launch(kernel_, name_, r);
+        return enqueue(r);
     }
     template <class... Args>
         requires(sizeof...(Args) > 0 && (std::is_constructible_v<detail::argument, const Args&> && ...))
@@ -117,6 +117,12 @@ public:
     }
 
 private:
+    event enqueue(range r) const
+    {
+        if (under_way_) state_->await(std::exchange(under_way_, nullptr));
+        return state_->launch(kernel_, name_, r);
+    }
+
     [[noreturn]] void refuse(const std::string& why) const { throw parameter_error("kernel " + name_, why); }
 
     static std::string describe(std::string_view type, bool is_memory)
@@ -139,7 +145,8 @@ private:
     boost::compute::kernel kernel_;
     std::string name_;
     std::vector<detail::parameter> signature_;
-    std::size_t count_ = 0; ///< of its arguments
+    std::size_t count_ = 0;             ///< of its arguments
+    mutable build_under_way under_way_; ///< elsewhere, to be waited for at the first launch
 };
 
 namespace detail

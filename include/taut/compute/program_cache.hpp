@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <taut/compute/detail/build_excerpt.hpp>
 #include <taut/compute/detail/few_functions.hpp>
@@ -36,17 +37,33 @@ public:
     {
         if (!elsewhere_ || quick_) return;
         const auto [found, unknown] = entries_.try_emplace(options + '\0' + source);
-        if (unknown) found->second.under_way = elsewhere_(source, options);
+        if (unknown) found->second.whole = elsewhere_(source, options, {});
     }
 
-    /// Whether a program is being built elsewhere still, after a moment.
-    bool under_way(const std::string& source, const std::string& options)
+    /// Builds a program, and the other builder hears of kernels of it, once. Does nothing where there is none.
+    void share(const std::string& source, const std::string& options, const std::vector<std::string>& kernels)
+    {
+        if (!elsewhere_ || quick_ || kernels.empty()) return;
+        entry& found = entries_.try_emplace(options + '\0' + source).first->second;
+        if (!found.shared.empty()) return;
+        if (!found.built) build(found, source, kernels.front(), options);
+        found.shared = kernels;
+        found.part = elsewhere_(source, options, kernels);
+    }
+
+    /// Says whether the program is being built elsewhere still.
+    build_under_way under_way(const std::string& source, const std::string& options) const
     {
         const auto found = entries_.find(options + '\0' + source);
-        if (found == entries_.end() || !found->second.under_way) return false;
-        if (found->second.under_way()) return true;
-        found->second.under_way = nullptr;
-        return false;
+        return found == entries_.end() ? nullptr : found->second.whole;
+    }
+    /// Whether that kernel of it is.
+    build_under_way under_way(const std::string& source, const std::string& options, const std::string& name) const
+    {
+        const auto found = entries_.find(options + '\0' + source);
+        if (found == entries_.end()) return nullptr;
+        const auto& shared = found->second.shared;
+        return std::find(shared.begin(), shared.end(), name) == shared.end() ? nullptr : found->second.part;
     }
 
     /// The kernel of that name, built at the first request. Throws build_error if the compiler refuses the source and
@@ -57,13 +74,10 @@ public:
         const auto known = found.kernels.find(name);
         if (known != found.kernels.end()) return known->second;
 
-        const auto start = std::chrono::steady_clock::now();
         if (!found.built) build(found, source, name, options);
         try
         {
-            auto& made = found.kernels.emplace(name, found.program.create_kernel(name)).first->second;
-            seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-            return made;
+            return found.kernels.emplace(name, found.program.create_kernel(name)).first->second;
         }
         catch (const boost::compute::opencl_error& e)
         {
@@ -81,12 +95,14 @@ private:
     {
         boost::compute::program program;
         bool built = false;
-        std::function<bool()> under_way; ///< elsewhere
+        std::vector<std::string> shared;
+        build_under_way whole, part; ///< elsewhere: the program, and the kernels that it shares
         std::unordered_map<std::string, boost::compute::kernel> kernels;
     };
 
     void build(entry& target, const std::string& source, const std::string& name, const std::string& options)
     {
+        const auto start = std::chrono::steady_clock::now();
         try
         {
             if (!built_without_header(target, source, options)) compile(target, source, options);
@@ -100,6 +116,7 @@ private:
         }
         target.built = true;
         ++builds_;
+        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
     void compile(entry& target, const std::string& source, const std::string& options)

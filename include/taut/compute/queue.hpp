@@ -34,7 +34,7 @@ struct queue_options
     /// TAUT_BUILD=quick has the same effect on every queue.
     bool quick_builds = false;
 
-    /// Called for programs that are known to be needed some time before they are.
+    /// Called for programs that are known to be needed some time before they are, and for kernels of one that is built.
     program_builder build_elsewhere = {};
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
@@ -143,29 +145,52 @@ inline idx count_of(const queue_state& state, const std::string& name, const ran
 class traced_program
 {
 public:
+    /// common: kernels that other such programs have, too, as a program apart, which the driver's cache may hold.
     /// Throws parameter_error for two kernels of one name.
-    traced_program(taut::queue q, std::vector<kernel_text> texts)
-        : queue_(std::move(q)), texts_(std::move(texts)), source_(detail::joined_source(texts_))
+    traced_program(taut::queue q, std::vector<kernel_text> texts, std::vector<kernel_text> common = {})
+        : queue_(std::move(q)),
+          source_(detail::joined_source(texts)),
+          common_source_(detail::joined_source(common)),
+          common_begin_(texts.size()),
+          texts_(std::move(texts))
     {
+        std::move(common.begin(), common.end(), std::back_inserter(texts_));
     }
 
-    /// Of the program, in OpenCL C.
+    /// Of the program, without what is apart, in OpenCL C.
     const std::string& source() const noexcept { return source_; }
 
-    /// The kernel of that name, as it was recorded. Throws parameter_error for a name that is not there.
-    const kernel_text& text(const std::string& name) const
+    /// Of the program that a kernel is in. Throws parameter_error for a name that is not there.
+    const std::string& source_of(const std::string& name) const
     {
-        for (const auto& t : texts_)
-            if (t.name == name) return t;
-        throw parameter_error(name, "the program has no kernel of this name");
+        return position(name) < common_begin_ ? source_ : common_source_;
+    }
+
+    /// The kernel of that name, as it was recorded. Throws parameter_error for a name that is not there.
+    const kernel_text& text(const std::string& name) const { return texts_[position(name)]; }
+
+    /// Builds the program, and has kernels of it compiled elsewhere, where somebody does: see
+    /// queue_options::build_elsewhere.
+    void share(const std::vector<std::string>& names) const
+    {
+        const auto use = queue_.state()->enter();
+        queue_.state()->cache.share(source_, detail::few_functions, names);
     }
 
     taut::queue& queue() const noexcept { return queue_; }
 
 private:
+    std::size_t position(const std::string& name) const
+    {
+        for (std::size_t k = 0; k < texts_.size(); ++k)
+            if (texts_[k].name == name) return k;
+        throw parameter_error(name, "the program has no kernel of this name");
+    }
+
     mutable taut::queue queue_;
+    std::string source_, common_source_;
+    std::size_t common_begin_;
     std::vector<kernel_text> texts_;
-    std::string source_;
 };
 
 /// A kernel recorded from C++: built once, launched many times with other buffers.
@@ -175,7 +200,7 @@ public:
     recorded_kernel() = default;
     recorded_kernel(queue& q, const kernel_text& text) : recorded_kernel(q, text, text.source) {}
     recorded_kernel(const traced_program& p, const std::string& name)
-        : recorded_kernel(p.queue(), p.text(name), p.source())
+        : recorded_kernel(p.queue(), p.text(name), p.source_of(name))
     {
     }
 

@@ -38,11 +38,12 @@ struct element_kernels
     recorded_kernel first_flips;
 
     element_kernels(const queue& q, const any_energy& energy, const real_types& types)
-        : element_kernels(traced_program(q, record(energy, types, detail::form_for(q.device()))))
+        : element_kernels(traced_program(q, record(energy, types, detail::form_for(q.device())),
+                                         record_common(energy, types, detail::form_for(q.device()))))
     {
     }
 
-    /// From a program with all that record() gives.
+    /// From a program with all that record() and record_common() give.
     explicit element_kernels(const traced_program& p)
         : value(p, "element_value"),
           gradient(p, "element_gradient"),
@@ -55,7 +56,12 @@ struct element_kernels
     static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
         return {record_value(energy, types, form), record_gradient(energy, types, form),
-                record_along(energy, types, form), record_first_flips(energy, types, form)};
+                record_along(energy, types, form)};
+    }
+    /// Those that are the same for all energies without data.
+    static std::vector<kernel_text> record_common(const any_energy& energy, const real_types& types, kernel_form form)
+    {
+        return {record_first_flips(energy, types, form)};
     }
 
     static kernel_text record_value(const any_energy& energy, const real_types& types, kernel_form form)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -28,8 +29,8 @@ enum class capping_elements
     left     ///< nothing: for energies without a barrier
 };
 
-/// The kernels of one energy for Newton's method, traced once, built as one program and shared by all levels of a
-/// hierarchy.
+/// The kernels of one energy for Newton's method, traced once, built as one program beside what all energies have, and
+/// shared by all levels of a hierarchy. Those that are launched last may be compiled elsewhere.
 template <class Element>
 struct newton_kernels
 {
@@ -50,7 +51,24 @@ private:
                                  capping_elements capping)
     {
         detail::expect_block_kernels(q, of.vector, Element::dimension);
-        return {q, record(energy, of, detail::form_for(q.device()), capping)};
+        const auto form = detail::form_for(q.device());
+        auto texts = decltype(first)::record(energy, of, form),
+             common = decltype(first)::record_common(energy, of, form);
+        std::vector<std::string> later;
+        const auto add = [&](kernel_text text)
+        {
+            later.push_back(text.name);
+            texts.push_back(std::move(text));
+        };
+        add(decltype(second)::record(energy, of, form));
+        if (relaxes(capping))
+        {
+            for (auto& text : relaxation_kernels<Element>::record(energy, of, form)) add(std::move(text));
+            for (auto& text : relaxation_kernels<Element>::record_common(of, form)) common.push_back(std::move(text));
+        }
+        traced_program p(q, std::move(texts), std::move(common));
+        p.share(later);
+        return p;
     }
 
     newton_kernels(const traced_program& p, const any_energy& energy, const real_types& of, capping_elements capping)
@@ -60,16 +78,6 @@ private:
     }
 
     static bool relaxes(capping_elements capping) { return Element::oriented && capping == capping_elements::relaxed; }
-
-    static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form,
-                                           capping_elements capping)
-    {
-        auto all = decltype(first)::record(energy, types, form);
-        all.push_back(decltype(second)::record(energy, types, form));
-        if (relaxes(capping))
-            for (auto& text : relaxation_kernels<Element>::record(energy, types, form)) all.push_back(std::move(text));
-        return all;
-    }
 };
 
 /// A map_objective that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into

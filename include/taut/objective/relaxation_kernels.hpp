@@ -59,11 +59,13 @@ struct relaxation_kernels
     double rest; ///< density of the identity
 
     relaxation_kernels(const queue& q, const any_energy& energy, const real_types& types)
-        : relaxation_kernels(traced_program(q, record(energy, types, detail::form_for(q.device()))), energy)
+        : relaxation_kernels(traced_program(q, record(energy, types, detail::form_for(q.device())),
+                                            record_common(types, detail::form_for(q.device()))),
+                             energy)
     {
     }
 
-    /// From a program with all that record() gives for this energy.
+    /// From a program with all that record() and record_common() give for this energy.
     relaxation_kernels(const traced_program& p, const any_energy& energy)
         : densities(p, "relaxation_densities"),
           terms(p, "relaxation_terms"),
@@ -77,8 +79,13 @@ struct relaxation_kernels
     /// The kernels as text, for a program that others share.
     static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
-        return {record_densities(energy, types, form), record_terms(energy, types, form), record_steps(types, form),
-                record_tries(energy, types, form), record_moves(types, form)};
+        return {record_densities(energy, types, form), record_terms(energy, types, form),
+                record_tries(energy, types, form)};
+    }
+    /// Those that are the same for all energies.
+    static std::vector<kernel_text> record_common(const real_types& types, kernel_form form)
+    {
+        return {record_steps(types, form), record_moves(types, form)};
     }
 
     static kernel_text record_densities(const any_energy& energy, const real_types& types, kernel_form form)

@@ -120,13 +120,15 @@ TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built h
     std::vector<std::string> told;
     int asked = 0;
     bool works = true;
-    taut::queue q(taut::choose_device(), {.build_elsewhere = [&](const std::string& source, const std::string& options)
-                                          {
-                                              CHECK(source == text);
-                                              told.push_back(options);
-                                              return works ? std::function<bool()>([&] { return ++asked < 3; })
-                                                           : std::function<bool()>();
-                                          }});
+    const auto elsewhere =
+        [&](const std::string& source, const std::string& options, const std::vector<std::string>& kernels)
+    {
+        CHECK(source == text);
+        CHECK(kernels.empty());
+        told.push_back(options);
+        return works ? taut::build_under_way([&] { return ++asked < 3; }) : taut::build_under_way();
+    };
+    taut::queue q(taut::choose_device(), {.build_elsewhere = elsewhere});
     const auto right = [&](const std::string& options)
     {
         const auto add_to = q.kernel<taut::buffer<float>, float>(text, "add_to", options);
@@ -142,14 +144,50 @@ TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built h
     CHECK(right("-DB")); // another program waits for nobody
     CHECK(asked == 0);
     CHECK(right("-DA"));
-    CHECK(right("-DA"));
     CHECK(asked == 3);
+    CHECK(right("-DA"));
     cache.expect(text, "-DA"); // it is there
     works = false;
     cache.expect(text, "-DC");
     CHECK(right("-DC"));
     CHECK(told == std::vector<std::string>{"-DA", "-DC"});
     CHECK(q.counters().builds == 3);
+}
+
+TEST_CASE("kernel: kernels that are compiled elsewhere are told once and waited for at their first launch")
+{
+    const std::string text = "__kernel void one(__global float* y) { y[get_global_id(0)] += 1; }\n"
+                             "__kernel void two(__global float* y) { y[get_global_id(0)] += 2; }\n";
+    std::vector<std::string> told;
+    int asked = 0;
+    const auto elsewhere =
+        [&](const std::string& source, const std::string& options, const std::vector<std::string>& kernels)
+    {
+        CHECK(source == text);
+        CHECK(options == "-DA");
+        told.insert(told.end(), kernels.begin(), kernels.end());
+        return [&] { return ++asked < 3; };
+    };
+    taut::queue q(taut::choose_device(), {.build_elsewhere = elsewhere});
+    const taut::kernel one(q, text, "one", "-DA");
+    for (int time = 0; time < 2; ++time) q.state()->cache.share(text, "-DA", {"two"});
+    CHECK(told == std::vector<std::string>{"two"});
+    const taut::kernel two(q, text, "two", "-DA");
+    taut::buffer<float> y(q, std::vector<float>(64, 0));
+    one(64, y);
+    CHECK(asked == 0);
+    for (int time = 0; time < 2; ++time)
+    {
+        two(64, y);
+        CHECK(asked == 3);
+    }
+    CHECK(y.download() == std::vector<float>(64, 5));
+    CHECK(q.counters().builds == 1);
+
+    taut::queue quick(taut::choose_device(), {.quick_builds = true, .build_elsewhere = elsewhere});
+    taut::kernel(quick, text, "one", "-DA");
+    quick.state()->cache.share(text, "-DA", {"two"});
+    CHECK(told.size() == 1);
 }
 
 TEST_CASE("kernel: a compiler's refusal shows kernel, log, device and the numbered lines around the error")

@@ -53,6 +53,13 @@ struct queue_state
         between_builds();
     }
 
+    /// Until nobody else is compiling.
+    void await(const build_under_way& elsewhere)
+    {
+        do ask_between_builds();
+        while (elsewhere && elsewhere());
+    }
+
     [[noreturn]] void fail(const std::string& operation, const std::string& reason, int code = 0) const
     {
         throw device_error(operation, reason, device.label(), code);
