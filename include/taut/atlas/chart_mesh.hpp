@@ -64,6 +64,19 @@ inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table
 namespace detail
 {
 
+/// seam: one flag a side of a surface, whose facets are `f`
+inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
+{
+    double length = 0;
+    for (std::size_t s = 0; s < seam.size(); ++s)
+    {
+        if (f.twin[s] <= static_cast<idx>(s) || seam[s] == 0) continue;
+        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
+        length += glm::distance(m.points()[static_cast<std::size_t>(a)], m.points()[static_cast<std::size_t>(b)]);
+    }
+    return length;
+}
+
 /// The pieces of a surface that hang together across edges that are no seams: the number of its piece for each
 /// triangle, pieces in the order of their first triangles, and how many there are.
 inline std::pair<std::vector<idx>, idx> pieces_between(const facet_table& f, std::span<const char> seam)

@@ -107,7 +107,7 @@ struct uncut_segmentation
     std::vector<vec2> uv;       ///< one a corner
     std::vector<double> energy; ///< one a triangle: of its chart
     std::vector<char> crosses;  ///< one a triangle: whether its chart overlaps itself
-    segment_report report;      ///< but for what it counts of charts
+    segment_report report;      ///< but for what it says of seams and counts of charts
 };
 
 uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,

@@ -148,7 +148,7 @@ public:
     }
 
 private:
-    static constexpr idx none = -1, leaf = 4;
+    static constexpr idx none = -1, leaf = 8;
 
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 

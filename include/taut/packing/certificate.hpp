@@ -54,28 +54,16 @@ inline double distance(const vec2& a, const vec2& b, const vec2& c, const vec2& 
     return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
 }
 
-} // namespace detail
-
-/// Certifies charts in unit squares, whoever laid them there: the square of a chart is the one of the middle of its
-/// box, so that tiles may lie side by side or in UDIM's rows of ten. Give it the coordinates as they were written:
-/// rounded to floats or decimals, and read back. O(n log n) for n edges of borders.
-///
-/// uv, cells, first_cell, first_vertex: as for pack()
-/// pinned: charts that others were laid around, one flag each: distances of two of them, and of one and the border, do
-/// not count; or empty
-/// Throws packing_error.
-inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
-                                           std::span<const idx> first_cell, std::span<const idx> first_vertex,
-                                           std::span<const char> pinned = {})
+/// certify_packing() of charts whose borders, in these coordinates, are known.
+inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
+                                            const chart_outlines& outlines, std::span<const char> pinned)
 {
-    detail::check_charts(uv, cells, first_cell, first_vertex);
-    const auto outlines = detail::find_outlines(uv, cells, first_cell, first_vertex);
     const auto at = [uv](idx v) { return uv[static_cast<std::size_t>(v)]; };
     const auto is_pinned = [pinned](idx c) { return !pinned.empty() && pinned[static_cast<std::size_t>(c)] != 0; };
     packing_certificate sealed;
-    detail::overlap_search search(uv, cells, outlines, 100'000);
+    overlap_search search(uv, cells, outlines, 100'000);
     const auto chart = search.chart_of_edge();
-    const detail::edge_tree tree(outlines.edges, uv, outlines.first);
+    const edge_tree tree(outlines.edges, uv, outlines.first);
     const auto find_gap = [&]
     {
         tree.for_each_pair_within(sealed.gap,
@@ -83,7 +71,7 @@ inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<c
                                   {
                                       if (is_pinned(chart[i]) && is_pinned(chart[j])) return true;
                                       const auto &e = outlines.edges[i], &f = outlines.edges[j];
-                                      const double d = detail::distance(at(e[0]), at(e[1]), at(f[0]), at(f[1]));
+                                      const double d = distance(at(e[0]), at(e[1]), at(f[0]), at(f[1]));
                                       if (d >= sealed.gap) return true;
                                       sealed.gap = d;
                                       sealed.nearest = {std::min(chart[i], chart[j]), std::max(chart[i], chart[j])};
@@ -126,6 +114,24 @@ inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<c
     if (!(sealed.gap > 0) || !pinned.empty()) search.crossing(tree);
     sealed.overlaps = search.found();
     return sealed;
+}
+
+} // namespace detail
+
+/// Certifies charts in unit squares, whoever laid them there: the square of a chart is the one of the middle of its
+/// box, so that tiles may lie side by side or in UDIM's rows of ten. Give it the coordinates as they were written:
+/// rounded to floats or decimals, and read back. O(n log n) for n edges of borders.
+///
+/// uv, cells, first_cell, first_vertex: as for pack()
+/// pinned: charts that others were laid around, one flag each: distances of two of them, and of one and the border, do
+/// not count; or empty
+/// Throws packing_error.
+inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
+                                           std::span<const idx> first_cell, std::span<const idx> first_vertex,
+                                           std::span<const char> pinned = {})
+{
+    detail::check_charts(uv, cells, first_cell, first_vertex);
+    return detail::certify_outlined(uv, cells, detail::find_outlines(uv, cells, first_cell, first_vertex), pinned);
 }
 
 } // namespace taut

@@ -50,6 +50,16 @@ struct packing
     }
 };
 
+namespace detail
+{
+
+struct chart_outlines;
+
+/// pack() of charts whose borders, in these coordinates, are known.
+packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params);
+
+} // namespace detail
+
 /// Packs charts into squares: all at one scale, as large as is found, turned and shifted, never mirrored, in the gaps,
 /// bays and holes of each other. The same input gives the same layout whatever the number of threads.
 ///

@@ -13,7 +13,6 @@
 #include <taut/core/parallel.hpp>
 #include <taut/energy/isometric.hpp>
 #include <taut/exact/predicates.hpp>
-#include <taut/mesh/facets.hpp>
 #include <taut/mesh/ideal.hpp>
 #include <taut/packing/pack.hpp>
 
@@ -65,19 +64,6 @@ inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<
     for (const double x : values) sum += x;
     report.distortion = sum / in_space;
     report.utilization = layout.utilization;
-}
-
-/// seam: one flag a side of a surface, whose facets are `f`
-inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
-{
-    double length = 0;
-    for (std::size_t s = 0; s < seam.size(); ++s)
-    {
-        if (f.twin[s] <= static_cast<idx>(s) || seam[s] == 0) continue;
-        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
-        length += glm::distance(m.points()[static_cast<std::size_t>(a)], m.points()[static_cast<std::size_t>(b)]);
-    }
-    return length;
 }
 
 } // namespace taut::detail

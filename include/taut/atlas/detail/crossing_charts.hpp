@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -41,8 +42,24 @@ inline bool may_overlap(const chart_mesh& charts, std::size_t k)
     return charts.first_cell[k + 1] - charts.first_cell[k] > 2;
 }
 
-/// One flag a chart, without flips, of genus 0: 1 where it overlaps itself.
+/// Whether a chart, without flips, of genus 0, overlaps itself.
 /// uv: one a vertex of charts.surface, finite
+inline bool overlaps_itself(const chart_mesh& charts, std::size_t k, std::span<const vec2> uv)
+{
+    if (!may_overlap(charts, k)) return false;
+    static thread_local std::vector<std::array<idx, 2>> border;
+    border.clear();
+    for_each_border_side(charts, static_cast<idx>(k), [&](idx from, idx to) { border.push_back({from, to}); });
+    // By Euler, V - E + F = 2 - loops.
+    const idx vertices = charts.first_vertex[k + 1] - charts.first_vertex[k];
+    const idx cells = charts.first_cell[k + 1] - charts.first_cell[k];
+    const bool disk = 2 * vertices - (3 * cells + static_cast<idx>(border.size())) + 2 * cells == 2;
+    // A single border that does not meet itself has the chart to its left.
+    if (disk) return !for_each_meeting(border, uv, [](std::size_t, std::size_t) { return false; });
+    return overlaps_itself(border_loops(charts, static_cast<idx>(k)), uv);
+}
+
+/// One flag a chart, of such charts: 1 where it overlaps itself.
 inline std::vector<char> crossing_charts(const chart_mesh& charts, std::span<const vec2> uv)
 {
     std::vector<char> crossing(static_cast<std::size_t>(charts.charts()), 0);
@@ -50,8 +67,7 @@ inline std::vector<char> crossing_charts(const chart_mesh& charts, std::span<con
         crossing.size(),
         [&](std::size_t begin, std::size_t end)
         {
-            for (std::size_t k = begin; k < end; ++k)
-                crossing[k] = may_overlap(charts, k) && overlaps_itself(border_loops(charts, static_cast<idx>(k)), uv);
+            for (std::size_t k = begin; k < end; ++k) crossing[k] = overlaps_itself(charts, k, uv);
         },
         0, 8);
     return crossing;

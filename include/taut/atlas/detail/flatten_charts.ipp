@@ -147,7 +147,7 @@ private:
 
         const chart_kernel program(queue_);
         result_.seconds.device = clock_.lap();
-        const std::size_t most = program.team == 1 ? std::size_t{1} << 16 : std::size_t{1} << 18;
+        const std::size_t most = program.team == 1 ? std::size_t{1} << 15 : std::size_t{1} << 18;
         for (std::size_t first = 0, last = 0; first < by_size.size() && !clock_.over(); first = last)
         {
             std::size_t count = 0;

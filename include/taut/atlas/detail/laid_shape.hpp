@@ -94,10 +94,9 @@ inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<c
             for (std::size_t i = begin; i < end; ++i)
             {
                 if (!(energy[i] < std::numeric_limits<double>::infinity())) continue;
-                if (!whole && !may_overlap(charts, i)) continue;
-                const auto loops = border_loops(charts, static_cast<idx>(i));
-                shapes[i].crosses = may_overlap(charts, i) && overlaps_itself(loops, uv);
+                shapes[i].crosses = overlaps_itself(charts, i, uv);
                 if (!whole) continue;
+                const auto loops = border_loops(charts, static_cast<idx>(i));
                 if (shapes[i].crosses) shapes[i].meetings = meeting_triangles(charts, i, loops, uv);
                 std::vector<vec2> rim;
                 for (const auto& loop : loops)

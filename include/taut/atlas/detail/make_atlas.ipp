@@ -24,6 +24,7 @@
 #include <taut/map/parameterize.hpp>
 #include <taut/mesh/validate.hpp>
 #include <taut/packing/certificate.hpp>
+#include <taut/packing/detail/outlines.hpp>
 
 namespace taut::detail
 {
@@ -374,8 +375,8 @@ private:
         auto params = params_.packing;
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("pack");
-        const auto& cut = charts_->surface;
-        layout_ = pack(flat_, cut.cells(), charts_->first_cell, charts_->first_vertex, params);
+        outlines_ = find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
+        layout_ = pack_outlined(flat_, outlines_, params);
         report_.complete = report_.complete && layout_.complete;
         uv_ = layout_.apply(flat_, charts_->first_vertex);
         for (std::size_t k = 0; k < layout_.places.size(); ++k) // rows of ten tiles
@@ -432,7 +433,9 @@ private:
         report_.seam_length = length_of_seams(mesh_, facets_, seam_);
         if (!report_.reason.empty()) return;
         report_.flips = certify<2>(cut.cells(), std::span<const vec2>(uv_));
-        const auto sealed = certify_packing(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex, pinned);
+        if (!report_.flips || outlines_.turned || outlines_.charts() != charts_->charts())
+            outlines_ = find_outlines(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex);
+        const auto sealed = certify_outlined(uv_, cut.cells(), outlines_, pinned);
         report_.overlaps = sealed.overlaps.pairs + crossing;
         report_.least_distance = std::min(sealed.gap, sealed.border) * params_.packing.resolution;
         report_.seconds.certify += budget_.lap();
@@ -456,6 +459,7 @@ private:
     std::vector<vec2> flat_, uv_; // one a vertex of the charts: in units of the surface, in the tiles
     std::vector<double> energy_;  // one a chart
     packing layout_;
+    chart_outlines outlines_; // of the charts as they were laid; the same in the tiles, unless triangles turned over
     bool usable_ = false;
 };
 

@@ -71,11 +71,10 @@ private:
     {
         const auto id = static_cast<idx>(energy_.size());
         double area = 0, sum = 0;
-        const auto take = [&](idx c, double cosine)
+        const auto take = [&](idx c, const sight& s)
         {
-            const double weight = glm::length(doubled_normal(c));
-            area += weight;
-            sum += weight * (1 + cosine * cosine) * (1 + 1 / (cosine * cosine));
+            area += s.area;
+            sum += s.area * (1 + s.cosine * s.cosine) * (1 + 1 / (s.cosine * s.cosine));
             patches_.patch[u(c)] = id;
             for (std::size_t k = 0; k < 3; ++k)
             {
@@ -87,38 +86,40 @@ private:
         };
         const auto x = mesh_.rest(seed);
         origin_ = x[0];
-        normal_ = glm::normalize(doubled_normal(seed));
+        normal_ = glm::normalize(glm::cross(x[1] - x[0], x[2] - x[0]));
         across_ = glm::normalize(x[1] - x[0]);
         up_ = glm::cross(normal_, across_);
-        if (!(see(seed) > 0)) // too thin to be seen: it is laid by its lengths, alone
+        auto first = see(seed);
+        if (!(first.cosine > 0)) // too thin to be seen: it is laid by its lengths, alone
         {
             const mat2 W = stiff_ideal(x[1] - x[0], x[2] - x[0]);
             patches_.uv[u(seed)] = {vec2(0.0), W[0], W[1]};
             largest = 1;
         }
+        first.cosine = 1;
         front_.clear();
-        take(seed, 1);
+        take(seed, first);
         for (std::size_t i = 0; i < front_.size(); ++i)
             for (idx s = 3 * front_[i]; s < 3 * front_[i] + 3 && front_.size() < largest; ++s)
             {
                 if (!leads_on(s)) continue;
                 const idx t = facets_.twin[u(s)], c = t / 3;
                 if (patches_.patch[u(c)] >= 0 || !stays_disk(t, id)) continue;
-                if (const double cosine = see(c); cosine > 0) take(c, cosine);
+                if (const sight seen = see(c); seen.cosine > 0) take(c, seen);
             }
         energy_.push_back(sum / area);
     }
 
     /// Whether the border of the last patch, which is a disk, meets itself.
-    bool overlaps() const
+    bool overlaps()
     {
         const auto id = static_cast<idx>(energy_.size()) - 1;
-        std::vector<std::array<idx, 2>> border;
+        border_.clear();
         for (const idx c : front_)
             for (idx s = 3 * c; s < 3 * c + 3; ++s)
                 if (!leads_on(s) || patches_.patch[u(facets_.twin[u(s)] / 3)] != id)
-                    border.push_back(side_vertices(mesh_, s));
-        return !for_each_meeting(border, seen_, [](std::size_t, std::size_t) { return false; });
+                    border_.push_back(side_vertices(mesh_, s));
+        return !for_each_meeting(border_, seen_, [](std::size_t, std::size_t) { return false; });
     }
 
     /// Forgets the last patch.
@@ -130,12 +131,6 @@ private:
             for (const idx v : mesh_.cells()[u(c)]) touched_[u(v)] = -1;
         }
         energy_.pop_back();
-    }
-
-    vec3 doubled_normal(idx c) const
-    {
-        const auto x = mesh_.rest(c);
-        return glm::cross(x[1] - x[0], x[2] - x[0]);
     }
 
     bool leads_on(idx side) const
@@ -155,19 +150,25 @@ private:
         return false;
     }
 
-    /// Lays a triangle as it is seen. Returns the cosine of its angle to the axis; 0 where it is seen at a slant.
-    double see(idx c)
+    /// How a triangle is seen: twice its area, and the cosine of its angle to the axis; 0 at a slant.
+    struct sight
+    {
+        double area, cosine;
+    };
+
+    /// Lays a triangle as it is seen.
+    sight see(idx c)
     {
         constexpr double least = 0.5;
-        const vec3 n = doubled_normal(c);
-        const double cosine = glm::dot(n, normal_) / glm::length(n);
-        if (!(cosine > least)) return 0;
         const auto x = mesh_.rest(c);
+        const vec3 n = glm::cross(x[1] - x[0], x[2] - x[0]);
+        const double area = glm::length(n), cosine = glm::dot(n, normal_) / area;
+        if (!(cosine > least)) return {area, 0};
         std::array<vec2, 3> uv;
         for (std::size_t k = 0; k < 3; ++k) uv[k] = {glm::dot(x[k] - origin_, across_), glm::dot(x[k] - origin_, up_)};
-        if (orient2d(uv[0], uv[1], uv[2]) <= 0) return 0;
+        if (orient2d(uv[0], uv[1], uv[2]) <= 0) return {area, 0};
         patches_.uv[u(c)] = uv;
-        return std::min(cosine, 1.0);
+        return {area, std::min(cosine, 1.0)};
     }
 
     const mesh<triangle>& mesh_;
@@ -175,9 +176,10 @@ private:
     std::span<const char> regions_;
     char own_;
     std::span<const char> keep_;
-    std::vector<idx> touched_; // one a vertex: the last patch that has it
-    std::vector<vec2> seen_;   // one a vertex: where it was seen last
-    std::vector<idx> front_;   // the triangles of the last patch
+    std::vector<idx> touched_;               // one a vertex: the last patch that has it
+    std::vector<vec2> seen_;                 // one a vertex: where it was seen last
+    std::vector<idx> front_;                 // the triangles of the last patch
+    std::vector<std::array<idx, 2>> border_; // its border
     vec3 origin_{0.0}, normal_{0.0}, across_{0.0}, up_{0.0};
     seen_patches& patches_;
     std::vector<double> energy_; // one a patch

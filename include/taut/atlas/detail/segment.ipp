@@ -469,6 +469,7 @@ TAUT_INLINE segmentation cut_apart(const mesh<triangle>& m, const facet_table& f
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     segmentation r{{}, cut_charts(m, f, made.seam), {}, {}, made.report};
     r.seam = std::move(made.seam);
+    r.report.seam_length = length_of_seams(m, f, r.seam);
     r.uv.resize(r.charts.surface.points().size());
     for (std::size_t i = 0; i < r.charts.cell_origins.size(); ++i)
         for (std::size_t j = 0; j < 3; ++j)

@@ -209,8 +209,6 @@ protected:
             report_.largest_distortion = std::max(report_.largest_distortion, one.energy);
         }
         if (area > 0) report_.distortion = 4 + total_excess() / area;
-        for (std::size_t s = 0; s < seam_.size(); ++s)
-            if (facets_.twin[s] > static_cast<idx>(s) && seam_[s]) report_.seam_length += length(s);
         r.energy.reserve(chart_.size());
         r.crosses.reserve(chart_.size());
         for (const idx k : chart_)

@@ -28,6 +28,7 @@ struct chart_outlines
     std::vector<idx> cells; ///< the triangle that the edge is from, one an edge
     std::vector<idx> first; ///< #charts + 1: of edges
     std::vector<double> areas;
+    bool turned = false; ///< whether a triangle was; if not, borders are the same wherever no triangle is clockwise
 
     idx charts() const { return static_cast<idx>(first.size()) - 1; }
 };
@@ -59,10 +60,9 @@ inline void check_charts(std::span<const vec2> uv, std::span<const std::array<id
     }
 }
 
-/// The border of one chart, of cells [first, last) and vertices [v0, v1), appended to edges and cells. Returns its
-/// area.
-inline double append_outline(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells, idx first, idx last,
-                             idx v0, idx v1, std::vector<std::array<idx, 2>>& edges, std::vector<idx>& origins)
+/// Appends the border of one chart, of cells [first, last) and vertices [v0, v1).
+inline void append_outline(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells, idx first, idx last,
+                           idx v0, idx v1, chart_outlines& outlines)
 {
     struct side
     {
@@ -82,6 +82,7 @@ inline double append_outline(std::span<const vec2> uv, std::span<const std::arra
     };
     for_each_side([&](idx, idx a, idx b) { ++start[u(std::min(a, b) - v0) + 2]; });
     for (std::size_t v = 2; v < start.size(); ++v) start[v] += start[v - 1];
+    auto& [edges, origins, ends, areas, any_turned] = outlines;
     const std::size_t before = edges.size();
     double area = 0;
     turned.resize(u(last - first));
@@ -90,6 +91,7 @@ inline double append_outline(std::span<const vec2> uv, std::span<const std::arra
         const auto& [a, b, c] = cells[u(t)];
         const auto o = orient(uv[u(a)], uv[u(b)], uv[u(c)]);
         turned[u(t - first)] = o.sign < 0;
+        any_turned = any_turned || o.sign < 0;
         area += std::abs(o.det) / 2;
     }
     sides.resize(3 * u(last - first));
@@ -124,7 +126,8 @@ inline double append_outline(std::span<const vec2> uv, std::span<const std::arra
         edges.push_back({cells[u(first)][k], cells[u(first)][(k + 1) % 3]});
         origins.push_back(first);
     }
-    return area;
+    areas.push_back(area);
+    ends.push_back(static_cast<idx>(edges.size()));
 }
 
 inline chart_outlines find_outlines(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
@@ -139,12 +142,8 @@ inline chart_outlines find_outlines(std::span<const vec2> uv, std::span<const st
         {
             for (std::size_t p = begin; p < end; ++p)
                 for (std::size_t c = p * piece; c < std::min(charts, (p + 1) * piece); ++c)
-                {
-                    parts[p].areas.push_back(append_outline(uv, cells, first_cell[c], first_cell[c + 1],
-                                                            first_vertex[c], first_vertex[c + 1], parts[p].edges,
-                                                            parts[p].cells));
-                    parts[p].first.push_back(static_cast<idx>(parts[p].edges.size()));
-                }
+                    append_outline(uv, cells, first_cell[c], first_cell[c + 1], first_vertex[c], first_vertex[c + 1],
+                                   parts[p]);
         },
         0, 1);
     chart_outlines outlines;
@@ -156,6 +155,7 @@ inline chart_outlines find_outlines(std::span<const vec2> uv, std::span<const st
         outlines.edges.insert(outlines.edges.end(), part.edges.begin(), part.edges.end());
         outlines.cells.insert(outlines.cells.end(), part.cells.begin(), part.cells.end());
         outlines.areas.insert(outlines.areas.end(), part.areas.begin(), part.areas.end());
+        outlines.turned = outlines.turned || part.turned;
     }
     return outlines;
 }

@@ -313,6 +313,16 @@ private:
     packing packed_;
 };
 
+TAUT_INLINE packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params)
+{
+    params.validate(outlines.charts());
+    double area = 0;
+    for (const double a : outlines.areas) area += a;
+    if (!(area > 0)) throw packing_error(packing_fault::no_area, {}, "the charts have no area; flatten them again");
+    const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
+    return packer(pieces, params).run();
+}
+
 } // namespace detail
 
 TAUT_INLINE packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
@@ -321,12 +331,7 @@ TAUT_INLINE packing pack(std::span<const vec2> uv, std::span<const std::array<id
     params.validate(static_cast<idx>(first_cell.size()) - 1);
     if (first_cell.size() < 2) return {};
     detail::check_charts(uv, cells, first_cell, first_vertex);
-    const auto outlines = detail::find_outlines(uv, cells, first_cell, first_vertex);
-    double area = 0;
-    for (const double a : outlines.areas) area += a;
-    if (!(area > 0)) throw packing_error(packing_fault::no_area, {}, "the charts have no area; flatten them again");
-    const auto pieces = detail::make_pieces(uv, outlines, params.densities, params.rotate);
-    return detail::packer(pieces, params).run();
+    return detail::pack_outlined(uv, detail::find_outlines(uv, cells, first_cell, first_vertex), params);
 }
 
 } // namespace taut

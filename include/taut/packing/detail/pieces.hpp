@@ -22,14 +22,17 @@ namespace taut::detail
 /// What the packer knows of a chart. Lengths are its own times its density, points are relative to `centre`.
 struct piece
 {
-    std::vector<std::array<vec2, 2>> edges;
-    std::vector<vec2> hull;      ///< counter-clockwise
-    vec2 centre{0, 0};           ///< in the user's coordinates
-    vec2 axis{1, 0};             ///< the long side of the smallest box, unit length
-    vec2 box{0, 0};              ///< its sides along and across `axis`
-    double area = 0, length = 0; ///< of the triangles, of the border
+    std::span<const std::array<idx, 2>> edges; ///< of the border, as vertices
+    std::span<const vec2> uv;                  ///< of all, in the user's coordinates
+    std::vector<vec2> hull;                    ///< counter-clockwise
+    vec2 centre{0, 0};                         ///< in the user's coordinates
+    vec2 axis{1, 0};                           ///< the long side of the smallest box, unit length
+    vec2 box{0, 0};                            ///< its sides along and across `axis`
+    double area = 0, length = 0;               ///< of the triangles, of the border
     double density = 1;
     double doubt = 0; ///< bound of the rounding errors of a place
+
+    vec2 at(idx v) const { return density * (uv[static_cast<std::size_t>(v)] - centre); }
 };
 
 /// The points that the convex hull turns at, counter-clockwise; collinear ones are left out.
@@ -89,6 +92,7 @@ inline vec2 tightest_axis(std::span<const vec2> hull)
     return high.x - low.x >= high.y - low.y ? best : vec2(-best.y, best.x);
 }
 
+/// They refer to uv and outlines.
 inline std::vector<piece> make_pieces(std::span<const vec2> uv, const chart_outlines& outlines,
                                       std::span<const double> densities, bool turn)
 {
@@ -101,24 +105,22 @@ inline std::vector<piece> make_pieces(std::span<const vec2> uv, const chart_outl
             {
                 piece& p = pieces[c];
                 p.density = densities.empty() ? 1 : densities[c];
-                const auto at = [&](idx v) { return uv[static_cast<std::size_t>(v)]; };
-                const std::span edges(outlines.edges.data() + outlines.first[c],
-                                      outlines.edges.data() + outlines.first[c + 1]);
-                vec2 low = at(edges.front()[0]), high = low;
-                for (const auto& e : edges)
+                p.uv = uv;
+                p.edges = {outlines.edges.data() + outlines.first[c], outlines.edges.data() + outlines.first[c + 1]};
+                const auto begin_of = [&](const std::array<idx, 2>& e) { return uv[static_cast<std::size_t>(e[0])]; };
+                vec2 low = begin_of(p.edges.front()), high = low;
+                for (const auto& e : p.edges)
                 {
-                    low = glm::min(low, at(e[0]));
-                    high = glm::max(high, at(e[0]));
+                    low = glm::min(low, begin_of(e));
+                    high = glm::max(high, begin_of(e));
                 }
                 p.centre = low / 2.0 + high / 2.0;
                 std::vector<vec2> points;
-                points.reserve(edges.size());
-                p.edges.reserve(edges.size());
-                for (const auto& [a, b] : edges)
+                points.reserve(p.edges.size());
+                for (const auto& [a, b] : p.edges)
                 {
-                    p.edges.push_back({p.density * (at(a) - p.centre), p.density * (at(b) - p.centre)});
-                    p.length += glm::length(p.edges.back()[1] - p.edges.back()[0]);
-                    points.push_back(p.edges.back()[0]);
+                    points.push_back(p.at(a));
+                    p.length += glm::length(p.at(b) - points.back());
                 }
                 p.hull = convex_hull(std::move(points));
                 if (turn) p.axis = tightest_axis(p.hull);
@@ -153,7 +155,7 @@ inline std::vector<std::array<vec2, 2>> posed_edges(const piece& p, const pose& 
     const vec2 axis = cells_per_length * at.axis, shift = vec2(inset) - at.corner;
     const auto turned = [&](const vec2& x)
     { return vec2(axis.x * x.x + axis.y * x.y, axis.x * x.y - axis.y * x.x) + shift; };
-    for (const auto& [a, b] : p.edges) edges.push_back({turned(a), turned(b)});
+    for (const auto& [a, b] : p.edges) edges.push_back({turned(p.at(a)), turned(p.at(b))});
     return edges;
 }
 
