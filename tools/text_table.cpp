@@ -25,7 +25,7 @@ std::string count(std::uint64_t n, const std::string& noun, const std::string& n
 
 std::string duration(double seconds)
 {
-    return seconds < 0.1 ? number(1000 * seconds, 2) + " ms" : number(seconds, 3) + " s";
+    return seconds < 0.0995 ? number(1000 * seconds, 2) + " ms" : number(seconds, 3) + " s";
 }
 
 void labelled_lines::add_written(const std::vector<std::string>& files)
