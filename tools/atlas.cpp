@@ -20,6 +20,7 @@
 #include <picture/symmetric_distortion.hpp>
 #include <report/atlas_page.hpp>
 #include <taut/atlas/make_atlas.hpp>
+#include <taut/atlas/symmetry.hpp>
 #include <taut/gltf/gltf.hpp>
 #include <taut/io/write_files.hpp>
 #include <taut/mesh/boundary.hpp>
@@ -138,7 +139,15 @@ private:
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
         params.time_limit = clock_.left(options_.time_limit);
-        atlas_ = make_atlas(*q, m, params);
+        try
+        {
+            atlas_ = make_atlas(*q, m, params);
+        }
+        catch (const symmetry_error& e)
+        {
+            throw symmetry_error(e.normal(), e.offset(), vertices_of_files(sources_, *joined_, e.vertices()),
+                                 e.edges());
+        }
         report_.atlas = atlas_->report;
         report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
         if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;

@@ -277,6 +277,53 @@ def pinned_charts():
     assert "no texture coordinates" in run("atlas", "ball.obj", "-o", "x.obj", "--pin", "pins", code=4).stderr
 
 
+def symmetric_charts():
+    """Charts of a symmetric surface are mirror images: every edge is as long in the atlas as its image."""
+    def image(p):
+        return (round(-p[0], 9) + 0.0, round(p[1], 9) + 0.0, round(p[2], 9) + 0.0)
+
+    def bear(n): # polygons, with other diagonals than their images
+        points, faces = ball(n)
+        for p in points:
+            r = 1 + 0.3 * math.sin(3 * p[1] + 1) * math.cos(4 * p[2] + 2) * math.cos(5 * p[0])
+            p[:] = [r * c for c in p]
+        return points, [[a[0], a[1], a[2], b[2]] for a, b in zip(faces[::2], faces[1::2])]
+
+    for n, across in (10, False), (9, True):
+        points, faces = bear(n)
+        write("bear.obj", points, faces)
+        told = run("atlas", "bear.obj", "-o", "out.obj", "--symmetric", "--stats", "s.json").stdout
+        assert "pairs of charts" in told, told
+        s = stats("s.json")
+        symmetry = s["symmetry"]
+        assert 2 * symmetry["pairs"] + symmetry["own"] == s["charts"] and symmetry["pairs"] > 0, symmetry
+        assert (symmetry["own"] > 0) == across
+        assert [abs(x) for x in symmetry["normal"]] == [1, 0, 0] and abs(symmetry["offset"]) < 1e-9
+        judge("out.obj", points, faces)
+        _, uv, _, texcoords = read("out.obj")
+        number = {image(image(p)): v for v, p in enumerate(points)}
+        other = [number[image(p)] for p in points]
+        length = {}
+        for f, t in zip(faces, texcoords):
+            for k in range(4):
+                length[f[k - 1], f[k]] = math.dist(uv[t[k - 1]], uv[t[k]])
+        for f in faces:
+            if sorted(f) != sorted(other[v] for v in f):
+                for k in range(4):
+                    a, b = length[f[k - 1], f[k]], length[other[f[k]], other[f[k - 1]]]
+                    assert abs(a - b) < 1e-9, (f, a, b)
+
+    points, faces = bear(10)
+    seam = [faces[3][0], faces[3][1]]
+    pathlib.Path("seam.txt").write_text(f"{seam[0]} {seam[1]}\n")
+    write("bear.obj", points, faces)
+    run("atlas", "bear.obj", "-o", "out.obj", "--symmetric", "--seams", "seam.txt")
+    points[7][1] += 0.2
+    write("bear.obj", points, faces)
+    refused = run("atlas", "bear.obj", "-o", "x.obj", "--symmetric", code=4).stderr
+    assert "no plane of symmetry" in refused and "(7, " in refused and not pathlib.Path("x.obj").exists(), refused
+
+
 def polygons_and_several_surfaces():
     points, faces = ball(6)
     quads = [[a[0], a[1], a[2], b[2]] for a, b in zip(faces[::2], faces[1::2])]
@@ -354,6 +401,7 @@ def wrong_usage():
                              (["ball.obj", "-o", "x.obj", "--texcoord-set", "1"], "--texcoord-set"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--keep-seams"], "--keep-seams"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--max-distortion", "5"], "no bound"),
+                             (["ball.obj", "-o", "x.obj", "--charts", "keep", "--symmetric"], "--symmetric"),
                              (["ball.obj", "ball.obj", "-o", "x.glb"], "as .obj"),
                              (["-", "-", "-o", "x.obj"], "standard input"),
                              (["ball.obj", "ball.obj", "ball.obj", "-o", "x.obj", "-o", "y.obj"], "outputs"),
@@ -408,7 +456,7 @@ def main():
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
     for case in (closed_surfaces, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
-                 polygons_and_several_surfaces, polygons_of_any_outline,
+                 symmetric_charts, polygons_and_several_surfaces, polygons_of_any_outline,
                  wrong_usage, stops):
         begin = time.monotonic()
         case()

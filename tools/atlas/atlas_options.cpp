@@ -35,6 +35,8 @@ void declare_charts(CLI::App& app, atlas_options& o)
     add_choice<bool>(app, "--charts", o.keep_charts, {{"auto", false}, {"keep", true}},
                      "Make charts, or keep those that the vt of the file show and relax them");
     app.add_flag("--keep-seams", o.keep_seams, "The seams of the file's vt and its materials are seams of charts, too");
+    app.add_flag("--symmetric", o.symmetric,
+                 "Charts are mirror images of each other, in a plane that is found; no chart leads across it");
     app.add_option("--seams", o.seams, "Edges that are seams of charts, a line each: two vertices, from 0")
         ->type_name("FILE");
     app.add_option(
@@ -116,6 +118,8 @@ outputs check(const atlas_options& o)
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
     if (o.texcoord_set > 0 && !gltf && std::none_of(o.outputs.begin(), o.outputs.end(), io::is_gltf))
         throw usage_error("--texcoord-set is of glTF; leave it out");
+    if (o.symmetric && (o.keep_charts || !o.pinned.empty()))
+        throw usage_error("--symmetric makes charts; leave out --charts keep and --pin");
     if (o.keep_charts)
     {
         if (o.keep_seams) throw usage_error("--charts keep has the seams of the vt alone; leave out --keep-seams");
@@ -183,6 +187,7 @@ std::string command_line(const atlas_options& o)
     if (o.mean_distortion) option("--mean-distortion", number(*o.mean_distortion, 9));
     if (o.keep_charts) option("--charts", "keep");
     flag("--keep-seams", o.keep_seams);
+    flag("--symmetric", o.symmetric);
     option("--seams", o.seams);
     option("--pin", o.pinned);
     option("--padding", number(o.padding, 9));
@@ -205,6 +210,7 @@ atlas_params to_params(const atlas_options& o)
     if (o.mean_distortion) params.charts.mean_distortion = *o.mean_distortion;
     params.charts.max_distortion = std::max(params.charts.max_distortion, params.charts.mean_distortion);
     params.keep_charts = o.keep_charts;
+    params.symmetric = o.symmetric;
     params.packing.padding = o.padding;
     params.packing.resolution = o.resolution;
     params.packing.tiles = o.tiles;

@@ -23,7 +23,7 @@ struct atlas_options
     std::vector<std::string> inputs, outputs; ///< as many of these as of those
     std::string seams, pinned, stats, picture, render, report, device, progress;
     io::surface_format format{};
-    bool repair = false, keep_charts = false, keep_seams = false, upright = false, quiet = false;
+    bool repair = false, keep_charts = false, keep_seams = false, symmetric = false, upright = false, quiet = false;
     std::optional<double> max_distortion, mean_distortion;
     double padding = pack_params{}.padding;
     int resolution = pack_params{}.resolution, tiles = 1, texcoord_set = 0;

@@ -50,6 +50,11 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     json["branch_points"] = a.flips.branched;
     json["overlaps"] = a.overlaps;
     json["seam_length"] = a.seam_length;
+    if (a.symmetry)
+        json["symmetry"] = {{"normal", {a.symmetry->normal.x, a.symmetry->normal.y, a.symmetry->normal.z}},
+                            {"offset", a.symmetry->offset},
+                            {"pairs", a.symmetry->pairs},
+                            {"own", a.symmetry->own}};
     json["resolution"] = o.resolution;
     json["padding"] = o.padding;
     json["least_distance"] = finite(a.least_distance);
@@ -118,6 +123,12 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
     }
     lines.add("device", r.device_label);
     lines.add("charts", count(a.charts.size(), "chart", "charts") + ", seams of length " + number(a.seam_length));
+    if (const auto& s = a.symmetry)
+        lines.add("symmetry", count(static_cast<std::uint64_t>(s->pairs), "pair of charts", "pairs of charts") + ", " +
+                                  count(static_cast<std::uint64_t>(s->own), "chart that is its own image",
+                                        "charts that are their own images") +
+                                  ", in the plane of normal (" + number(s->normal.x) + ", " + number(s->normal.y) +
+                                  ", " + number(s->normal.z) + ") at " + number(s->offset));
     lines.add("distortion", "isometric energy " + number(a.distortion, 6) + " by area, " + number(a.worst, 4) +
                                 " in the worst chart; 4 is none");
     lines.add("atlas", number(100 * a.utilization, 3) + " % of " +

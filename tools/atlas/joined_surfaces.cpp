@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "joined_surfaces.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -27,6 +28,23 @@ joined_surfaces join(const std::vector<std::unique_ptr<atlas_source>>& sources)
         first_vertex.push_back(first_vertex.back() + m.vertex_count());
     }
     return {mesh<triangle>(std::move(points), std::move(cells)), std::move(first_cell), std::move(first_vertex)};
+}
+
+std::vector<idx> vertices_of_files(const std::vector<std::unique_ptr<atlas_source>>& sources,
+                                   const joined_surfaces& joined, std::span<const idx> vertices)
+{
+    std::vector<idx> result;
+    idx before = 0; // in the files
+    for (std::size_t i = 0; i < sources.size(); ++i)
+    {
+        for (const idx v : vertices)
+            if (v >= joined.first_vertex[i] && v < joined.first_vertex[i + 1])
+                result.push_back(before + sources[i]->vertex_origin(v - joined.first_vertex[i]));
+        before += sources[i]->file_vertices;
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
 }
 
 corner_maps::corner_maps(const joined_surfaces& joined, const atlas& made)

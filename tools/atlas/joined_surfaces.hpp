@@ -25,6 +25,10 @@ struct joined_surfaces
 
 joined_surfaces join(const std::vector<std::unique_ptr<atlas_source>>& sources);
 
+/// Vertices of the joined surface as the files have them, ascending, each once; those of several files are counted on.
+std::vector<idx> vertices_of_files(const std::vector<std::unique_ptr<atlas_source>>& sources,
+                                   const joined_surfaces& joined, std::span<const idx> vertices);
+
 /// The corners of all triangles in the order of the joined surface, as they lie in the atlas.
 struct corner_maps
 {

@@ -40,6 +40,11 @@ struct atlas_params
     /// where `initial` is; all others are laid around them. Theirs is a map without flips or overlaps in the tiles.
     std::vector<char> pinned = {};
 
+    /// Charts are mirror images of each other, in a plane that is found (symmetry.hpp); none leads across it, but for
+    /// those of polygons that lie across. Not together with charts that are kept or pinned. make_atlas() throws
+    /// symmetry_error where there is no such plane.
+    bool symmetric = false;
+
     flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
     pack_params packing = {};       ///< the same
 

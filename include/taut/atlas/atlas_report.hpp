@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -32,6 +33,15 @@ struct atlas_seconds
     double certify = 0;
 };
 
+/// The plane of a surface that is its own mirror image, and its charts.
+struct atlas_symmetry
+{
+    vec3 normal{0.0};
+    double offset = 0; ///< the plane has the points x with dot(normal, x) = offset
+    idx pairs = 0;     ///< of charts that are mirror images
+    idx own = 0;       ///< charts that are their own
+};
+
 /// What one run did and what its atlas is like.
 struct atlas_report
 {
@@ -47,6 +57,7 @@ struct atlas_report
     double seam_length = 0;    ///< of edges inside the surface that were cut, in its units
     double least_distance = 0; ///< in texels, of two charts, or a chart and the border of its tile
     idx tiles = 1;
+    std::optional<atlas_symmetry> symmetry; ///< of a run that was to have it
     atlas_seconds seconds;
 };
 

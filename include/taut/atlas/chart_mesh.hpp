@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <taut/core/counting_sort.hpp>
+#include <taut/core/disjoint_sets.hpp>
 #include <taut/core/parallel.hpp>
 #include <taut/mesh/facets.hpp>
 
@@ -43,6 +45,18 @@ inline std::vector<char> seams_between(const facet_table& f, std::span<const idx
     return seam;
 }
 
+/// The polygon of each triangle, by the first of its triangles.
+/// together: one flag a side of the surface, 1 on the diagonals of polygons; or empty
+inline std::vector<idx> polygons_of(const facet_table& f, std::span<const char> together)
+{
+    disjoint_sets polygons(static_cast<idx>(f.twin.size()) / 3);
+    for (std::size_t s = 0; s < together.size(); ++s)
+        if (together[s] != 0 && f.twin[s] >= 0) polygons.join(static_cast<idx>(s) / 3, f.twin[s] / 3);
+    std::vector<idx> polygon(f.twin.size() / 3);
+    for (std::size_t c = 0; c < polygon.size(); ++c) polygon[c] = polygons.find(static_cast<idx>(c));
+    return polygon;
+}
+
 /// Marks the sides along which a map by corners is torn: where two triangles have other places for a common vertex, or
 /// places that are no numbers.
 /// uv: a triple for each triangle of m, whose facets `f` are. Returns one flag a side.
@@ -75,6 +89,23 @@ inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std
         length += glm::distance(m.points()[static_cast<std::size_t>(a)], m.points()[static_cast<std::size_t>(b)]);
     }
     return length;
+}
+
+/// The sides of a surface, whose facets are `f`, at which two triangles have no common edge in its charts.
+inline std::vector<char> seams_of(const chart_mesh& charts, const facet_table& f)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    std::vector<std::array<idx, 3>> corners(charts.surface.cells().size());
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[u(charts.cell_origins[i])] = charts.surface.cells()[i];
+    std::vector<char> seam(f.twin.size(), 0);
+    for (std::size_t s = 0; s < seam.size(); ++s)
+    {
+        if (f.twin[s] < 0) continue;
+        const auto& other = corners[u(f.twin[s]) / 3];
+        for (const std::size_t k : {(s + 1) % 3, (s + 2) % 3})
+            if (std::find(other.begin(), other.end(), corners[s / 3][k]) == other.end()) seam[s] = 1;
+    }
+    return seam;
 }
 
 /// The pieces of a surface that hang together across edges that are no seams: the number of its piece for each

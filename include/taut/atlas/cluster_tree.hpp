@@ -15,7 +15,7 @@
 #include <taut/atlas/chart_mesh.hpp>
 #include <taut/atlas/detail/arc_graph.hpp>
 #include <taut/atlas/detail/chart_moments.hpp>
-#include <taut/atlas/detail/seam_weights.hpp>
+#include <taut/atlas/detail/seams/seam_weights.hpp>
 #include <taut/core/budget.hpp>
 
 namespace taut

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/seam_arcs.hpp>
-#include <taut/atlas/detail/seam_weights.hpp>
+#include <taut/atlas/detail/seams/seam_arcs.hpp>
+#include <taut/atlas/detail/seams/seam_weights.hpp>
 #include <taut/core/disjoint_sets.hpp>
 
 namespace taut

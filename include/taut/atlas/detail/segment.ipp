@@ -13,8 +13,8 @@
 #include <taut/atlas/cluster_tree.hpp>
 #include <taut/atlas/detail/chart_moments.hpp>
 #include <taut/atlas/detail/laid_shape.hpp>
-#include <taut/atlas/detail/seam_arcs.hpp>
-#include <taut/atlas/detail/straighten.hpp>
+#include <taut/atlas/detail/seams/seam_arcs.hpp>
+#include <taut/atlas/detail/seams/straighten.hpp>
 #include <taut/atlas/detail/surface_charts.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/segment.hpp>

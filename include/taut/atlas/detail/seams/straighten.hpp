@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/seam_arcs.hpp>
-#include <taut/atlas/detail/seam_weights.hpp>
+#include <taut/atlas/detail/seams/seam_arcs.hpp>
+#include <taut/atlas/detail/seams/seam_weights.hpp>
 #include <taut/core/budget.hpp>
 #include <taut/core/disjoint_sets.hpp>
 
