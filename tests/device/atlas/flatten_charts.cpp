@@ -169,12 +169,12 @@ TEST_CASE("flatten_charts: by default energies are within 1e-4 of their minima")
     }
 }
 
-TEST_CASE("flatten_charts: 300 charts take the launches of a few, and each has the map that it has alone")
+TEST_CASE("flatten_charts: 140 charts take the launches of a few, and each has the map that it has alone")
 {
     queue q;
     const surfaces few = kinds();
     surfaces many;
-    const std::size_t count = test::sized(300, 20);
+    const std::size_t count = test::sized(140, 20);
     for (std::size_t k = 0; k < count; ++k) many.push_back(few[k * 7 % few.size()]);
     const auto charts = charts_of(many);
     const auto flat = flatten_charts(q, charts);
