@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,14 @@ public:
             all.emplace_back(p, first_cell, coordinates(places, p.vertices));
             first_cell += p.cells.size();
         }
+        if (!proceed()) return false;
+        parallel_for(
+            all.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i) all[i].prepare();
+            },
+            0, 1);
         for (int step = 0; step < most_steps && proceed(); ++step)
             if (!advance(all, cells)) break;
 
@@ -120,14 +129,12 @@ private:
     {
     public:
         minimisation(const patch& p, std::size_t first_cell, std::vector<vec<D>> x)
-            : patch_(&p),
-              first_cell_(first_cell),
-              x_(std::move(x)),
-              d_(x_.size(), vec<D>(0.0)),
-              solver_(p.cells, p.fixed),
-              blocks_(p.cells.size())
+            : patch_(&p), first_cell_(first_cell), x_(std::move(x)), d_(x_.size(), vec<D>(0.0)), blocks_(p.cells.size())
         {
         }
+
+        /// Before all others.
+        void prepare() { solver_.emplace(patch_->cells, patch_->fixed); }
 
         std::size_t cells() const { return blocks_.size(); }
         bool done() const { return done_; }
@@ -142,10 +149,10 @@ private:
                     bool exact)
         {
             load(hessians, stride);
-            solver_.factorize(blocks_, 1e-12);
-            if (exact && !solver_.definite()) return false;
+            solver_->factorize(blocks_, 1e-12);
+            if (exact && !solver_->definite()) return false;
             const auto force = forces(gradients, stride);
-            d_ = solver_.solve(force);
+            d_ = solver_->solve(force);
             slope_ = 0;
             for (std::size_t v = 0; v < d_.size(); ++v) slope_ -= glm::dot(force[v], d_[v]);
             pause_ = exact ? 0 : pause_ > 0 ? pause_ - 1 : patience;
@@ -247,7 +254,7 @@ private:
         const patch* patch_;
         std::size_t first_cell_; // among those of all patches
         std::vector<vec<D>> x_, d_;
-        detail::front_cholesky solver_;
+        std::optional<detail::front_cholesky> solver_;
         std::vector<detail::front_cholesky::block> blocks_;
         double slope_ = 0, most_ = 0; // along d_; the largest decrease so far
         int pause_ = 0;               // steps until the Hessian itself is tried

@@ -281,12 +281,18 @@ private:
         std::array<double, 4> products;
         f_.space().multi_dot(both, both, products);
         const double limit = params_.eliminate_above * params_.eliminate_above * products[3];
-        if (products[0] > limit && std::sqrt(square) > common_.stopping.gradient_tolerance * scale_ &&
+        if (products[0] > limit && pause_-- <= 0 && std::sqrt(square) > common_.stopping.gradient_tolerance * scale_ &&
             f_.eliminate(x_, *unexpected_, [this] { return monitor_.proceed(); }))
         {
-            value_ = step_.value = f_.value_gradient(x_, g_, square);
+            const double before = std::exchange(value_, f_.value_gradient(x_, g_, square));
+            step_.value = value_;
             monitor_.count(1, 1);
             ++report_.eliminations;
+            // What brings little beside the step is left out for a while.
+            constexpr double little = 0.25;
+            constexpr int longest_pause = 8;
+            const bool worth = before - value_ > little * (step_.value_before - before);
+            pause_ = next_pause_ = worth ? 0 : std::clamp(2 * next_pause_, 1, longest_pause);
             along_stand_in_ = false; // the last direction says nothing of where x is now
         }
         return settle(square);
@@ -338,6 +344,7 @@ private:
     pcg_result model_;
     step_record step_;
     double value_ = 0, scale_ = 1, taken_ = 0;
+    int pause_ = 0, next_pause_ = 0;    // iterations without elimination
     std::optional<vector> unexpected_;  // of the last gradient, by the model
     std::optional<double> full_square_; // norm of full_gradient_ squared, if it came with the trial steps
     bool exact_ = false;                // d_ is of the Hessian itself
