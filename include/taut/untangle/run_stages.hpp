@@ -12,8 +12,8 @@
 namespace taut::detail
 {
 
-/// Runs stages in turn until the state is injective or none has anything left to try. Returns the name of the one that
-/// found the map, or nothing.
+/// Runs stages in turn until the state is injective, has a proof that no map is, or none has anything left to try.
+/// Returns the name of the one that found the map, or nothing.
 template <class Element>
 std::string run_stages(untangle_state<Element>& state, const untangle_stages<Element>& stages,
                        const untangle_params& params)
@@ -27,13 +27,14 @@ std::string run_stages(untangle_state<Element>& state, const untangle_stages<Ele
             if (exhausted[s]) continue;
             exhausted[s] = !stages[s]->run(state, iterations);
             const char* stop = state.injective()   ? "injective"
+                               : state.proof()     ? "infeasible"
                                : state.cancelled() ? "user"
                                : state.stopped()   ? "time"
                                : exhausted[s]      ? "exhausted"
                                                    : "iterations";
             state.ended(std::string(stages[s]->name()), stop);
             if (state.injective()) return std::string(stages[s]->name());
-            if (state.stopped()) return {};
+            if (state.proof() || state.stopped()) return {};
         }
         iterations = std::min(iterations, std::numeric_limits<int>::max() / 2) * 2;
     }

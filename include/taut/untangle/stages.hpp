@@ -13,6 +13,7 @@
 #include <taut/untangle/harmonic_stage.hpp>
 #include <taut/untangle/lbfgs_stage.hpp>
 #include <taut/untangle/newton_stage.hpp>
+#include <taut/untangle/proofs/proof_stage.hpp>
 #include <taut/untangle/pull_stage.hpp>
 
 namespace taut
@@ -77,6 +78,7 @@ inline untangle_stages<tetrahedron> solid_host_stages()
 {
     untangle_stages<tetrahedron> stages;
     stages.push_back(std::make_unique<harmonic_stage<tetrahedron>>());
+    stages.push_back(std::make_unique<proof_stage>());
     stages.push_back(std::make_unique<lbfgs_stage<tetrahedron>>());
     return stages;
 }

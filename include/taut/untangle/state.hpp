@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@
 #include <taut/objective/stage_report.hpp>
 #include <taut/start/harmonic.hpp>
 #include <taut/untangle/params.hpp>
+#include <taut/untangle/proofs/infeasibility.hpp>
 #include <taut/untangle/regularized_newton.hpp>
 #include <taut/untangle/result.hpp>
 
@@ -91,6 +93,10 @@ public:
         flips_ = std::move(flips);
         return true;
     }
+
+    /// Takes over a proof that there is no injective map.
+    void disprove(infeasibility_finding proof) { proof_ = std::move(proof); }
+    const std::optional<infeasibility_finding>& proof() const { return proof_; }
 
     /// To be called after each iteration: go on? False from the time limit or the observer's refusal on.
     bool proceed(int iterations = 1)
@@ -189,6 +195,7 @@ private:
     double unit_ = 1;
     map initial_, draft_, harmonic_, best_;
     certificate flips_;
+    std::optional<infeasibility_finding> proof_;
     int iterations_ = 0, reported_ = 0;
     std::vector<untangle_stage_report> stages_;
     stage_report now_; // of the stage at work, as far as it tells

@@ -72,16 +72,16 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
         result.stage = "initial";
     else
     {
-        const infeasibility proof = find_infeasibility(problem);
+        infeasibility proof = find_infeasibility(problem);
+        if (proof) state.disprove(std::move(proof.proofs.front()));
         state.ended("proofs", proof ? "infeasible" : "");
-        if (proof)
+        if (!proof) result.stage = detail::run_stages(state, stages, params);
+        if (state.proof())
         {
             result.outcome = untangle_outcome::infeasible;
-            result.reason = proof.reason();
-            result.ids = proof.proofs.front().ids;
+            result.reason = state.proof()->message;
+            result.ids = state.proof()->ids;
         }
-        else
-            result.stage = detail::run_stages(state, stages, params);
     }
 
     if (state.injective())

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -50,16 +49,17 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
     }
     else
     {
-        // What the operator solves it solves at once, before kernels of Hessians are compiled. Handles of a free
-        // surface are led there rather than untangled: that makes no edges that tetrahedra go around more than once.
-        std::unique_ptr<untangle_stage<Element>> inner[] = {
-            std::move(on_device),
-            std::make_unique<newton_stage<Element>>(newton_stage_params{"newton", untangle_start::harmonic}),
-            std::make_unique<lead_stage<Element>>(q)};
-        if (!problem.outline_pinned()) std::swap(inner[1], inner[2]);
-        auto stages = solid_host_stages();
-        stages.insert(std::next(stages.begin()), std::make_move_iterator(std::begin(inner)),
-                      std::make_move_iterator(std::end(inner)));
+        // What the operator solves it solves at once, before kernels of Hessians are compiled, and it leaves little for
+        // a proof to look at. Handles of a free surface are led there rather than untangled: that makes no edges that
+        // tetrahedra go around more than once.
+        untangle_stages<Element> stages;
+        stages.push_back(std::make_unique<harmonic_stage<Element>>());
+        stages.push_back(std::move(on_device));
+        stages.push_back(std::make_unique<proof_stage>());
+        stages.push_back(
+            std::make_unique<newton_stage<Element>>(newton_stage_params{"newton", untangle_start::harmonic}));
+        stages.push_back(std::make_unique<lead_stage<Element>>(q));
+        if (!problem.outline_pinned()) std::swap(stages[3], stages[4]);
         return untangle(problem, std::move(stages), std::move(newton), params);
     }
 }

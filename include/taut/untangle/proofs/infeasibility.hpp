@@ -24,6 +24,7 @@ enum class infeasibility_kind
     outline_winding,  ///< vertices of a pinned outline that runs clockwise around some point, in order
     outside_boundary, ///< pinned inner vertices that their pinned boundary does not wind about
     crossing_edges, ///< pairs of edges between pinned vertices that meet within a simple pinned boundary; four ids each
+    crowded_edge,   ///< an edge without a direction, two vertices, then the tetrahedra that say so
     /// A warning: pairs of edges between pinned vertices that meet, four ids each. Elements can all be positive, but
     /// the map is not one-to-one.
     not_globally_injective
@@ -52,6 +53,8 @@ constexpr const char* to_string(infeasibility_kind kind)
         return "outside_boundary";
     case infeasibility_kind::crossing_edges:
         return "crossing_edges";
+    case infeasibility_kind::crowded_edge:
+        return "crowded_edge";
     case infeasibility_kind::not_globally_injective:
         return "not_globally_injective";
     }

@@ -151,6 +151,8 @@ bool split_against(const untangle_problem<Element>& p, const infeasibility_findi
             all = (first || second) && all;
         }
         return all;
+    case infeasibility_kind::crowded_edge: // two vertices and cells
+        return inner.split({ids[0], ids[1]});
     case infeasibility_kind::outline_measure:
     case infeasibility_kind::outline_turning:
     case infeasibility_kind::outline_winding:
