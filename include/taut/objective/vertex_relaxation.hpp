@@ -10,9 +10,9 @@
 #include <vector>
 
 #include <taut/compute/vector_space.hpp>
+#include <taut/objective/detail/relaxation_schedule.hpp>
 #include <taut/objective/element_arrays.hpp>
 #include <taut/objective/relaxation_kernels.hpp>
-#include <taut/objective/detail/relaxation_schedule.hpp>
 
 namespace taut
 {
