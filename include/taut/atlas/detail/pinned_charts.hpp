@@ -28,7 +28,6 @@ public:
     /// Refers to all; some triangles are pinned. Throws packing_error where charts cannot stay.
     pinned_charts(const mesh<triangle>& m, const facet_table& f, const atlas_params& params)
         : mesh_(m),
-          facets_(f),
           params_(params),
           pinned_(part(true, seams_of_map(m, f, params.initial))),
           rest_(part(false, std::vector<char>(f.twin.size(), 0)))
@@ -210,7 +209,6 @@ private:
     }
 
     const mesh<triangle>& mesh_;
-    const facet_table& facets_;
     const atlas_params& params_;
     const surface_part pinned_, rest_;
     std::vector<vec2> uv_;   // one a vertex of the pinned charts
