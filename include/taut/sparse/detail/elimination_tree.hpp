@@ -30,11 +30,14 @@ public:
     /// offset, column: CSR of the pattern, no diagonal, symmetric.
     elimination_tree(std::span<const idx> offset, std::span<const idx> column)
         : n_(offset.size() - 1),
+          lists_(column.begin(), column.end()),
+          offset_(offset),
+          elements_(n_, 0),
           variables_(n_),
-          elements_(n_),
           size_(n_, 1),
           degree_(n_),
-          members_(n_),
+          next_member_(n_, -1),
+          last_member_(n_),
           next_(n_, -1),
           previous_(n_, -1),
           head_(n_ + 1, -1),
@@ -45,9 +48,9 @@ public:
     {
         for (std::size_t i = 0; i < n_; ++i)
         {
-            variables_[i].assign(column.begin() + offset[i], column.begin() + offset[i + 1]);
-            members_[i] = {static_cast<idx>(i)};
-            degree_[i] = variables_[i].size();
+            variables_[i] = offset[i + 1] - offset[i];
+            last_member_[i] = static_cast<idx>(i);
+            degree_[i] = u(variables_[i]);
         }
         for (std::size_t i = n_; i-- > 0;) enqueue(i);
         for (std::size_t left = n_, lowest = 0; left > 0;)
@@ -64,6 +67,16 @@ public:
 
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    /// Eliminated fronts that hold a variable, by their pivot's name. They and its variables share what its neighbours
+    /// took in the beginning: with each front that comes a variable goes, or another front.
+    std::span<idx> elements(std::size_t i) { return {lists_.data() + offset_[i], u(elements_[i])}; }
+    /// The remaining original neighbours of a variable.
+    std::span<idx> variables(std::size_t i)
+    {
+        return {lists_.data() + offset_[i + 1] - variables_[i], u(variables_[i])};
+    }
+    void forget_neighbours(std::size_t i) { elements_[i] = variables_[i] = 0; }
 
     void enqueue(std::size_t i)
     {
@@ -88,32 +101,32 @@ private:
         const auto self = static_cast<idx>(p);
         const idx stamp = ++stamp_;
         mark_[p] = stamp;
-        std::vector<idx> border;
-        const auto reach = [&](const std::vector<idx>& from)
+        border_.clear();
+        const auto reach = [&](std::span<const idx> from)
         {
             for (const idx i : from)
                 if (size_[u(i)] > 0 && mark_[u(i)] != stamp)
                 {
                     mark_[u(i)] = stamp;
-                    border.push_back(i);
+                    border_.push_back(i);
                 }
         };
-        reach(variables_[p]);
-        for (const idx e : elements_[p])
+        reach(variables(p));
+        for (const idx e : elements(p))
         {
             reach(fronts_[u(front_of_[u(e)])].border);
             swallow(front, e);
         }
         std::size_t border_size = 0;
-        for (const idx i : border)
+        for (const idx i : border_)
         {
             dequeue(u(i));
             border_size += size_[u(i)];
         }
 
         // outside_[e]: variables of element e that are not in the border, for every element that meets it.
-        for (const idx i : border)
-            for (const idx e : elements_[u(i)])
+        for (const idx i : border_)
+            for (const idx e : elements(u(i)))
             {
                 if (front_of_[u(e)] < 0) continue;
                 if (outside_stamp_[u(e)] != stamp)
@@ -126,14 +139,13 @@ private:
 
         std::size_t gone = size_[p];
         size_[p] = 0;
-        std::vector<std::pair<std::uint64_t, idx>> hashes;
-        for (const idx i : border)
+        hashes_.clear();
+        for (const idx i : border_)
         {
-            auto& near = variables_[u(i)];
-            auto& around = elements_[u(i)];
             std::size_t outer = 0;
             std::uint64_t hash = static_cast<std::uint64_t>(p);
-            std::size_t kept = 0;
+            const auto around = elements(u(i));
+            idx kept = 0;
             for (const idx e : around)
             {
                 if (front_of_[u(e)] < 0) continue;
@@ -144,46 +156,49 @@ private:
                 }
                 outer += outside_[u(e)];
                 hash += static_cast<std::uint64_t>(e);
-                around[kept++] = e;
+                around[u(kept++)] = e;
             }
-            around.resize(kept);
-            kept = 0;
-            for (const idx j : near)
+            elements_[u(i)] = kept;
+            const auto near = variables(u(i));
+            std::size_t first = near.size(); // of what is kept
+            for (std::size_t k = near.size(); k-- > 0;)
             {
+                const idx j = near[k];
                 if (size_[u(j)] == 0 || mark_[u(j)] == stamp) continue;
                 outer += size_[u(j)];
                 hash += static_cast<std::uint64_t>(j);
-                near[kept++] = j;
+                near[--first] = j;
             }
-            near.resize(kept);
+            variables_[u(i)] = static_cast<idx>(near.size() - first);
             if (outer == 0) // nothing beyond this front: goes with it
             {
                 gone += size_[u(i)];
                 border_size -= size_[u(i)];
                 size_[u(i)] = 0;
-                take(members_[p], members_[u(i)]);
+                take(p, u(i));
                 continue;
             }
-            around.push_back(self);
+            lists_[u(offset_[u(i)] + elements_[u(i)]++)] = self;
             degree_[u(i)] = std::min(degree_[u(i)], outer); // completed below, once the border's size is known
-            hashes.emplace_back(hash, i);
+            hashes_.emplace_back(hash, i);
         }
-        merge_equal(hashes);
+        merge_equal();
 
-        for (const idx i : border)
+        front.border.reserve(border_size);
+        for (const idx i : border_)
         {
             if (size_[u(i)] == 0) continue;
-            front.border.insert(front.border.end(), members_[u(i)].begin(), members_[u(i)].end());
+            append_members(front.border, i);
             degree_[u(i)] = std::min(degree_[u(i)] + border_size - size_[u(i)], left - gone - size_[u(i)]);
             lowest = std::min(lowest, degree_[u(i)]);
             enqueue(u(i));
         }
         degree_[p] = border_size;
-        front.pivots = std::move(members_[p]);
+        front.pivots.reserve(gone);
+        append_members(front.pivots, self);
         front_of_[p] = static_cast<idx>(fronts_.size());
         fronts_.push_back(std::move(front));
-        variables_[p] = {};
-        elements_[p] = {};
+        forget_neighbours(p);
         return gone;
     }
 
@@ -193,43 +208,45 @@ private:
         front_of_[u(e)] = -1;
     }
 
-    static void take(std::vector<idx>& to, std::vector<idx>& from)
+    /// Puts the members of one supervariable behind those of another.
+    void take(std::size_t to, std::size_t from)
     {
-        to.insert(to.end(), from.begin(), from.end());
-        from = {};
+        next_member_[u(last_member_[to])] = static_cast<idx>(from);
+        last_member_[to] = last_member_[from];
+    }
+
+    void append_members(std::vector<idx>& to, idx i) const
+    {
+        for (; i >= 0; i = next_member_[u(i)]) to.push_back(i);
     }
 
     /// Merges variables of the border whose remaining neighbourhoods are the same set.
-    void merge_equal(std::vector<std::pair<std::uint64_t, idx>>& hashes)
+    void merge_equal()
     {
-        std::sort(hashes.begin(), hashes.end());
-        for (std::size_t a = 0; a < hashes.size(); ++a)
+        std::sort(hashes_.begin(), hashes_.end());
+        for (std::size_t a = 0; a < hashes_.size(); ++a)
         {
-            const idx i = hashes[a].second;
-            if (size_[u(i)] == 0) continue;
+            const std::size_t i = u(hashes_[a].second);
+            if (size_[i] == 0) continue;
             bool marked = false;
-            for (std::size_t b = a + 1; b < hashes.size() && hashes[b].first == hashes[a].first; ++b)
+            for (std::size_t b = a + 1; b < hashes_.size() && hashes_[b].first == hashes_[a].first; ++b)
             {
-                const idx j = hashes[b].second;
-                if (size_[u(j)] == 0 || variables_[u(i)].size() != variables_[u(j)].size() ||
-                    elements_[u(i)].size() != elements_[u(j)].size())
-                    continue;
+                const std::size_t j = u(hashes_[b].second);
+                if (size_[j] == 0 || variables_[i] != variables_[j] || elements_[i] != elements_[j]) continue;
                 if (!marked)
                 {
                     ++stamp_;
-                    for (const idx v : variables_[u(i)]) mark_[u(v)] = stamp_;
-                    for (const idx e : elements_[u(i)]) mark_[u(e)] = stamp_; // elements and variables: other names
+                    for (const idx v : variables(i)) mark_[u(v)] = stamp_;
+                    for (const idx e : elements(i)) mark_[u(e)] = stamp_; // elements and variables: other names
                     marked = true;
                 }
-                const auto same = [this](idx k) { return mark_[u(k)] == stamp_; };
-                if (!std::all_of(variables_[u(j)].begin(), variables_[u(j)].end(), same) ||
-                    !std::all_of(elements_[u(j)].begin(), elements_[u(j)].end(), same))
-                    continue;
-                size_[u(i)] += size_[u(j)];
-                size_[u(j)] = 0;
-                take(members_[u(i)], members_[u(j)]);
-                variables_[u(j)] = {};
-                elements_[u(j)] = {};
+                const auto all_marked = [this](std::span<const idx> names)
+                { return std::all_of(names.begin(), names.end(), [this](idx k) { return mark_[u(k)] == stamp_; }); };
+                if (!all_marked(variables(j)) || !all_marked(elements(j))) continue;
+                size_[i] += size_[j];
+                size_[j] = 0;
+                take(i, j);
+                forget_neighbours(j);
             }
         }
     }
@@ -266,16 +283,19 @@ private:
     }
 
     std::size_t n_;
-    std::vector<std::vector<idx>> variables_; // remaining original neighbours
-    std::vector<std::vector<idx>> elements_;  // eliminated fronts that hold the variable, by their pivot's name
-    std::vector<std::size_t> size_;           // members of a supervariable; 0: merged or eliminated
-    std::vector<std::size_t> degree_;         // of a variable: bound on its border; of an element: its border's size
-    std::vector<std::vector<idx>> members_;
-    std::vector<idx> next_, previous_, head_; // doubly linked lists of variables by degree
+    std::vector<idx> lists_; // of each variable, at its offset: elements, and at the end variables
+    std::span<const idx> offset_;
+    std::vector<idx> elements_, variables_;      // how many there are
+    std::vector<std::size_t> size_;              // members of a supervariable; 0: merged or eliminated
+    std::vector<std::size_t> degree_;            // of a variable: bound on its border; of an element: its border's size
+    std::vector<idx> next_member_, last_member_; // lists of the members of supervariables
+    std::vector<idx> next_, previous_, head_;    // doubly linked lists of variables by degree
     std::vector<idx> mark_;
     std::vector<std::size_t> outside_;
     std::vector<idx> outside_stamp_;
-    std::vector<idx> front_of_; // live element -> its front
+    std::vector<idx> front_of_;                         // live element -> its front
+    std::vector<idx> border_;                           // of the front that is made
+    std::vector<std::pair<std::uint64_t, idx>> hashes_; // of its variables' neighbourhoods
     std::vector<elimination_front> fronts_;
     idx stamp_ = 0;
 };
