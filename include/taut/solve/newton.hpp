@@ -248,32 +248,32 @@ private:
         near_end_ = !(step_.value_before - value_ > near_end * f_.size(value_));
         const bool eliminates = full_objective<Objective>::eliminates && step_.iteration >= params_.eliminate_from &&
                                 step_.value_before - value_ < params_.eliminate_below * f_.size(value_);
-        if (full && !eliminates)
+        double square = 0;
+        if (full)
         {
             std::swap(g_, full_gradient_);
-            return settle(*full_square_);
+            square = *full_square_;
         }
-        const bool relaxed = t.step < params_.relax_below && f_.relax(x_);
-        if (eliminates) return eliminate(std::min(1.0, t.step));
-        if (!relaxed && !near_end_ && f_.gradient(x_, g_))
+        else
         {
-            monitor_.count(0, 1);
-            pending_ = true;
-            return monitor_.reason();
+            const bool relaxed = t.step < params_.relax_below && f_.relax(x_);
+            if (!relaxed && !near_end_ && !eliminates && f_.gradient(x_, g_))
+            {
+                monitor_.count(0, 1);
+                pending_ = true;
+                return monitor_.reason();
+            }
+            value_ = step_.value = f_.value_gradient(x_, g_, square);
+            monitor_.count(1, 1);
         }
-        double square;
-        value_ = step_.value = f_.value_gradient(x_, g_, square);
-        monitor_.count(1, 1);
+        if (eliminates) eliminate(std::min(1.0, t.step), square);
         return settle(square);
     }
 
-    /// The end of accept() where what the last step found far from quadratic is minimised by itself: where the
-    /// gradient is not (1 - share) times the one before, as it is where the model holds.
-    std::optional<solve::stop> eliminate(double share)
+    /// Minimises by itself what the last step, a share of d_, found far from quadratic: where the gradient is not
+    /// (1 - share) times the one before, as it is where the model holds. square: of the gradient's norm.
+    void eliminate(double share, double& square)
     {
-        double square;
-        value_ = step_.value = f_.value_gradient(x_, g_, square);
-        monitor_.count(1, 1);
         if (!unexpected_) unexpected_.emplace(f_.space().make());
         f_.space().copy(g_, *unexpected_);
         f_.space().axpby(share - 1, last_g_, 1, *unexpected_);
@@ -295,7 +295,6 @@ private:
             pause_ = next_pause_ = worth ? 0 : std::clamp(2 * next_pause_, 1, longest_pause);
             along_stand_in_ = false; // the last direction says nothing of where x is now
         }
-        return settle(square);
     }
 
     /// Books the last step, now that its gradient is known.

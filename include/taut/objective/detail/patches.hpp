@@ -40,7 +40,12 @@ public:
     /// weights: one a free vertex of the layout, not negative; barred: flags of those that no patch moves.
     patch_finder(const layout<Element>& mesh_layout, std::span<const double> weights, const std::vector<char>& barred,
                  const patch_params& params = {})
-        : layout_(mesh_layout), barred_(barred), params_(params), state_(at(mesh_layout.vertex_count), outside)
+        : layout_(mesh_layout),
+          barred_(barred),
+          params_(params),
+          state_(at(mesh_layout.vertex_count), outside),
+          local_(at(mesh_layout.vertex_count), -1),
+          listed_(at(mesh_layout.cell_count), 0)
     {
         const auto middles = heaviest(weights);
         // Fewer where their rings are more than patches may have.
@@ -128,7 +133,12 @@ private:
         patch<Element> p;
         for (std::size_t i = 0; i < members.size(); ++i)
         {
-            for (const idx c : layout_.vertex_corners.row(members[i])) p.cell_ids.push_back(c / Element::corners);
+            for (const idx corner : layout_.vertex_corners.row(members[i]))
+                if (const idx c = corner / Element::corners; !listed_[at(c)])
+                {
+                    listed_[at(c)] = 1;
+                    p.cell_ids.push_back(c);
+                }
             each_neighbour(members[i],
                            [&](idx w)
                            {
@@ -138,28 +148,33 @@ private:
                            });
         }
         std::sort(p.cell_ids.begin(), p.cell_ids.end());
-        p.cell_ids.erase(std::unique(p.cell_ids.begin(), p.cell_ids.end()), p.cell_ids.end());
         for (const idx c : p.cell_ids)
-            for (std::size_t k = 0; k < Element::corners; ++k) p.vertices.push_back(corner(c, k));
+            for (std::size_t k = 0; k < Element::corners; ++k)
+                if (const idx v = corner(c, k); local_[at(v)] < 0)
+                {
+                    local_[at(v)] = 0;
+                    p.vertices.push_back(v);
+                }
         std::sort(p.vertices.begin(), p.vertices.end());
-        p.vertices.erase(std::unique(p.vertices.begin(), p.vertices.end()), p.vertices.end());
+        for (std::size_t i = 0; i < p.vertices.size(); ++i) local_[at(p.vertices[i])] = static_cast<idx>(i);
         // What moves and is not of this patch has no cell in common with it.
         for (const idx v : p.vertices) p.fixed.push_back(state_[at(v)] != taken);
         for (const idx c : p.cell_ids)
         {
             auto& cell = p.cells.emplace_back();
-            for (std::size_t k = 0; k < Element::corners; ++k)
-                cell[k] = static_cast<idx>(std::lower_bound(p.vertices.begin(), p.vertices.end(), corner(c, k)) -
-                                           p.vertices.begin());
+            for (std::size_t k = 0; k < Element::corners; ++k) cell[k] = local_[at(corner(c, k))];
         }
+        for (const idx v : p.vertices) local_[at(v)] = -1;
         return p;
     }
 
     const layout<Element>& layout_;
     const std::vector<char>& barred_;
     patch_params params_;
-    std::vector<char> state_; // by vertex
-    std::vector<idx> inside_; // vertices of patches
+    std::vector<char> state_;  // by vertex
+    std::vector<idx> local_;   // by vertex: its number in the patch that is gathered, or -1
+    std::vector<char> listed_; // by cell: a patch has it
+    std::vector<idx> inside_;  // vertices of patches
 };
 
 } // namespace taut::detail
