@@ -80,7 +80,13 @@ public:
 
         std::vector<vec<D>> download() const { return objective_.download(x_); }
 
-        /// Other springs, in the level's numbers.
+        /// Another map of the level.
+        void move_to(const std::vector<vec<D>>& x) { objective_.upload(x, x_); }
+
+        /// Other constraints, in the level's numbers.
+        void constrain(const point_constraints<D>& constraints) { objective_.constrain(constraints); }
+
+        /// The same springs with other targets or stiffnesses.
         void set_springs(std::span<const directed_spring<D>> springs) { objective_.set_springs(springs); }
 
         /// Spreads out what caps the first step: meant for maps that come from a coarser level.

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
+#include <support/chart_checks.hpp>
+#include <support/extreme_meshes.hpp>
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
+#include <taut/atlas/cut_to_disk.hpp>
 #include <taut/map/parameterize.hpp>
 
 namespace
@@ -32,13 +38,13 @@ mesh<triangle> waves()
 struct bound_map
 {
     queue q;
-    mesh<triangle> m = waves();
+    mesh<triangle> m;
     std::vector<vec2> free = parameterize(q, m).uv;
     vec2 centre{0};
     double radius = INFINITY;
     constraints<triangle> pins{m};
 
-    bound_map()
+    explicit bound_map(mesh<triangle> surface = waves()) : m(std::move(surface))
     {
         const auto boundary = boundary_loops(m).front();
         for (const idx v : boundary) centre += free[static_cast<std::size_t>(v)] / double(boundary.size());
@@ -64,6 +70,34 @@ struct bound_map
             const idx v = static_cast<idx>((n - 1) * (2 * k + 1) / (2 * count));
             if (glm::distance(free[static_cast<std::size_t>(v)], centre) < 0.8 * radius)
                 body(v, free[static_cast<std::size_t>(v)]);
+        }
+    }
+
+    /// Vertices at random turn about the middle, every other one against the others if wanted, by less where the
+    /// boundary is near.
+    void turn(int count, double angle, bool both_ways, unsigned seed)
+    {
+        const auto boundary = boundary_loops(m).front();
+        std::vector<bool> taken(free.size());
+        for (const idx v : boundary) taken[static_cast<std::size_t>(v)] = true;
+        vec2 middle(0);
+        for (const vec2& p : free) middle += p / double(free.size());
+        const double size = glm::distance(free[static_cast<std::size_t>(boundary[0])], middle);
+        std::mt19937 rng(seed);
+        for (int done = 0; done < count;)
+        {
+            const std::size_t v = rng() % free.size();
+            double room = INFINITY;
+            for (const idx w : boundary)
+                room = std::min(room, glm::distance(free[v], free[static_cast<std::size_t>(w)]));
+            if (taken[v] || room < 0.02 * size) continue;
+            taken[v] = true;
+            const vec2 arm = free[v] - middle;
+            double a = std::min(angle, 0.7 * room / std::max(1e-9, glm::length(arm)));
+            if (both_ways && done % 2 != 0) a = -a;
+            const double c = std::cos(a), s = std::sin(a);
+            pins.pin(static_cast<idx>(v), middle + mat2(c, s, -s, c) * arm);
+            ++done;
         }
     }
 
@@ -112,6 +146,36 @@ TEST_CASE("drawn start: pins that are where the map is anyway change nothing")
     double worst = 0;
     for (std::size_t v = 0; v < b.free.size(); ++v) worst = std::max(worst, glm::distance(r.uv[v], b.free[v]));
     CHECK(worst < 1e-3 * b.radius);
+}
+
+TEST_CASE("drawn start: where nothing fits in the outline of a map with limbs, that map itself is the beginning")
+{
+    const auto body = test::animal(24);
+    const auto sides = facets(body);
+    const auto cut = test::chart(cut_charts(body, sides, cut_to_disk(body, sides)), 0);
+    for (const unsigned seed : {2U, 3U, 4U})
+    {
+        CAPTURE(seed);
+        bound_map b(cut);
+        b.turn(6, 1, false, seed);
+        const auto r = parameterize(b.q, b.m, {.constraints = b.pins});
+        b.check(r);
+        CHECK(r.report.untangling.size() == 1);
+        CHECK(stage(r) == "draw");
+    }
+}
+
+TEST_CASE("drawn start: springs wait for what cannot follow yet")
+{
+    for (const int count : {20, 30})
+    {
+        CAPTURE(count);
+        bound_map b;
+        b.turn(count, 1, true, 5);
+        const auto r = parameterize(b.q, b.m, {.constraints = b.pins});
+        b.check(r);
+        CHECK(stage(r) == "draw");
+    }
 }
 
 TEST_CASE("drawn start: single coordinates, springs and a boundary that is not convex")

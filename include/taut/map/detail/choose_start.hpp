@@ -16,8 +16,9 @@ namespace taut::detail
 template <class Element>
 std::vector<vec2> free_draft(const map_run<Element>& run);
 
-/// The first of these that works: springs draw pins to their places on levels; where the boundary is free, a map as of
-/// a run without the constraints, brought near to them; the start that the method asked for, on the mesh itself.
+/// The first of these that works: springs draw pins to their places on levels; where that fails and the boundary is
+/// pinned as a whole, the same from the map of a run without the constraints, if a similarity brings that near to them;
+/// where the boundary is free, such a map, brought near; the start that the method asked for, on the mesh itself.
 template <class Element>
 run_start made_start(const map_run<Element>& run)
 {
@@ -31,6 +32,13 @@ run_start made_start(const map_run<Element>& run)
     {
         start = drawn_start<Element>(run).make();
         if (!start.useless || start.stopped) return start;
+        if (run.held.outline_pinned(run.in.surface, run.in.sides))
+        {
+            start = drawn_start<Element>(run, drawn_start<Element>::from::free_map).make();
+            if (!start.useless || start.stopped) return start;
+            start.useless = false;
+            if (!start.map.uv.empty()) return fitted_start(run, std::move(start), false);
+        }
         start = run_start();
     }
     if (run.held.constrained() && run.params.initial.empty() && run.params.boundary == boundary_mode::free &&

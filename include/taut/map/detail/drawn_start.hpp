@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -23,16 +24,23 @@ template <class Element>
 class drawn_start
 {
 public:
+    enum class from
+    {
+        constraints, ///< levels on which pins are drawn, within the outline if that is pinned as a whole
+        free_map     ///< the map of a run that nothing holds, moved near to the pins: where these are of such a map
+    };
+
     /// run: one that draws pins; referred to.
-    explicit drawn_start(const map_run<Element>& run)
+    explicit drawn_start(const map_run<Element>& run, from where = from::constraints)
         : run_(run),
-          bound_(run.held.outline_pinned(run.in.surface, run.in.sides)),
+          free_(where == from::free_map),
+          bound_(!free_ && run.held.outline_pinned(run.in.surface, run.in.sides)),
           anchored_(anchors()),
           places_(anchored_.size(), vec2(0)),
           centre_(run.held.centre()),
           levels_(run.in.surface, bound_ ? anchored_ : std::vector<bool>(),
                   {.proceed = [&run] { return run.clock.proceed(); }}, run.params.data,
-                  run.held.touched(anchored_.size())),
+                  free_ ? std::vector<bool>() : run.held.touched(anchored_.size())),
           pull_(run.held.pull(anchored_))
     {
         run.held.impose(places_, run.in.unit);
@@ -40,7 +48,7 @@ public:
         run.clock.stages.add({.stage = "hierarchy", .vertices = run.vertices()});
     }
 
-    /// The start; `useless` where there is none.
+    /// The start; `useless` where there is none, with the free map as its map if that is near to the pins.
     run_start make()
     {
         run_start start;
@@ -48,15 +56,19 @@ public:
         if (find_infeasibility(run_.held.problem(run_.in.surface, places_))) return start; // as untangling will say
         nested_params descent = descent_of(run_);
         std::size_t first = descent.first_level(levels_);
-        if (levels_.vertices(first) > most_vertices) return start;
-        start_map map = first_map(first);
-        // What cannot be untangled there often can on a finer level, if that is small enough for it.
-        if (bound_ && !map.flips && first > 1 && levels_.vertices(first - 1) <= most_untangled)
-            map = first_map(--first);
-        if (!map.flips) return start;
-        descent.start_vertices = levels_.vertices(first);
-        descent.first_map = [&map](std::size_t) { return std::move(map); };
-        descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
+        start_map map;
+        if (!free_)
+        {
+            if (levels_.vertices(first) > most_vertices) return start;
+            map = first_map(first);
+            // What cannot be untangled there often can on a finer level, if that is small enough for it.
+            if (bound_ && !map.flips && first > 1 && levels_.vertices(first - 1) <= most_untangled)
+                map = first_map(--first);
+            if (!map.flips) return start;
+            descent.start_vertices = levels_.vertices(first);
+            descent.first_map = [&map](std::size_t) { return std::move(map); };
+            descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
+        }
         using plan = typename level_solver<Element>::plan;
         const auto form = lane_form::for_device(run_.queue.device());
         made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels_, first - k, form); });
@@ -82,7 +94,14 @@ public:
             run_.clock.spent(&map_seconds::start);
         }
         if (!arrival.empty())
-            draw({*solver, take(0), arrival, {.held = {}, .springs = springs(0, first_stiffness(0))}}, start);
+        {
+            point_constraints<2> slack;
+            if (!free_) slack.springs = springs(0, first_stiffness(0));
+            level finest(*solver, take(0), arrival, slack);
+            finest.relax();
+            run_.clock.stages.add({.stage = "prepare", .vertices = run_.vertices()});
+            if (!free_ || brought_near(finest)) draw(finest, start);
+        }
         start.stopped = !run_.clock.proceed();
         return start;
     }
@@ -142,6 +161,23 @@ private:
         return map;
     }
 
+    /// Minimises a map that nothing holds, and moves it near to the pins; whether a similarity brings it there.
+    bool brought_near(level& finest)
+    {
+        auto how = limited(run_, run_.params.solve.stopping.max_iterations);
+        how.stopping.gradient_tolerance = std::max(roughly, how.stopping.gradient_tolerance);
+        run_.clock.stages.add(minimised_on_mesh(run_, finest.minimize(how, observer_on(run_.clock, 1))));
+        origins_ = levels_.order().vertices.undo(finest.download());
+        run_.held.bring_near(origins_);
+        if (!run_.clock.proceed() || run_.held.misfit(origins_) > near) return false;
+        const auto map = centred(origins_, centre_);
+        reach_ = bounding_square(map).size / 2;
+        finest.move_to(levels_.order().vertices.apply(map));
+        finest.constrain({.held = {}, .springs = springs(0, first_stiffness(0))});
+        run_.clock.spent(&map_seconds::start);
+        return true;
+    }
+
     std::vector<vec2> within_outline(const mesh<triangle>& surface, const std::vector<idx>& there) const
     {
         const std::size_t n = surface.points().size();
@@ -155,16 +191,16 @@ private:
         return untangle(problem, {.stages = {"harmonic", "newton"}, .rounds = 1}).map;
     }
 
-    /// Stiffens the springs, a step of Newton's method each time, until what they draw can be put to its place.
-    void draw(level finest, run_start& start)
+    /// Stiffens the springs, a step of Newton's method each time, until what they draw can be put to its place. Where a
+    /// step was short, what they draw has not followed yet: they wait.
+    void draw(level& finest, run_start& start)
     {
         const solve::params step{.method = solve::method::newton, .stopping = {.max_iterations = 1}};
         solve::report steps; // of all springs, one after the other
-        finest.relax();
-        run_.clock.stages.add({.stage = "prepare", .vertices = run_.vertices()});
         bool moves = true;
+        int strides = 0;
         double stiffness = first_stiffness(0);
-        for (int stride = 0; start.useless; ++stride, stiffness *= growth)
+        for (int done = 0; start.useless; ++done)
         {
             auto uv = centred(levels_.order().vertices.undo(finest.download()), -centre_);
             run_.held.impose(uv, run_.in.unit);
@@ -174,17 +210,25 @@ private:
                 start.useless = false;
                 break;
             }
-            if (stride == strides || !moves || !run_.clock.proceed()) break;
-            if (stride > 0) finest.set_springs(springs(0, stiffness));
+            if (strides == most_strides || done == most_steps || !moves || !run_.clock.proceed()) break;
             auto r = finest.minimize(step, observer_on(run_.clock, 1)); // no map of the run yet
             moves = r.iterations > 0;
-            steps = stride == 0 ? std::move(r) : joined(std::move(steps), std::move(r));
+            if (!(r.history.back().step < followed))
+            {
+                ++strides;
+                finest.set_springs(springs(0, stiffness *= growth));
+            }
+            steps = done == 0 ? std::move(r) : joined(std::move(steps), std::move(r));
         }
         untangle_stage_report did{stage_of("draw", 0, run_.vertices(), steps)};
         did.cut_by = corners_of(levels_.cells(0), steps.capping, levels_.users(0));
         did.stop = start.useless ? moves ? "iterations" : "line search" : "injective";
         run_.clock.stages.add(did);
-        if (start.useless) return;
+        if (start.useless)
+        {
+            if (free_) start.map.uv = origins_;
+            return;
+        }
         start.map.assess(run_.in.surface, run_.in.ideal);
         start.pin_origins = run_.held.pinned_points(origins_);
         start.centre = bounding_square(start.map.uv).centre;
@@ -197,9 +241,14 @@ private:
     static constexpr std::size_t most_vertices = 12000; // of the first map, which is made on the host
     static constexpr std::size_t most_untangled = 6000; // the same where that takes more than a harmonic map
     static constexpr double growth = 4;
-    static constexpr int strides = 14; // with stiffer springs rounding would decide
+    static constexpr double followed = 0.25; // a step that is no shorter
+    static constexpr int most_strides = 24;  // with stiffer springs rounding would decide
+    static constexpr int most_steps = 40;
+    static constexpr double roughly = 1e-3; // the gradient of a map that will be moved
+    static constexpr double near = 0.25;    // of held_coordinates::misfit()
 
     const map_run<Element>& run_;
+    bool free_;
     bool bound_; ///< all of the boundary is pinned
     std::vector<bool> anchored_;
     std::vector<vec2> places_; ///< where vertices are held
