@@ -41,7 +41,8 @@ inline std::array<std::complex<double>, 3> images_of_axes(const mesh<triangle>& 
 }
 
 /// The direction of a map's longer principal axis, from the broad end to the thin one, as a complex number.
-inline std::complex<double> principal_direction(const mesh<triangle>& m, std::span<const vec2> uv)
+template <class = void>
+std::complex<double> principal_direction(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     struct lump
     {
@@ -71,7 +72,8 @@ inline std::complex<double> principal_direction(const mesh<triangle>& m, std::sp
 /// along y from above is that of a map. Where none is seen (a torus cut open), the longer principal axis comes to lie
 /// along u. It follows from the surface and the map alone, and changes continuously with them but where the choice of
 /// the axis is even.
-inline std::complex<double> upright_turn(const mesh<triangle>& m, std::span<const vec2> uv)
+template <class = void>
+std::complex<double> upright_turn(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     const auto images = images_of_axes(m, uv);
     double area = 0, seen = 0;
@@ -114,7 +116,8 @@ inline placed_map in_corner(std::vector<vec2> uv, double side)
 }
 
 /// A map of m, put upright.
-inline std::vector<vec2> turned_up(const mesh<triangle>& m, std::vector<vec2> uv)
+template <class = void>
+std::vector<vec2> turned_up(const mesh<triangle>& m, std::vector<vec2> uv)
 {
     const auto turn = upright_turn(m, uv);
     for (vec2& p : uv)

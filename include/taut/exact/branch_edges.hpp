@@ -80,7 +80,8 @@ private:
 /// tetrahedra differ in orientation, are not looked at.
 ///
 /// cells: #T by 4 vertex indices, in range; x: one image point a vertex. Ascending.
-inline std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x)
+template <class = void>
+std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x)
 {
     const detail::edge_turns turns(cells, x);
     using edge = detail::edge_turns::edge;

@@ -91,7 +91,8 @@ inline std::size_t most_curved_axis(const jacobian_polynomial& p)
 }
 
 /// By bounds and halving; boxes: how many parts may be looked at.
-inline cell_validity validity_of(const jacobian_polynomial& whole, std::size_t boxes)
+template <class = void>
+cell_validity validity_of(const jacobian_polynomial& whole, std::size_t boxes)
 {
     std::vector<jacobian_polynomial> open{whole};
     for (; !open.empty(); --boxes)
@@ -161,7 +162,8 @@ inline jacobian_polynomial pyramid_jacobian(std::span<const vec3> x)
 }
 
 /// Whether a simplex at a corner of the cell is not positive, by exact signs.
-inline bool has_bad_corner(std::span<const vec3> x)
+template <class = void>
+bool has_bad_corner(std::span<const vec3> x)
 {
     const auto all = corner_tetrahedra(x.size());
     return std::any_of(all.begin(), all.end(),
@@ -180,7 +182,8 @@ inline bool has_bad_corner(std::span<const vec3> x)
 /// Bernstein coefficients are its values at the four corners.
 ///
 /// boxes: how many parts may be looked at before it is left undecided
-inline cell_validity validity_of_cell(std::span<const vec3> corners, std::size_t boxes = 2000)
+template <class = void>
+cell_validity validity_of_cell(std::span<const vec3> corners, std::size_t boxes = 2000)
 {
     if (!std::all_of(corners.begin(), corners.end(), [](const vec3& p) { return detail::finite(p); }))
         return cell_validity::invalid;

@@ -71,9 +71,10 @@ point_cloud cloud_of(const mesh<Element>& m, std::span<const char> held)
 /// boundary: the faces of the boundary, where the cells overlap, so that their own do not say it; else empty
 ///
 /// Linear time, about 5 us a vertex on two cores. Throws parameter_error.
-inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<const char> held = {},
-                                             const hierarchy_params& params = {},
-                                             std::span<const std::array<idx, 3>> boundary = {})
+template <class = void>
+hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<const char> held = {},
+                                      const hierarchy_params& params = {},
+                                      std::span<const std::array<idx, 3>> boundary = {})
 {
     params.validate();
     auto cloud = detail::cloud_of(m, held);
@@ -84,8 +85,9 @@ inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::sp
 }
 
 /// The same of the hinges of a surface: none of its vertices stands out.
-inline hierarchy<hinge> make_hierarchy(const mesh<hinge>& m, std::span<const char> held = {},
-                                       const hierarchy_params& params = {})
+template <class = void>
+hierarchy<hinge> make_hierarchy(const mesh<hinge>& m, std::span<const char> held = {},
+                                const hierarchy_params& params = {})
 {
     params.validate();
     return detail::thinned_levels(m, detail::cloud_of(m, held), params);

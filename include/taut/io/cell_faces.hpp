@@ -36,7 +36,8 @@ namespace detail
 {
 
 /// Corners of the sides of a cell, by VTK's numbers; -1 ends a triangle.
-inline std::span<const std::array<int, 4>> face_table(cell_kind kind)
+template <class = void>
+std::span<const std::array<int, 4>> face_table(cell_kind kind)
 {
     using face = std::array<int, 4>;
     static constexpr std::array<face, 4> tetrahedron = {{{1, 2, 3, -1}, {0, 3, 2, -1}, {0, 1, 3, -1}, {0, 2, 1, -1}}};
@@ -64,7 +65,8 @@ inline std::span<const std::array<int, 4>> face_table(cell_kind kind)
 } // namespace detail
 
 /// Time O(n log n).
-inline cell_faces cell_faces_of(const volume_file& file)
+template <class = void>
+cell_faces cell_faces_of(const volume_file& file)
 {
     cell_faces result;
     std::vector<std::array<idx, 4>> keys;

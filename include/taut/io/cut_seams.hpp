@@ -24,7 +24,7 @@ struct cut_surface
 /// Cuts a surface open along the edges where the texture coordinates of neighbours disagree in value; many programs
 /// write one vt a corner. Nothing if every vertex has one texture coordinate.
 /// Throws texcoord_error if a corner has none.
-std::optional<cut_surface> cut_seams(const surface_file& file);
+TAUT_ON_USE std::optional<cut_surface> cut_seams(const surface_file& file);
 
 } // namespace taut::io
 

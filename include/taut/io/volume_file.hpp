@@ -161,11 +161,11 @@ void for_each_cell(const volume_file& file, int dimension, const F& f)
 /// The tetrahedra at rest, cells in the order of the file. A few may be inverted: which, validate() tells.
 /// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty), or if nine of ten or
 /// more are inverted (inverted_cell): then they are turned, and what() states the convention of the format.
-mesh<tetrahedron> tetrahedra_of(const volume_file& file);
+TAUT_ON_USE mesh<tetrahedron> tetrahedra_of(const volume_file& file);
 
 /// The triangles of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
 /// are no triangles, or the file is of dimension 3; inverted_cell as tetrahedra_of does.
-mesh<triangle> triangles_of(const volume_file& file);
+TAUT_ON_USE mesh<triangle> triangles_of(const volume_file& file);
 
 /// The cells of a file as simplices: tetrahedra, or triangles of a planar file, for themselves; others as the simplices
 /// at their corners, which overlap.

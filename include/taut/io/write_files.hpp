@@ -20,7 +20,7 @@ struct file_to_write
 /// Writes several files that appear together or not at all: all are written in their order, then what are devices and
 /// pipes, then the files get their names. Throws io_error; then no file has changed, but for the rare case that the
 /// system refuses to rename a finished file, where the message says which files have been replaced.
-void write_files(std::span<const file_to_write> files);
+TAUT_ON_USE void write_files(std::span<const file_to_write> files);
 
 } // namespace taut::io
 

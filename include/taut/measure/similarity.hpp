@@ -36,7 +36,8 @@ struct similarity_fit
 };
 
 /// At least one anchor; weights are positive.
-inline similarity_fit fit_similarity(std::span<const anchor> anchors)
+template <class = void>
+similarity_fit fit_similarity(std::span<const anchor> anchors)
 {
     using complex = std::complex<double>;
     const auto at = [](const vec2& p) { return complex(p.x, p.y); };

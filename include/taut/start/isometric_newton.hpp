@@ -23,6 +23,7 @@ namespace taut::detail
 
 /// energy::isometric of a small surface, summed over triangles by area, and Newton's method on it with the Hessian of
 /// each triangle projected to positive semi-definite and a direct solver.
+template <class = void>
 class isometric_newton
 {
 public:

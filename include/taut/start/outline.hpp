@@ -18,8 +18,9 @@ namespace detail
 {
 
 /// Interior edges with both ends on one loop, as positions in it.
-inline std::vector<std::pair<std::size_t, std::size_t>> dividing_edges(const mesh<triangle>& m, const facet_table& f,
-                                                                       const std::vector<idx>& loop)
+template <class = void>
+std::vector<std::pair<std::size_t, std::size_t>> dividing_edges(const mesh<triangle>& m, const facet_table& f,
+                                                                const std::vector<idx>& loop)
 {
     std::vector<idx> position(m.points().size(), -1);
     for (std::size_t k = 0; k < loop.size(); ++k) position[static_cast<std::size_t>(loop[k])] = static_cast<idx>(k);
@@ -36,7 +37,8 @@ inline std::vector<std::pair<std::size_t, std::size_t>> dividing_edges(const mes
 }
 
 /// Spans a hole by a cone: an apex above the loop's centroid, so that no triangle of it is flat.
-inline void span_hole(const std::vector<idx>& loop, std::vector<vec3>& points, std::vector<std::array<idx, 3>>& cells)
+template <class = void>
+void span_hole(const std::vector<idx>& loop, std::vector<vec3>& points, std::vector<std::array<idx, 3>>& cells)
 {
     const auto at = [&points](idx v) { return points[static_cast<std::size_t>(v)]; };
     vec3 centre(0);

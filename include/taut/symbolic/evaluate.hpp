@@ -126,7 +126,8 @@ std::vector<T> evaluate(const std::vector<sym<T>>& outputs, std::span<const bind
     return evaluator(tape::current(), bindings)(std::span<const sym<T>>(outputs));
 }
 
-inline bool evaluate(sym_bool f, std::initializer_list<binding> bindings = {})
+template <class = void>
+bool evaluate(sym_bool f, std::initializer_list<binding> bindings = {})
 {
     return evaluator(tape::current(), {bindings.begin(), bindings.size()})(f);
 }

@@ -23,6 +23,7 @@ namespace taut::detail
 {
 
 /// Newton's steps in the plane with a direct solver.
+template <class = void>
 class triangle_newton final : public regularized_newton<triangle>
 {
 public:
@@ -153,9 +154,10 @@ private:
     std::vector<std::size_t> first_cell_; // of a vertex
 };
 
-inline std::unique_ptr<regularized_newton<triangle>> direct_newton(const regularized_problem<triangle>& problem)
+template <class = void>
+std::unique_ptr<regularized_newton<triangle>> direct_newton(const regularized_problem<triangle>& problem)
 {
-    return std::make_unique<triangle_newton>(problem);
+    return std::make_unique<triangle_newton<>>(problem);
 }
 
 } // namespace taut::detail

@@ -29,7 +29,7 @@ TAUT_INLINE std::string refusal(const device& d, const device_requirements& need
     return {};
 }
 
-TAUT_INLINE std::vector<listed_device> devices(const device_requirements& needs)
+TAUT_ON_USE_BODY std::vector<listed_device> devices(const device_requirements& needs)
 {
     std::vector<listed_device> all;
     for (const auto& platform : boost::compute::system::platforms())
@@ -116,7 +116,7 @@ inline device in_wanted_form(const device& d)
 
 } // namespace detail
 
-TAUT_INLINE device find_device(const std::string& wish, const device_requirements& needs, const std::string& said)
+TAUT_ON_USE_BODY device find_device(const std::string& wish, const device_requirements& needs, const std::string& said)
 {
     const auto all = devices(needs);
     const std::string wanted = detail::lower(wish);
@@ -136,7 +136,7 @@ TAUT_INLINE device find_device(const std::string& wish, const device_requirement
     detail::refuse("no OpenCL device fits" + (wanted.empty() ? "" : ' ' + said + wish), all);
 }
 
-TAUT_INLINE device choose_device(const device_requirements& needs)
+TAUT_ON_USE_BODY device choose_device(const device_requirements& needs)
 {
     const char* wish = std::getenv("TAUT_DEVICE");
     return find_device(wish ? wish : "", needs, "TAUT_DEVICE=");

@@ -61,7 +61,8 @@ struct ply_header
     text_list comments;
 };
 
-inline ply_type read_ply_type(scanner& in)
+template <class = void>
+ply_type read_ply_type(scanner& in)
 {
     constexpr std::array<std::pair<std::string_view, ply_type>, 16> names = {{{"char", ply_type::int8},
                                                                               {"uchar", ply_type::uint8},
@@ -85,7 +86,8 @@ inline ply_type read_ply_type(scanner& in)
     return found->second;
 }
 
-inline ply_property read_ply_property(scanner& in)
+template <class = void>
+ply_property read_ply_property(scanner& in)
 {
     ply_property p{};
     const scanner before = in;
@@ -99,7 +101,8 @@ inline ply_property read_ply_property(scanner& in)
 }
 
 /// Reads up to and including the line end_header. Throws io_error.
-inline ply_header read_ply_header(scanner& in)
+template <class = void>
+ply_header read_ply_header(scanner& in)
 {
     if (in.word() != "ply") in.fail("not a PLY file: it does not start with 'ply'");
     std::optional<ply_header::encoding> format;

@@ -20,6 +20,7 @@ namespace taut::io::detail
 {
 
 /// What the readers collect, and what they share in turning it into a surface.
+template <class = void>
 struct polygon_soup
 {
     std::vector<vec3> points;

@@ -62,7 +62,8 @@ inline bool is_stream_to_read(const std::filesystem::path& path)
 }
 
 /// All bytes of a file, and the format made known.
-inline std::string read_surface_bytes(const std::filesystem::path& path, surface_format& format)
+template <class = void>
+std::string read_surface_bytes(const std::filesystem::path& path, surface_format& format)
 {
     if (format == surface_format::automatic) format = format_of_name(path);
     if (format == surface_format::automatic && !is_stream_to_read(path))
@@ -75,7 +76,7 @@ inline std::string read_surface_bytes(const std::filesystem::path& path, surface
 
 } // namespace detail
 
-TAUT_INLINE surface_file read_surface_file(const std::filesystem::path& path, surface_format format)
+TAUT_ON_USE_BODY surface_file read_surface_file(const std::filesystem::path& path, surface_format format)
 {
     const std::string name = path.string();
     std::string text = detail::read_surface_bytes(path, format);
@@ -85,7 +86,7 @@ TAUT_INLINE surface_file read_surface_file(const std::filesystem::path& path, su
                                            : parse_obj(std::move(text), name);
 }
 
-TAUT_INLINE surface_soup read_surface_soup(const std::filesystem::path& path, surface_format format)
+TAUT_ON_USE_BODY surface_soup read_surface_soup(const std::filesystem::path& path, surface_format format)
 {
     const std::string name = path.string();
     std::string text = detail::read_surface_bytes(path, format);
@@ -95,7 +96,7 @@ TAUT_INLINE surface_soup read_surface_soup(const std::filesystem::path& path, su
                                            : parse_obj_soup(std::move(text), name);
 }
 
-TAUT_INLINE mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format)
+TAUT_ON_USE_BODY mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format)
 {
     return read_surface_file(path, format).surface;
 }

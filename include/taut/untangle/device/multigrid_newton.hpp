@@ -19,7 +19,8 @@ namespace taut
 {
 
 /// The regularised energy as an energy of kernels.
-inline any_energy regularized_energy(double eps, double area_weight)
+template <class = void>
+any_energy regularized_energy(double eps, double area_weight)
 {
     return any_energy(energy::regularized_element{}).with_parameters({eps, area_weight});
 }

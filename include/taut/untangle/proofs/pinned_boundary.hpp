@@ -38,7 +38,8 @@ struct pinned_boundaries
     }
 };
 
-inline pinned_boundaries find_pinned_boundaries(const untangle_problem<triangle>& p, const facet_table& f)
+template <class = void>
+pinned_boundaries find_pinned_boundaries(const untangle_problem<triangle>& p, const facet_table& f)
 {
     const auto at = [](idx i) { return static_cast<std::size_t>(i); };
     pinned_boundaries b;

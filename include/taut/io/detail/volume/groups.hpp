@@ -33,6 +33,7 @@ inline std::vector<idx> unique_vertices(std::vector<idx> vertices, std::size_t v
 }
 
 /// Vertices by the number of what they belong to: an attribute of cells or points.
+template <class = void>
 class tagged_vertices
 {
 public:
@@ -74,11 +75,12 @@ private:
         std::vector<idx> vertices;
     };
     std::map<long long, group> groups_;
-    std::map<long long, group>::iterator last_ = groups_.end();
+    typename std::map<long long, group>::iterator last_ = groups_.end();
 };
 
 /// Names that several groups have get the dimension behind: wing:2, wing:3; then they are joined.
-inline void make_names_unique(std::vector<volume_group>& groups)
+template <class = void>
+void make_names_unique(std::vector<volume_group>& groups)
 {
     std::map<std::string, int> count;
     for (const auto& g : groups) ++count[g.name];

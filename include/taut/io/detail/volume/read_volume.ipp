@@ -24,38 +24,40 @@ namespace taut::io
 namespace detail
 {
 
-inline void read_gmsh(volume_file& file)
+template <class = void>
+void read_gmsh(volume_file& file)
 {
-    volume_builder to(file);
-    gmsh_sections sections(to);
+    volume_builder<> to(file);
+    gmsh_sections<> sections(to);
     if (sections.version_4())
-        gmsh4_reader(to, sections).read();
+        gmsh4_reader<>(to, sections).read();
     else
-        gmsh2_reader(to, sections).read();
+        gmsh2_reader<>(to, sections).read();
     sections.finish_groups();
     to.finish();
 }
 
 /// Fills in what the bytes of a file say.
-inline void read_volume_bytes(volume_file& file, volume_format format)
+template <class = void>
+void read_volume_bytes(volume_file& file, volume_format format)
 {
     file.format = name_of(format);
     switch (format)
     {
     case volume_format::medit:
-        return medit_reader(file).read();
+        return medit_reader<>(file).read();
     case volume_format::gmsh:
         return read_gmsh(file);
     case volume_format::vtk:
-        return vtk_reader(file).read();
+        return vtk_reader<>(file).read();
     case volume_format::vtu:
-        return vtu_reader(file).read();
+        return vtu_reader<>(file).read();
     case volume_format::tetgen:
-        return tetgen_reader(file).read();
+        return tetgen_reader<>(file).read();
     case volume_format::su2:
-        return su2_reader(file).read();
+        return su2_reader<>(file).read();
     case volume_format::problem:
-        return problem_reader(file).read();
+        return problem_reader<>(file).read();
     case volume_format::automatic:
         break;
     }
@@ -68,7 +70,7 @@ inline void read_volume_bytes(volume_file& file, volume_format format)
 
 } // namespace detail
 
-TAUT_INLINE volume_file read_volume_file(const std::filesystem::path& path, volume_format format)
+TAUT_ON_USE_BODY volume_file read_volume_file(const std::filesystem::path& path, volume_format format)
 {
     if (format == volume_format::automatic) format = detail::volume_format_of_name(path);
     volume_file file;
@@ -88,12 +90,12 @@ TAUT_INLINE volume_file read_volume_file(const std::filesystem::path& path, volu
     return file;
 }
 
-TAUT_INLINE mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format)
+TAUT_ON_USE_BODY mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format)
 {
     return tetrahedra_of(read_volume_file(path, format));
 }
 
-TAUT_INLINE volume_file parse_volume(std::string bytes, volume_format format, const std::string& name)
+TAUT_ON_USE_BODY volume_file parse_volume(std::string bytes, volume_format format, const std::string& name)
 {
     volume_file file;
     file.path = name;
@@ -102,8 +104,8 @@ TAUT_INLINE volume_file parse_volume(std::string bytes, volume_format format, co
     return file;
 }
 
-TAUT_INLINE volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces,
-                                     const std::string& name)
+TAUT_ON_USE_BODY volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces,
+                                          const std::string& name)
 {
     volume_file file;
     file.path = name;

@@ -14,6 +14,7 @@ namespace taut::io::detail
 
 /// Reads TetGen's .node and .ele, and .face if there is one (TetGen manual, "File formats"); of two dimensions the
 /// same files of Triangle. Comments from #.
+template <class = void>
 class tetgen_reader
 {
 public:
@@ -26,7 +27,7 @@ public:
         {
             scanner in(companion.bytes, name_of(companion));
             in.require_text();
-            number_source from(in, encoding);
+            number_source<> from(in, encoding);
             if (companion.extension == ".ele") read_elements(from);
             if (companion.extension == ".face") read_faces(from);
         }
@@ -55,7 +56,7 @@ private:
         if (n == 0) nodes_.fail("no points; a mesh needs some");
         to_.set_places({}, false, static_cast<int>(d));
         to_.reserve_points(n);
-        tagged_vertices groups;
+        tagged_vertices<> groups;
         for (std::size_t v = 0; v < n; ++v)
         {
             to_.add_id(nodes_.integer(integer, "the number of a point"));
@@ -70,7 +71,7 @@ private:
     }
 
     /// A number on the line, 0 if there is none.
-    static long long optional(number_source& from)
+    static long long optional(number_source<>& from)
     {
         const long long n = from.in().content_ends() ? 0 : from.integer(integer, "a count");
         if (n < 0) from.fail("a negative count");
@@ -78,13 +79,13 @@ private:
     }
 
     template <std::size_t N>
-    void read_cell(number_source& from, std::array<idx, N>& corners, std::size_t count)
+    void read_cell(number_source<>& from, std::array<idx, N>& corners, std::size_t count)
     {
         from.integer(integer, "the number of an element");
         for (std::size_t k = 0; k < count; ++k) corners[k] = to_.point_of_id(from.integer(integer, "a point"), from);
     }
 
-    void read_elements(number_source& from)
+    void read_elements(number_source<>& from)
     {
         const std::size_t n = from.count(integer, "the number of elements", 2);
         const long long corners = from.integer(integer, "the number of corners");
@@ -95,7 +96,7 @@ private:
         const long long attributes = optional(from);
         std::array<idx, 4> cell{};
         const auto used = std::span(cell).first(static_cast<std::size_t>(corners));
-        tagged_vertices groups;
+        tagged_vertices<> groups;
         for (std::size_t c = 0; c < n; ++c)
         {
             read_cell(from, cell, used.size());
@@ -110,12 +111,12 @@ private:
         groups.move_to_prefixed(to_.file(), shape_of(kind).names);
     }
 
-    void read_faces(number_source& from)
+    void read_faces(number_source<>& from)
     {
         const std::size_t n = from.count(integer, "the number of faces", 2);
         const bool marked = optional(from) != 0;
         std::array<idx, 3> face{};
-        tagged_vertices groups;
+        tagged_vertices<> groups;
         for (std::size_t c = 0; c < n; ++c)
         {
             read_cell(from, face, 3);
@@ -126,8 +127,8 @@ private:
         groups.move_to_prefixed(to_.file(), "faces");
     }
 
-    volume_builder to_;
-    number_source nodes_;
+    volume_builder<> to_;
+    number_source<> nodes_;
 };
 
 } // namespace taut::io::detail

@@ -207,13 +207,13 @@ TAUT_INLINE const volume_group& volume_file::find_group(std::string_view name) c
                                              (known.empty() ? "'; the file has no groups" : "'; there are " + known));
 }
 
-TAUT_INLINE mesh<tetrahedron> tetrahedra_of(const volume_file& file)
+TAUT_ON_USE_BODY mesh<tetrahedron> tetrahedra_of(const volume_file& file)
 {
     return detail::cells_as<tetrahedron>(file, cell_kind::tetrahedron,
                                          "; this takes tetrahedra alone, split it into such");
 }
 
-TAUT_INLINE mesh<triangle> triangles_of(const volume_file& file)
+TAUT_ON_USE_BODY mesh<triangle> triangles_of(const volume_file& file)
 {
     detail::require_planar(file);
     return detail::cells_as<triangle>(file, cell_kind::triangle, "; this takes triangles alone, split it into such");

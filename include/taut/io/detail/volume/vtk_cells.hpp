@@ -18,7 +18,7 @@ namespace taut::io::detail
 {
 
 /// The kind of a cell that VTK (and SU2) gives a number. Throws io_error at `from` for one that is not read.
-inline cell_kind kind_of_vtk(long long type, const number_source& from)
+inline cell_kind kind_of_vtk(long long type, const number_source<>& from)
 {
     static constexpr std::array<std::pair<int, cell_kind>, 8> known = {{{1, cell_kind::vertex},
                                                                         {3, cell_kind::line},
@@ -40,6 +40,7 @@ inline cell_kind kind_of_vtk(long long type, const number_source& from)
 }
 
 /// Cells as VTK's arrays give them: types, and corners of which each cell ends at an offset.
+template <class = void>
 struct vtk_cells
 {
     std::vector<int> types;
@@ -47,7 +48,7 @@ struct vtk_cells
     std::vector<idx> corners;
 
     /// Throws io_error at `from`.
-    void move_to(volume_builder& to, const number_source& from) const
+    void move_to(volume_builder<>& to, const number_source<>& from) const
     {
         if (types.size() != ends.size())
             from.fail(std::to_string(types.size()) + " cell types for " + std::to_string(ends.size()) + " cells");
@@ -68,7 +69,8 @@ struct vtk_cells
 };
 
 /// Makes a group NAME:VALUE of each value of an attribute. One of very many values numbers things, and names nothing.
-inline void add_attribute_groups(volume_file& file, const volume_label& a)
+template <class = void>
+void add_attribute_groups(volume_file& file, const volume_label& a)
 {
     constexpr std::size_t most = 256;
     std::unordered_set<long long> values;
@@ -79,7 +81,7 @@ inline void add_attribute_groups(volume_file& file, const volume_label& a)
                                  " different values; no groups were made of it");
             return;
         }
-    tagged_vertices groups;
+    tagged_vertices<> groups;
     if (!a.of_cells)
         for (std::size_t v = 0; v < std::min(a.values.size(), file.points.size()); ++v)
         {

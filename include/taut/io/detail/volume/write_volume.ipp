@@ -112,7 +112,7 @@ inline void require_other(const std::filesystem::path& output, const std::filesy
 
 } // namespace detail
 
-TAUT_INLINE std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points)
+TAUT_ON_USE_BODY std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points)
 {
     std::vector<vec3> result(points.begin(), points.end());
     if (file.places.single)
@@ -121,7 +121,7 @@ TAUT_INLINE std::vector<vec3> rounded_to_file(const volume_file& file, std::span
     return result;
 }
 
-TAUT_INLINE std::string with_points(const volume_file& file, std::span<const vec3> points)
+TAUT_ON_USE_BODY std::string with_points(const volume_file& file, std::span<const vec3> points)
 {
     struct text_output
     {
@@ -134,8 +134,8 @@ TAUT_INLINE std::string with_points(const volume_file& file, std::span<const vec
     return std::move(out.text);
 }
 
-TAUT_INLINE std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
-                                                      std::span<const vec3> points)
+TAUT_ON_USE_BODY std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
+                                                           std::span<const vec3> points)
 {
     detail::require_storable(file, points);
     const auto format = detail::volume_format_of_name(path);
@@ -160,7 +160,8 @@ TAUT_INLINE std::vector<file_to_write> volume_outputs(const std::filesystem::pat
     return result;
 }
 
-TAUT_INLINE void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points)
+TAUT_ON_USE_BODY void write_volume(const std::filesystem::path& path, const volume_file& file,
+                                   std::span<const vec3> points)
 {
     write_files(volume_outputs(path, file, points));
 }
