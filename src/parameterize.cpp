@@ -7,4 +7,5 @@
 #include <taut/map/detail/session/map_session.hpp>
 
 template taut::map_result taut::parameterize(queue&, const mesh<triangle>&, const parameterize_params&);
+template taut::map_result taut::parameterize(queue&, const mesh<triangle>&);
 template taut::session<taut::triangle>::session(queue&, const mesh<triangle>&, const parameterize_params&);

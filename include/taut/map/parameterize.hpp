@@ -20,7 +20,11 @@ namespace taut
 /// Element is triangle.
 /// Throws mesh_error (not a disk, degenerate triangle, ...), parameter_error, device_error.
 template <class Element>
-map_result parameterize(queue& q, const mesh<Element>& m, const parameterize_params& params = {});
+map_result parameterize(queue& q, const mesh<Element>& m, const parameterize_params& params);
+
+/// The same with the defaults. Header-only it takes less to compile, as it leaves out what parameters alone ask for.
+template <class Element>
+map_result parameterize(queue& q, const mesh<Element>& m);
 
 } // namespace taut
 

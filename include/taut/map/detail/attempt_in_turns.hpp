@@ -25,7 +25,7 @@ attempt attempt_in_turns(const map_run<Element>& run, const run_start& start)
     const auto once = [&](precision how, int max_iterations, std::vector<vec2> from)
     {
         return run.levels ? attempt_on_levels(run, start, how, max_iterations, std::move(from))
-                          : attempt_on_mesh(run, start, how, max_iterations);
+                          : run.asked->attempt_on_mesh(run, start, how, max_iterations);
     };
     const auto& stopping = run.params.solve.stopping;
     const bool chosen = run.params.precision == precision::automatic;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,16 +19,12 @@ std::vector<vec2> free_draft(const map_run<Element>& run);
 
 /// The first of these that works: springs draw pins to their places on levels; where that fails and the boundary is
 /// pinned as a whole, the same from the map of a run without the constraints, if a similarity brings that near to them;
-/// where the boundary is free, such a map, brought near; the start that the method asked for, on the mesh itself.
+/// where the boundary is free, such a map, brought near; the conformal start, where that is the method. None: it takes
+/// the start that all runs have.
 template <class Element>
-run_start made_start(const map_run<Element>& run)
+std::optional<run_start> other_start(const map_run<Element>& run)
 {
     run_start start;
-    if (!run.clock.proceed())
-    {
-        start.stopped = true;
-        return start;
-    }
     if (run.draws_pins())
     {
         start = drawn_start<Element>(run).make();
@@ -49,14 +46,26 @@ run_start made_start(const map_run<Element>& run)
         start.stopped = !run.clock.proceed();
         if (start.stopped) return start;
     }
-    if (run.params.start == start_method::conformal && run.params.boundary == boundary_mode::free)
-        start.map = conformal_start(run.in.surface, run.in.sides);
-    else
+    if (run.params.start != start_method::conformal || run.params.boundary != boundary_mode::free) return std::nullopt;
+    start.map = conformal_start(run.in.surface, run.in.sides);
+    return fitted_start(run, std::move(start), false);
+}
+
+/// A start on the mesh itself: one that was asked for, or a barycentric one.
+template <class Element>
+run_start made_start(const map_run<Element>& run)
+{
+    run_start start;
+    if (!run.clock.proceed())
     {
-        auto how = run.params.barycentric;
-        how.proceed = [&run] { return run.clock.proceed(); };
-        start.map = barycentric_map(run.in.surface, run.in.sides, how);
+        start.stopped = true;
+        return start;
     }
+    if (run.asked)
+        if (auto other = run.asked->other_start(run)) return *std::move(other);
+    auto how = run.params.barycentric;
+    how.proceed = [&run] { return run.clock.proceed(); };
+    start.map = barycentric_map(run.in.surface, run.in.sides, how);
     return fitted_start(run, std::move(start), false);
 }
 
@@ -84,7 +93,7 @@ run_start choose_start(const map_run<Element>& run)
     }
     if (!run.params.initial.empty())
     {
-        start = given_start(run);
+        start = run.asked->given_start(run);
         if (!start.useless) return start;
         start.useless = false;
         start.stopped = !run.clock.proceed();

@@ -71,7 +71,7 @@ run_start fitted_start(const map_run<Element>& run, run_start start, bool given)
     {
         if (run.held.constrained() || given)
         {
-            start = untangled_start(run, std::move(start), std::move(draft));
+            start = run.asked->untangled_start(run, std::move(start), std::move(draft));
             run.clock.spent(&map_seconds::untangle);
         }
         else

@@ -5,6 +5,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <taut/compute/queue.hpp>
 #include <taut/constrain/held_coordinates.hpp>
@@ -24,6 +25,26 @@ inline parameterize_params validated(parameterize_params p)
     return p;
 }
 
+struct attempt;
+struct run_start;
+template <class Element>
+struct map_run;
+
+/// The phases that parameters ask for. A run has them at hand only if it was given parameters, so that programs without
+/// any do not compile what constraints, other starts and boundaries kept apart need.
+template <class Element>
+struct asked_phases
+{
+    using run = map_run<Element>;
+
+    run_start (*given_start)(const run&);
+    std::optional<run_start> (*other_start)(const run&);
+    run_start (*untangled_start)(const run&, run_start, std::vector<vec2> draft);
+    attempt (*attempt_on_mesh)(const run&, const run_start&, precision, int max_iterations);
+    map_result (*kept_apart)(const run&, map_result);
+    map_result (*certified_apart)(const run&, map_result);
+};
+
 /// A run of parameterize() once it is prepared: what all its phases read. A template, as they are, so that only files
 /// that call it compile them.
 template <class Element>
@@ -35,16 +56,19 @@ struct map_run
     const parameterize_params& params; ///< validated
     const run_surface& in;
     run_clock& clock;
+    const asked_phases<Element>* asked; ///< none: all parameters have their defaults
     held_coordinates held;
     std::optional<mesh_levels<Element>>
         levels; ///< none where the method needs none, or the limits leave no time for them
 
     /// Refers to its arguments but the queue. Throws parameter_error for constraints of another mesh.
-    map_run(taut::queue q, const run_surface& surface, const parameterize_params& p, run_clock& limits)
+    map_run(taut::queue q, const run_surface& surface, const parameterize_params& p, run_clock& limits,
+            const asked_phases<Element>* phases)
         : queue(std::move(q)),
           params(p),
           in(surface),
           clock(limits),
+          asked(phases),
           held(p.constraints, in.surface.points().size(), in.fixed_boundary(p.boundary), in.unit)
     {
         clock.spent(&map_seconds::setup);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <taut/map/detail/attempt_in_turns.hpp>
+#include <taut/map/detail/attempt_on_mesh.hpp>
 #include <taut/map/detail/choose_start.hpp>
 #include <taut/map/detail/overlap/keep_apart.hpp>
 #include <taut/map/detail/returned_map.hpp>
@@ -64,37 +65,62 @@ std::vector<vec2> free_draft(const map_run<Element>& run)
                         now.coordinates = {};
                         return run.clock.ask(now);
                     });
-    const map_run<Element> free(run.queue, run.in, params, clock);
+    const map_run<Element> free(run.queue, run.in, params, clock, run.asked);
     map_result draft = solved(free);
     run.clock.stages.append(clock.stages.stages());
     return draft ? std::move(draft.uv) : std::vector<vec2>();
 }
 
+template <class Element>
+inline constexpr asked_phases<Element> all_phases = {
+    .given_start = given_start<Element>,
+    .other_start = other_start<Element>,
+    .untangled_start = untangled_start<Element>,
+    .attempt_on_mesh = attempt_on_mesh<Element>,
+    .kept_apart = kept_apart<Element>,
+    .certified_apart = certified_apart<Element>,
+};
+
 /// All of parameterize() but the counters. params: validated.
 template <class Element>
-map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock)
+map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock,
+                  const asked_phases<Element>* asked)
 {
-    const map_run<Element> run(q, surface, params, clock);
+    const map_run<Element> run(q, surface, params, clock, asked);
     map_result found = solved(run);
-    if (params.no_overlap) found = kept_apart(run, std::move(found));
+    if (params.no_overlap) found = asked->kept_apart(run, std::move(found));
     map_result result = in_user_units(run, placed(run, std::move(found)));
-    if (params.no_overlap) result = certified_apart(run, std::move(result));
+    if (params.no_overlap) result = asked->certified_apart(run, std::move(result));
     clock.stages.add({.stage = "certify", .vertices = run.vertices()});
     result.report.stages = clock.stages.stages();
+    return result;
+}
+
+/// All of parameterize().
+template <class Element>
+map_result parameterized(queue& q, const mesh<Element>& m, const parameterize_params& params,
+                         const asked_phases<Element>* asked)
+{
+    const parameterize_params wanted = validated(params);
+    const queue_counters before = q.counters();
+    run_clock clock(wanted.time_limit, wanted.observer);
+    map_result result = mapped<Element>(q, run_surface(m, wanted), wanted, clock, asked);
+    result.report.counters = counted_since(before, q.counters());
     return result;
 }
 
 } // namespace detail
 
 template <class Element>
+map_result parameterize(queue& q, const mesh<Element>& m)
+{
+    return detail::parameterized<Element>(q, m, {}, nullptr);
+}
+
+template <class Element>
 map_result parameterize(queue& q, const mesh<Element>& m, const parameterize_params& params)
 {
-    const parameterize_params wanted = detail::validated(params);
-    const queue_counters before = q.counters();
-    detail::run_clock clock(wanted.time_limit, wanted.observer);
-    map_result result = detail::mapped<Element>(q, detail::run_surface(m, wanted), wanted, clock);
-    result.report.counters = counted_since(before, q.counters());
-    return result;
+    return detail::parameterized(q, m, params, &detail::all_phases<Element>);
 }
 
 } // namespace taut
