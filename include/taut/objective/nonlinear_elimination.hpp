@@ -30,6 +30,7 @@ namespace taut
 /// kernels of the mesh. The energy falls, no element flips, and what patches do not move stays bit for bit.
 ///
 /// Costs five or six waits a step, and some microseconds a triangle of the patches.
+template <class = void>
 class nonlinear_elimination
 {
     static constexpr int D = triangle::dimension;
@@ -254,8 +255,8 @@ private:
         const patch* patch_;
         std::size_t first_cell_; // among those of all patches
         std::vector<vec<D>> x_, d_;
-        std::optional<detail::front_cholesky> solver_;
-        std::vector<detail::front_cholesky::block> blocks_;
+        std::optional<detail::front_cholesky<>> solver_;
+        std::vector<detail::front_cholesky<>::block> blocks_;
         double slope_ = 0, most_ = 0; // along d_; the largest decrease so far
         int pause_ = 0;               // steps until the Hessian itself is tried
         bool exact_ = false, done_ = false, moved_ = false;

@@ -38,9 +38,9 @@ namespace detail
 /// Conformal energy of each triangle, its area times the squared length of the part of S that is not a similarity, as a
 /// quadratic form of its corners.
 template <class = void>
-std::vector<front_cholesky::block> conformal_blocks(const ideal_elements<triangle>& ideal)
+std::vector<front_cholesky<>::block> conformal_blocks(const ideal_elements<triangle>& ideal)
 {
-    std::vector<front_cholesky::block> blocks(ideal.inverse.size());
+    std::vector<front_cholesky<>::block> blocks(ideal.inverse.size());
     for (std::size_t c = 0; c < blocks.size(); ++c)
     {
         const mat2& w = ideal.inverse[c];

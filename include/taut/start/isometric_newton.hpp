@@ -103,8 +103,8 @@ private:
     std::vector<mat2> inverse_;
     std::vector<double> area_;
     double total_ = 0;
-    front_cholesky solver_;
-    std::vector<front_cholesky::block> blocks_;
+    front_cholesky<> solver_;
+    std::vector<front_cholesky<>::block> blocks_;
 };
 
 } // namespace taut::detail

@@ -19,11 +19,13 @@ namespace detail
 {
 
 /// A map without flips, for want of a better one.
-inline std::vector<vec2> some_map(const mesh<triangle>& m)
+template <class = void>
+std::vector<vec2> some_map(const mesh<triangle>& m)
 {
     return barycentric_map(m, facets(m), {}).uv;
 }
-inline std::vector<vec3> some_map(const mesh<tetrahedron>& m)
+template <class = void>
+std::vector<vec3> some_map(const mesh<tetrahedron>& m)
 {
     return m.points();
 }

@@ -148,8 +148,8 @@ private:
     }
 
     const held_marks<2>& held_;
-    front_cholesky solver_;
-    std::vector<front_cholesky::block> blocks_;
+    front_cholesky<> solver_;
+    std::vector<front_cholesky<>::block> blocks_;
     std::vector<std::array<vec2, 3>> forces_;
     std::vector<std::size_t> first_cell_; // of a vertex
 };

@@ -11,7 +11,7 @@ namespace
 {
 
 using taut::vec2;
-using block = taut::detail::front_cholesky::block;
+using block = taut::detail::front_cholesky<>::block;
 
 /// J^T J with random 6 x 6 entries: positive definite.
 std::vector<block> random_blocks(std::size_t count)
