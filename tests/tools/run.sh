@@ -1634,7 +1634,7 @@ test_untangle()
 
     # A map with flips never gets the name that was asked for.
     star 200 >large.prob
-    for limit in 0.2 0.3 0.5 0.8 1.3 2 3 5; do # until there is time to begin
+    for limit in 0.02 0.03 0.05 0.08 0.12 0.2 0.3 0.5 0.8 1.3 2 3 5; do # until there is time to begin
         expect 6 untangle large.prob -o late.txt --time-limit $limit --stats stats.json
         [ ! -e late.txt.invalid ] || break
         error_says 'time limit came before there was a map'
