@@ -331,7 +331,8 @@ private:
 
     void assemble(const step& s, std::span<const block> blocks)
     {
-        for (std::size_t r = 0; r < s.width; ++r) std::fill(row(s, r) + r, row(s, r) + s.width, 0.0);
+        // From an even column on, as take_out() goes by twos.
+        for (std::size_t r = 0; r < s.width; ++r) std::fill(row(s, r) + r / 2 * 2, row(s, r) + s.width, 0.0);
         for (const entry& e : part(own_, s.own))
             for (std::size_t a = 0; a < 3; ++a)
                 for (std::size_t b = a; b < 3 && e.place[a] >= 0; ++b)

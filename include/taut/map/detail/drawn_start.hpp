@@ -64,6 +64,7 @@ public:
             // What cannot be untangled there often can on a finer level, if that is small enough for it.
             if (bound_ && !map.flips && first > 1 && levels_.vertices(first - 1) <= most_untangled)
                 map = first_map(--first);
+            run_.clock.spent(&map_seconds::start);
             if (!map.flips) return start;
             descent.start_vertices = levels_.vertices(first);
             descent.first_map = [&map](std::size_t) { return std::move(map); };
@@ -166,7 +167,10 @@ private:
     {
         auto how = limited(run_, run_.params.solve.stopping.max_iterations);
         how.stopping.gradient_tolerance = std::max(roughly, how.stopping.gradient_tolerance);
-        run_.clock.stages.add(minimised_on_mesh(run_, finest.minimize(how, observer_on(run_.clock, 1))));
+        auto r = finest.minimize(how, observer_on(run_.clock, 1));
+        for (int& c : r.capping) c = levels_.order().cells.new_to_old[static_cast<std::size_t>(c)];
+        run_.clock.stages.add(minimised_on_mesh(run_, r));
+        run_.clock.spent(&map_seconds::start);
         origins_ = levels_.order().vertices.undo(finest.download());
         run_.held.bring_near(origins_);
         if (!run_.clock.proceed() || run_.held.misfit(origins_) > near) return false;
@@ -174,7 +178,6 @@ private:
         reach_ = bounding_square(map).size / 2;
         finest.move_to(levels_.order().vertices.apply(map));
         finest.constrain({.held = {}, .springs = springs(0, first_stiffness(0))});
-        run_.clock.spent(&map_seconds::start);
         return true;
     }
 
@@ -224,6 +227,8 @@ private:
         did.cut_by = corners_of(levels_.cells(0), steps.capping, levels_.users(0));
         did.stop = start.useless ? moves ? "iterations" : "line search" : "injective";
         run_.clock.stages.add(did);
+        const double before = run_.clock.seconds.untangle;
+        run_.clock.spent(&map_seconds::untangle);
         if (start.useless)
         {
             if (free_) start.map.uv = origins_;
@@ -233,8 +238,7 @@ private:
         start.pin_origins = run_.held.pinned_points(origins_);
         start.centre = bounding_square(start.map.uv).centre;
         run_.clock.has_result(true);
-        run_.clock.spent(&map_seconds::untangle);
-        did.seconds = run_.clock.seconds.untangle;
+        did.seconds = run_.clock.seconds.untangle - before;
         start.untangling.push_back(std::move(did));
     }
 
@@ -242,7 +246,7 @@ private:
     static constexpr std::size_t most_untangled = 6000; // the same where that takes more than a harmonic map
     static constexpr double growth = 4;
     static constexpr double followed = 0.25; // a step that is no shorter
-    static constexpr int most_strides = 24;  // with stiffer springs rounding would decide
+    static constexpr int most_strides = 24;
     static constexpr int most_steps = 40;
     static constexpr double roughly = 1e-3; // the gradient of a map that will be moved
     static constexpr double near = 0.25;    // of held_coordinates::misfit()

@@ -284,8 +284,8 @@ private:
     }
 
     std::size_t n_;
-    std::vector<idx> lists_; // of each variable, at its offset: elements, and at the end variables
-    std::span<const idx> offset_;
+    std::vector<idx> lists_;                     // of each variable, at its offset: elements, and at the end variables
+    std::span<const idx> offset_;                // of the constructor, and not read after it
     std::vector<idx> elements_, variables_;      // how many there are
     std::vector<std::size_t> size_;              // members of a supervariable; 0: merged or eliminated
     std::vector<std::size_t> degree_;            // of a variable: bound on its border; of an element: its border's size
