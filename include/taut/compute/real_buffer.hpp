@@ -40,6 +40,13 @@ public:
         return wide ? (*wide)[i] : static_cast<double>(std::get<std::vector<float>>(numbers_)[i]);
     }
 
+    /// Calls body with all of them, a span<const float> or span<const double>.
+    template <class Body>
+    void visit(const Body& body) const
+    {
+        std::visit([&](const auto& v) { body(std::span(v)); }, numbers_);
+    }
+
 private:
     friend class real_buffer;
     std::variant<std::vector<float>, std::vector<double>> numbers_;

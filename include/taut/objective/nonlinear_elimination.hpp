@@ -29,7 +29,7 @@ namespace taut
 /// stand-in, to the best of four lengths, none beyond 0.9 of the way to the first flip. Formulas are those of the
 /// kernels of the mesh. The energy falls, no element flips, and what patches do not move stays bit for bit.
 ///
-/// Costs five or six waits a step, and some microseconds a triangle of the patches.
+/// Costs two or three waits a step, and some tenths of a microsecond a triangle of the patches.
 template <class = void>
 class nonlinear_elimination
 {
@@ -100,8 +100,8 @@ public:
 private:
     using patch = detail::patch<triangle>;
     using patch_cells = detail::patch_cells<triangle>;
+    using solver = detail::front_cholesky<>;
     static constexpr int most_steps = 15;
-    static constexpr std::size_t worth_sharing = 1000; // triangles
     static constexpr std::size_t trials = patch_cells::trials;
 
     static std::size_t at(idx i) { return static_cast<std::size_t>(i); }
@@ -130,14 +130,14 @@ private:
     {
     public:
         minimisation(const patch& p, std::size_t first_cell, std::vector<vec<D>> x)
-            : patch_(&p), first_cell_(first_cell), x_(std::move(x)), d_(x_.size(), vec<D>(0.0)), blocks_(p.cells.size())
+            : patch_(&p), first_cell_(first_cell), x_(std::move(x)), d_(x_.size(), vec<D>(0.0))
         {
         }
 
         /// Before all others.
         void prepare() { solver_.emplace(patch_->cells, patch_->fixed); }
 
-        std::size_t cells() const { return blocks_.size(); }
+        std::size_t first_cell() const { return first_cell_; }
         bool done() const { return done_; }
         /// Whether its next step is to be along the Hessian itself.
         bool exact() const { return !done_ && pause_ <= 0; }
@@ -145,24 +145,21 @@ private:
         /// The longest step to be tried, as a vector a vertex; 0 where it is done.
         const std::vector<vec<D>>& d() const { return d_; }
 
-        /// Makes d() by the Hessian, if it is exact only where that is positive definite: false where it is not.
-        bool direct(const std::vector<double>& gradients, const std::vector<double>& hessians, std::size_t stride,
-                    bool exact)
+        solver& factors() { return *solver_; }
+
+        /// Makes d() by the factors, of the Hessian itself if `exact`.
+        void direct(const std::vector<double>& gradients, std::size_t stride, bool exact)
         {
-            load(hessians, stride);
-            solver_->factorize(blocks_, 1e-12);
-            if (exact && !solver_->definite()) return false;
             const auto force = forces(gradients, stride);
             d_ = solver_->solve(force);
             slope_ = 0;
             for (std::size_t v = 0; v < d_.size(); ++v) slope_ -= glm::dot(force[v], d_[v]);
             pause_ = exact ? 0 : pause_ > 0 ? pause_ - 1 : patience;
             exact_ = exact;
-            if (!(slope_ < 0)) return finish(), true;
+            if (!(slope_ < 0)) return finish();
             const double longest = reach();
             for (auto& v : d_) v *= longest;
             slope_ *= longest;
-            return true;
         }
 
         /// Goes to the best of x + steps[k] d by the energies there and at x.
@@ -172,7 +169,7 @@ private:
             const auto sum = [&](std::size_t trial)
             {
                 const auto begin = energies.begin() + static_cast<std::ptrdiff_t>(trial * stride + first_cell_);
-                return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(blocks_.size()), 0.0);
+                return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(patch_->cells.size()), 0.0);
             };
             constexpr double sufficient = 1e-4, little = 0.2;
             const double here = sum(trials - 1); // its step is 0
@@ -212,25 +209,10 @@ private:
             std::fill(d_.begin(), d_.end(), vec<D>(0.0));
         }
 
-        void load(const std::vector<double>& hessians, std::size_t stride)
-        {
-            std::array<std::array<std::size_t, 6>, 6> slots{};
-            for (int i = 0; i < 6; ++i)
-                for (int j = 0; j < 6; ++j) slots[at(i)][at(j)] = at(hessian_slots<D>::at(i / D, i % D, j / D, j % D));
-            parallel_for(blocks_.size(),
-                         [&](std::size_t begin, std::size_t end)
-                         {
-                             for (std::size_t c = begin; c < end; ++c)
-                                 for (std::size_t i = 0; i < 6; ++i)
-                                     for (std::size_t j = 0; j < 6; ++j)
-                                         blocks_[c][i][j] = hessians[slots[i][j] * stride + first_cell_ + c];
-                         });
-        }
-
         std::vector<vec<D>> forces(const std::vector<double>& gradients, std::size_t stride) const
         {
             std::vector<vec<D>> force(x_.size(), vec<D>(0.0));
-            for (std::size_t c = 0; c < blocks_.size(); ++c)
+            for (std::size_t c = 0; c < patch_->cells.size(); ++c)
                 for (std::size_t k = 0; k < triangle::corners; ++k)
                     for (std::size_t i = 0; i < D; ++i)
                         force[at(patch_->cells[c][k])][static_cast<int>(i)] -=
@@ -255,8 +237,7 @@ private:
         const patch* patch_;
         std::size_t first_cell_; // among those of all patches
         std::vector<vec<D>> x_, d_;
-        std::optional<detail::front_cholesky<>> solver_;
-        std::vector<detail::front_cholesky<>::block> blocks_;
+        std::optional<solver> solver_;
         double slope_ = 0, most_ = 0; // along d_; the largest decrease so far
         int pause_ = 0;               // steps until the Hessian itself is tried
         bool exact_ = false, done_ = false, moved_ = false;
@@ -265,52 +246,58 @@ private:
     /// A step of every patch that is not done; false if there is none.
     bool advance(std::vector<minimisation>& all, patch_cells& cells)
     {
-        // Threads share the work of a large patch, and small ones by turns.
-        const auto small =
-            std::find_if(all.begin(), all.end(), [](const auto& m) { return m.cells() < worth_sharing; });
-        const auto large = static_cast<std::size_t>(small - all.begin());
-        const auto each = [&](const auto& body)
-        {
-            for (std::size_t i = 0; i < large; ++i) body(all[i], i);
-            parallel_for(
-                all.size() - large,
-                [&](std::size_t begin, std::size_t end)
-                {
-                    for (std::size_t i = large + begin; i < large + end; ++i) body(all[i], i);
-                },
-                0, 1);
-        };
-        std::vector<char> waiting(all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) waiting[i] = !all[i].done();
-        const auto any = [](const std::vector<char>& flags)
-        { return std::find(flags.begin(), flags.end(), 1) != flags.end(); };
-        if (!any(waiting)) return false;
+        std::vector<minimisation*> exact, others;
+        for (auto& m : all)
+            if (!m.done()) (m.exact() ? exact : others).push_back(&m);
+        if (exact.empty() && others.empty()) return false;
 
         cells.place(joined(all, &minimisation::x));
-        const auto gradients = cells.gradients();
-        const std::size_t stride = cells.stride();
-        if (std::any_of(all.begin(), all.end(), [](const auto& m) { return m.exact(); }))
+        if (!exact.empty())
         {
-            const auto hessians = cells.hessians(definiteness::indefinite);
-            each(
-                [&](minimisation& m, std::size_t i)
-                {
-                    if (m.exact() && m.direct(gradients, hessians, stride, true)) waiting[i] = 0;
-                });
+            cells.differentiate(definiteness::indefinite);
+            direct(exact, cells, true);
+            for (minimisation* m : exact)
+                if (!m->factors().definite()) others.push_back(m);
+            std::sort(others.begin(), others.end()); // as in all: the largest first
         }
-        if (any(waiting))
+        if (!others.empty())
         {
-            const auto hessians = cells.hessians(definite(energy_.eigenvalues()));
-            each(
-                [&](minimisation& m, std::size_t i)
-                {
-                    if (waiting[i]) m.direct(gradients, hessians, stride, false);
-                });
+            cells.differentiate(definite(energy_.eigenvalues()));
+            direct(others, cells, false);
         }
         constexpr std::array<double, trials> steps{1, 0.5, 0.2, 0};
-        const auto energies = cells.energies(joined(all, &minimisation::d), steps);
-        for (auto& m : all) m.choose(energies, stride, steps);
+        const auto& energies = cells.energies(joined(all, &minimisation::d), steps);
+        for (auto& m : all) m.choose(energies, cells.stride(), steps);
         return true;
+    }
+
+    /// Makes the directions of some; where the Hessian itself is not positive definite there is none.
+    static void direct(const std::vector<minimisation*>& some, const patch_cells& cells, bool exact)
+    {
+        constexpr auto slots = []
+        {
+            std::array<std::array<std::size_t, 6>, 6> at{};
+            for (int i = 0; i < 6; ++i)
+                for (int j = 0; j < 6; ++j)
+                    at[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
+                        static_cast<std::size_t>(hessian_slots<D>::at(i / D, i % D, j / D, j % D));
+            return at;
+        }();
+        std::vector<solver*> solvers;
+        for (minimisation* m : some) solvers.push_back(&m->factors());
+        const std::size_t stride = cells.stride();
+        cells.hessians().visit(
+            [&](const auto& hessians)
+            {
+                solver::factorize_together(
+                    solvers, 1e-12, exact,
+                    [&](std::size_t i, std::size_t c, std::size_t row, std::size_t column)
+                    { return static_cast<double>(hessians[slots[row][column] * stride + some[i]->first_cell() + c]); },
+                    [&](std::size_t i)
+                    {
+                        if (!exact || solvers[i]->definite()) some[i]->direct(cells.gradients(), stride, exact);
+                    });
+            });
     }
 
     static std::vector<vec<D>> joined(const std::vector<minimisation>& all,

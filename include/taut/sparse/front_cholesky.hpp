@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -48,6 +49,7 @@ public:
     /// between fronts; once it says no, there are no factors and the answer is false.
     bool factorize(std::span<const block> blocks, double relative_shift, const std::function<bool()>& proceed = {})
     {
+        const auto entry = [blocks](std::size_t cell, std::size_t r, std::size_t c) { return blocks[cell][r][c]; };
         std::vector<char> positive(tasks_.size() + 1, 1);
         if (proceed && !proceed()) return false;
         parallel_for(
@@ -56,16 +58,64 @@ public:
             {
                 for (std::size_t t = begin; t < end; ++t)
                     for (std::size_t f = tasks_[t].first; f < tasks_[t].last; ++f)
-                        positive[t] &= eliminate(steps_[f], blocks, relative_shift);
+                        positive[t] &= eliminate(steps_[f], entry, relative_shift);
             },
             0, 2);
         for (const std::size_t f : top_)
         {
             if (proceed && !proceed()) return false;
-            positive.back() &= eliminate(steps_[f], blocks, relative_shift);
+            positive.back() &= eliminate(steps_[f], entry, relative_shift);
         }
         definite_ = std::find(positive.begin(), positive.end(), 0) == positive.end();
         return true;
+    }
+
+    /// Factorizes the sums of several solvers, the largest first best: threads share all of their work. entry(i, cell,
+    /// row, column): of the blocks of solver i. then(i) is called by the thread that has found its last factor, while
+    /// others go on. definite_only: a sum that is found not to be definite is left there, without factors.
+    template <class Entry, class Then>
+    static void factorize_together(std::span<front_cholesky* const> solvers, double relative_shift, bool definite_only,
+                                   const Entry& entry, const Then& then)
+    {
+        struct task
+        {
+            std::size_t solver;
+            range steps;
+        };
+        struct state
+        {
+            std::atomic<std::size_t> left{0};
+            std::atomic<bool> definite{true};
+        };
+        std::vector<task> all;
+        const auto states = std::make_unique<state[]>(solvers.size());
+        for (std::size_t i = 0; i < solvers.size(); ++i)
+        {
+            for (const range& r : solvers[i]->tasks_) all.push_back({i, r});
+            if (solvers[i]->tasks_.empty()) all.push_back({i, {0, 0}});
+            states[i].left = std::max<std::size_t>(1, solvers[i]->tasks_.size());
+        }
+        const auto eliminate_one = [&](std::size_t i, std::size_t f)
+        {
+            if (definite_only && !states[i].definite.load(std::memory_order_relaxed)) return;
+            const auto own = [&](std::size_t cell, std::size_t r, std::size_t c) { return entry(i, cell, r, c); };
+            if (!solvers[i]->eliminate(solvers[i]->steps_[f], own, relative_shift)) states[i].definite = false;
+        };
+        parallel_for(
+            all.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t t = begin; t < end; ++t)
+                {
+                    const auto [i, steps] = all[t];
+                    for (std::size_t f = steps.first; f < steps.last; ++f) eliminate_one(i, f);
+                    if (states[i].left.fetch_sub(1) > 1) continue;
+                    for (const std::size_t f : solvers[i]->top_) eliminate_one(i, f);
+                    solvers[i]->definite_ = states[i].definite;
+                    then(i);
+                }
+            },
+            0, 2);
     }
 
     /// Whether the last sum was positive definite, up to rounding: if not, directions without stiffness, or with a
@@ -116,7 +166,7 @@ private:
     }
 
     /// A triangle as it enters a front: its corners by their places there, fixed ones first.
-    struct entry
+    struct own_cell
     {
         std::size_t cell;
         std::array<idx, 3> place; ///< or -1
@@ -249,7 +299,7 @@ private:
             set_places(s, place);
             for (std::size_t i = s.own.first; i < s.own.last; ++i)
             {
-                entry& e = own_[i];
+                own_cell& e = own_[i];
                 std::array<std::pair<idx, char>, 3> sorted;
                 for (std::size_t k = 0; k < 3; ++k)
                 {
@@ -295,9 +345,10 @@ private:
     }
 
     /// Makes a front and eliminates its pivots; whether they were positive.
-    bool eliminate(const step& s, std::span<const block> blocks, double relative_shift)
+    template <class Entry>
+    bool eliminate(const step& s, const Entry& entry, double relative_shift)
     {
-        assemble(s, blocks);
+        assemble(s, entry);
         bool positive = true;
         for (std::size_t first = 0; first < s.pivots; first += panel)
         {
@@ -329,23 +380,23 @@ private:
         return positive;
     }
 
-    void assemble(const step& s, std::span<const block> blocks)
+    template <class Entry>
+    void assemble(const step& s, const Entry& entry)
     {
         // From an even column on, as take_out() goes by twos.
         for (std::size_t r = 0; r < s.width; ++r) std::fill(row(s, r) + r / 2 * 2, row(s, r) + s.width, 0.0);
-        for (const entry& e : part(own_, s.own))
+        for (const own_cell& e : part(own_, s.own))
             for (std::size_t a = 0; a < 3; ++a)
                 for (std::size_t b = a; b < 3 && e.place[a] >= 0; ++b)
                 {
                     const auto i = static_cast<std::size_t>(2 * e.corner[a]),
                                j = static_cast<std::size_t>(2 * e.corner[b]);
                     const std::size_t r = 2 * u(e.place[a]), c = 2 * u(e.place[b]);
-                    const block& from = blocks[e.cell];
                     double *upper = row(s, r) + c, *lower = row(s, r + 1) + c;
-                    upper[0] += from[i][j];
-                    upper[1] += from[i][j + 1];
-                    if (a != b) lower[0] += from[i + 1][j];
-                    lower[1] += from[i + 1][j + 1];
+                    upper[0] += entry(e.cell, i, j);
+                    upper[1] += entry(e.cell, i, j + 1);
+                    if (a != b) lower[0] += entry(e.cell, i + 1, j);
+                    lower[1] += entry(e.cell, i + 1, j + 1);
                 }
         for (const child& c : part(children_, s.children))
         {
@@ -434,7 +485,7 @@ private:
     std::vector<idx> variables_;
     std::vector<child> children_;
     std::vector<run> runs_;
-    std::vector<entry> own_;
+    std::vector<own_cell> own_;
     std::unique_ptr<double[]> values_;
     std::vector<range> tasks_; // of steps
     std::vector<std::size_t> top_;

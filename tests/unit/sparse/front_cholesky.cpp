@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <atomic>
 #include <cmath>
 #include <random>
 
@@ -78,6 +79,46 @@ TEST_CASE("front Cholesky: once the caller says no, there are no factors; the ne
     CHECK(other.factorize(blocks, 0));
     const std::vector<vec2> b(m.points().size(), vec2(1.0, -2.0));
     CHECK(solver.solve(b) == other.solve(b));
+}
+
+TEST_CASE("front Cholesky: several are factorized together as each is by itself, and one that is not definite is left")
+{
+    using solver = taut::detail::front_cholesky<>;
+    const std::vector<taut::mesh<taut::triangle>> meshes{taut::test::bumpy(40), taut::test::grid(12, 9),
+                                                         taut::test::fan(6, true), taut::test::single_triangle()};
+    std::vector<std::vector<char>> fixed;
+    std::vector<std::vector<block>> blocks;
+    for (const auto& m : meshes)
+    {
+        fixed.emplace_back(m.points().size(), char(0)).front() = 1;
+        blocks.push_back(random_blocks(m.cells().size()));
+    }
+    constexpr std::size_t indefinite = 1;
+    for (auto& row : blocks[indefinite].back())
+        for (double& value : row) value = -value;
+
+    std::vector<solver> alone, together;
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        for (auto* const all : {&alone, &together}) all->emplace_back(meshes[i].cells(), fixed[i]);
+    std::vector<solver*> some;
+    for (solver& s : together) some.push_back(&s);
+    for (const bool definite_only : {true, false})
+    {
+        std::vector<std::atomic<int>> done(meshes.size());
+        solver::factorize_together(
+            some, 1e-9, definite_only,
+            [&](std::size_t i, std::size_t cell, std::size_t r, std::size_t c) { return blocks[i][cell][r][c]; },
+            [&](std::size_t i) { ++done[i]; });
+        for (std::size_t i = 0; i < meshes.size(); ++i)
+        {
+            CHECK(done[i] == 1);
+            CHECK(together[i].definite() == (i != indefinite));
+            if (definite_only && i == indefinite) continue;
+            alone[i].factorize(blocks[i], 1e-9);
+            const std::vector<vec2> b(meshes[i].points().size(), vec2(1.0, -2.0));
+            CHECK(together[i].solve(b) == alone[i].solve(b));
+        }
+    }
 }
 
 TEST_CASE("isometric Newton: steps go down to a map that no displacement improves, and keep fixed vertices")

@@ -40,7 +40,10 @@ public:
           one_(queue_, types.vector, std::array{1.0}),
           energies_(queue_, types.vector, trials * layout_.cell_stride),
           gradients_(queue_, types.position, (D + 1) * D * layout_.cell_stride),
-          hessians_(queue_, types.vector, hessian_slots<D>::count * layout_.cell_stride)
+          hessians_(queue_, types.vector, hessian_slots<D>::count * layout_.cell_stride),
+          energies_here_(energies_.size()),
+          gradients_here_(gradients_.size()),
+          hessians_here_(types.vector, hessians_.size())
     {
         arrays_.parameters = parameters;
     }
@@ -50,22 +53,23 @@ public:
     /// Where vertices are, in units of the layout of the mesh.
     void place(const std::vector<vec<D>>& x) { x_.upload(layout_.to_local(x)); }
 
-    /// Of the corners: entry ((corner * D) + k) * stride() + cell.
-    std::vector<double> gradients()
+    /// Makes gradients() and hessians() of where vertices are, in one wait.
+    void differentiate(definiteness sign)
     {
         first_.gradient(cells(), arrays_.with(x_, {{"energy", energies_}, {"corner_gradient", gradients_}}));
-        return gradients_.download();
+        second_.launch(cells(), arrays_.with(x_, {second_.as_argument(sign), {"hessian", hessians_}}));
+        hessians_.begin_download(hessians_here_);
+        gradients_.download(gradients_here_);
     }
+
+    /// Of the corners: entry ((corner * D) + k) * stride() + cell.
+    const std::vector<double>& gradients() const { return gradients_here_; }
 
     /// hessian_slots.
-    std::vector<double> hessians(definiteness sign)
-    {
-        second_.launch(cells(), arrays_.with(x_, {second_.as_argument(sign), {"hessian", hessians_}}));
-        return hessians_.download();
-    }
+    const host_reals& hessians() const { return hessians_here_; }
 
     /// Energies at x + step d for each of the steps: entry trial * stride() + cell.
-    std::vector<double> energies(const std::vector<vec<D>>& d, const std::array<double, trials>& steps)
+    const std::vector<double>& energies(const std::vector<vec<D>>& d, const std::array<double, trials>& steps)
     {
         d_.upload(layout_.to_local(d));
         first_.along(cells(), arrays_.with(x_, {{"d", d_},
@@ -75,7 +79,8 @@ public:
                                                 {"step1", steps[1]},
                                                 {"step2", steps[2]},
                                                 {"step3", steps[3]}}));
-        return energies_.download();
+        energies_.download(energies_here_);
+        return energies_here_;
     }
 
 private:
@@ -137,6 +142,8 @@ private:
     const element_hessian_kernel<Element>& second_;
     element_arrays<Element> arrays_;
     real_buffer x_, d_, one_, energies_, gradients_, hessians_;
+    std::vector<double> energies_here_, gradients_here_;
+    host_reals hessians_here_;
 };
 
 } // namespace taut::detail

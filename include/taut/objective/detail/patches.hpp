@@ -110,7 +110,7 @@ private:
         for (int ring = 0; ring < params_.rings && inside_.size() <= most; ++ring)
         {
             const std::size_t last = inside_.size();
-            for (; first < last; ++first)
+            for (; first < last && inside_.size() <= most; ++first)
                 each_neighbour(inside_[first],
                                [&](idx w)
                                {
