@@ -33,6 +33,8 @@ std::string describe(const solve::report& r, const unwrap_options& options)
         {
         case stop::gradient:
             return "converged: relative gradient " + number(r.gradient_norm, 2) + " <= " + number(options.tolerance);
+        case stop::decrement:
+            return "converged: next to nothing left to gain, relative gradient " + number(r.gradient_norm, 2);
         case stop::decrease:
             return "converged: the energy falls no further, relative gradient " + number(r.gradient_norm, 2);
         case stop::step:

@@ -243,6 +243,7 @@ private:
                  .gradient = 0,
                  .length = t.step * std::sqrt(-model_.slope),
                  .capped = t.capped};
+        if (exact_ && !model_.negative && t.step == 1) step_.promised = model_.decrease;
         taken_ = t.step;
         constexpr double near_end = 1e-2;
         near_end_ = !(step_.value_before - value_ > near_end * f_.size(value_));

@@ -115,6 +115,10 @@ struct stopping_params
 {
     /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
     /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
+    ///
+    /// A gradient is long where f is steep, not where much is left to gain. Newton's method stops, too, where the
+    /// Hessian promises, `decrease_count` times in a row, a decrease of at most 1e-2 gradient_tolerance * |f - base|:
+    /// Newton's decrement, which is the same in all units and scalings (Boyd & Vandenberghe 2004, 9.5).
     double gradient_tolerance = 1e-6;
 
     /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f - base|. A decrease along a

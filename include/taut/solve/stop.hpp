@@ -11,6 +11,7 @@ namespace taut::solve
 enum class stop
 {
     gradient,        ///< the relative gradient fell below its tolerance: converged
+    decrement,       ///< several Newton decrements in a row below what the tolerance asks for: converged
     decrease,        ///< several relative decreases in a row below the tolerance
     step,            ///< several relative steps in a row below the tolerance
     iterations,      ///< as many iterations as allowed
@@ -24,7 +25,7 @@ enum class stop
 /// Whether a run ended near a minimum rather than by a limit, a failure or a request.
 constexpr bool converged(stop reason) noexcept
 {
-    return reason == stop::gradient || reason == stop::decrease || reason == stop::step;
+    return reason == stop::gradient || reason == stop::decrement || reason == stop::decrease || reason == stop::step;
 }
 
 constexpr std::string_view to_string(stop reason) noexcept
@@ -33,6 +34,8 @@ constexpr std::string_view to_string(stop reason) noexcept
     {
     case stop::gradient:
         return "gradient";
+    case stop::decrement:
+        return "decrement";
     case stop::decrease:
         return "decrease";
     case stop::step:

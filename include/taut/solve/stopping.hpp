@@ -22,6 +22,10 @@ struct step_record
     double gradient = 0;     ///< relative norm at x_{k+1}
     double length = 0;       ///< |s_k|
     bool capped = false;     ///< cut by a barrier
+
+    /// Half the square of Newton's decrement: the decrease that the Hessian itself, where it was positive definite,
+    /// promised of a step that was then taken in full.
+    double promised = std::numeric_limits<double>::infinity();
 };
 
 /// The tests of stopping_params over a run, with their memory of the steps before.
@@ -65,7 +69,10 @@ public:
             ++decreases_;
         const bool short_step = params_.step_tolerance > 0 && k.length <= params_.step_tolerance * longest_;
         steps_ = short_step && !k.capped ? steps_ + 1 : 0;
+        promises_ =
+            k.promised <= promise * params_.gradient_tolerance * std::abs(k.value - params_.base) ? promises_ + 1 : 0;
 
+        if (promises_ >= params_.decrease_count) return stop::decrement;
         if (decreases_ >= params_.decrease_count) return stop::decrease;
         if (steps_ >= params_.decrease_count) return stop::step;
         if (capped_ >= params_.barrier_count) return stop::barrier;
@@ -74,6 +81,8 @@ public:
     }
 
 private:
+    static constexpr double promise = 1e-2; // see stopping_params::gradient_tolerance
+
     bool small_gradient(double gradient) const { return gradient == 0 || gradient <= params_.gradient_tolerance; }
 
     stopping_params params_;
@@ -82,7 +91,7 @@ private:
     double lowest_gradient_ = std::numeric_limits<double>::infinity();
     double longest_ = 0;
     int since_low_ = 0; // steps since the lowest gradient
-    int decreases_ = 0, steps_ = 0, capped_ = 0;
+    int decreases_ = 0, promises_ = 0, steps_ = 0, capped_ = 0;
 };
 
 } // namespace taut::solve

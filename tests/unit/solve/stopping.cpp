@@ -209,6 +209,25 @@ TEST_CASE("stopping: decreases lost in rounding do not count while the gradient 
     CHECK(more == 11);             // the low of the first of them, ten more, and the second that counts
 }
 
+TEST_CASE("stopping: two promises in a row of next to nothing above the base mean convergence, one does not")
+{
+    stopping_test test({.gradient_tolerance = 1e-6, .base = 4}, 1e-14);
+    test.start(1);
+    step_record k{.iteration = 1, .value_before = 14.1, .value = 14, .gradient = 1e-4, .length = 1};
+    CHECK_FALSE(test.after(k).has_value()); // nothing promised
+    k.promised = 0.9e-7;
+    CHECK_FALSE(test.after(k).has_value());
+    k.promised = 1.1e-7;
+    CHECK_FALSE(test.after(k).has_value());
+    k.promised = 0.9e-7;
+    CHECK_FALSE(test.after(k).has_value());
+    CHECK(test.after(k) == stop::decrement);
+
+    stopping_test never({.gradient_tolerance = 0}, 1e-14);
+    never.start(1);
+    for (int i = 0; i < 5; ++i) CHECK_FALSE(never.after(k).has_value());
+}
+
 TEST_CASE("stopping: steps are measured by the longest one")
 {
     stopping_test test({.gradient_tolerance = 0, .decrease_tolerance = 0, .step_tolerance = 1e-2}, 1e-14);
@@ -254,8 +273,8 @@ TEST_CASE("report: prints one line and keeps the stream's format")
 TEST_CASE("report: every stop has a name of its own")
 {
     std::vector<std::string_view> names;
-    for (const auto reason : {stop::gradient, stop::decrease, stop::step, stop::iterations, stop::line_search,
-                              stop::barrier, stop::time, stop::user, stop::not_finite_start})
+    for (const auto reason : {stop::gradient, stop::decrement, stop::decrease, stop::step, stop::iterations,
+                              stop::line_search, stop::barrier, stop::time, stop::user, stop::not_finite_start})
     {
         for (const auto other : names) CHECK(other != to_string(reason));
         names.push_back(to_string(reason));

@@ -380,7 +380,7 @@ protected:
         last.report.distance = gap.distance;
     }
 
-    static bool is_converged(solve::stop s) { return s == solve::stop::gradient || s == solve::stop::decrease; }
+    static bool is_converged(solve::stop s) { return solve::converged(s); }
 
     /// The time since the last stage ended is that of this one.
     void book(run_clock& clock, double session_seconds::*phase, stage_report did)
