@@ -163,7 +163,7 @@ private:
         x = r.uv;
         const auto& s = r.report.solve;
         return {static_cast<bool>(r),
-                s.stop == solve::stop::gradient || s.stop == solve::stop::decrease,
+                solve::converged(s.stop),
                 s.value,
                 s.gradient_norm,
                 s.iterations,

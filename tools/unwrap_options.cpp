@@ -76,7 +76,8 @@ void declare_solver(CLI::App& app, unwrap_options& o)
         ->type_name("N")
         ->check(whole_number())
         ->capture_default_str();
-    app.add_option("--tolerance", o.tolerance, "Stop at this relative gradient, below 1; 0: never")
+    app.add_option("--tolerance", o.tolerance,
+                   "Stop at this relative gradient, below 1, or where as good as nothing is left to gain; 0: never")
         ->type_name("T")
         ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
         ->capture_default_str();

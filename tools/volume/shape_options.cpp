@@ -32,7 +32,10 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
         ->required()
         ->type_name("OUT");
     add_fix(app, o.fixed);
-    app.add_option("--tolerance", o.tolerance, "Stop at this relative gradient, below 1; 0: never. Default: " + usual)
+    app.add_option(
+           "--tolerance", o.tolerance,
+           "Stop at this relative gradient, below 1, or where as good as nothing is left to gain; 0: never. Default: " +
+               usual)
         ->type_name("T")
         ->check(number_that([](double x) { return x >= 0 && x < 1; }, "must be at least 0 and below 1"));
     add_time_limit(app, o.time_limit, "Stop after S seconds, with the best mesh by then");

@@ -539,7 +539,7 @@ TEST_CASE("newton: whatever ends a run, the report is of the point that it leave
     }
 }
 
-TEST_CASE("Newton: ends where the Hessian promises next to nothing, though rounding keeps a steep gradient long")
+TEST_CASE("newton: ends where the Hessian promises next to nothing, though rounding keeps a steep gradient long")
 {
     constexpr double steep = 1e10, noise = 1e-3;
     int calls = 0;

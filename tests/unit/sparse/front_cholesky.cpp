@@ -81,7 +81,7 @@ TEST_CASE("front Cholesky: once the caller says no, there are no factors; the ne
     CHECK(solver.solve(b) == other.solve(b));
 }
 
-TEST_CASE("front Cholesky: several are factorized together as each is by itself, and one that is not definite is left")
+TEST_CASE("front Cholesky: several are factorized together as each is by itself, and which are not definite is told")
 {
     using solver = taut::detail::front_cholesky<>;
     const std::vector<taut::mesh<taut::triangle>> meshes{taut::test::bumpy(40), taut::test::grid(12, 9),

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/energy/element.hpp>
 #include <taut/map/detail/attempt.hpp>
 #include <taut/objective/map_objective.hpp>
 #include <taut/solve/minimize.hpp>
@@ -76,7 +77,7 @@ template <class Element>
 solve::params limited(const map_run<Element>& run, int max_iterations)
 {
     auto p = run.params.solve;
-    p.stopping.base = energy::rest_value<Element::dimension>(run.params.energy);
+    if (p.stopping.base == 0) p.stopping.base = energy::rest_value<Element::dimension>(run.params.energy);
     p.stopping.max_iterations = max_iterations;
     p.stopping.time_limit = std::max(run.clock.left(), std::chrono::duration<double>(1e-9));
     return p;

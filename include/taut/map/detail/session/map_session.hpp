@@ -52,7 +52,7 @@ private:
             last.x = std::move(first.uv);
             this->constrain();
             r.pins_held = true;
-            r.converged = base::is_converged(first.report.solve.stop);
+            r.converged = solve::converged(first.report.solve.stop);
             this->changed = false;
         }
         this->seconds_.start = clock.total();

@@ -315,7 +315,7 @@ protected:
         session_report& r = last.report;
         r.energy = found.value;
         r.gradient = found.gradient_norm;
-        r.converged = !on_way_ && is_converged(found.stop);
+        r.converged = !on_way_ && solve::converged(found.stop);
         auto did = stage_of("minimise", 0, 0, found);
         did.cut_by = corners_of(rest().cells(), found.capping);
         book(clock, &session_seconds::solve, std::move(did));
@@ -379,8 +379,6 @@ protected:
         last.report.farthest = gap.vertex;
         last.report.distance = gap.distance;
     }
-
-    static bool is_converged(solve::stop s) { return solve::converged(s); }
 
     /// The time since the last stage ended is that of this one.
     void book(run_clock& clock, double session_seconds::*phase, stage_report did)
