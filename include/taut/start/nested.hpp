@@ -36,6 +36,13 @@ struct nested_params
     /// there, and extreme shapes (long tubes) pause on their way.
     std::size_t small_vertices = 4000;
     int small_decrease_count = 3;
+    /// A coarse level that takes so many iterations, and ends at an energy of more than `hard_above` times that at
+    /// rest, is hard, and ends the descent; 0: none is. What it says of finer ones is little: levels that grow by
+    /// `patient_factor`, each minimised to `patient_decrease`, take the map further. On meshes with fewer than
+    /// `hard_vertices` they take as long as they save.
+    int hard_from = 0;
+    static constexpr double hard_above = 1.5, patient_decrease = 2e-5, patient_factor = 4;
+    static constexpr std::size_t hard_vertices = 30000;
 
     /// The level that the start map is made on.
     std::size_t first_level(const mesh_levels<triangle>& levels) const
@@ -83,6 +90,8 @@ public:
             if (stopped()) return fail("it was stopped");
             if (reports_.back().solve.stop == solve::stop::not_finite_start)
                 return fail("the energy is not finite on level " + std::to_string(l));
+            hard_ = is_hard(reports_.back().solve);
+            if (hard_) return fail("level " + std::to_string(l) + " is hard");
             auto finer =
                 detail::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv), {.fixed = still});
             stages_.add({.stage = "reinsert",
@@ -100,10 +109,18 @@ public:
     /// Of the start map; its uv are gone.
     const start_map& start() const { return start_; }
     const std::string& reason() const { return reason_; }
+    bool hard() const { return hard_; } ///< it ended for that
     const std::vector<level_report>& reports() const { return reports_; }
     const std::vector<stage_report>& stages() const { return stages_.stages(); }
 
 private:
+    bool is_hard(const solve::report& r) const
+    {
+        const double rest = params_.stopping.base;
+        return params_.hard_from > 0 && r.iterations >= params_.hard_from && rest > 0 &&
+               r.value > nested_params::hard_above * rest;
+    }
+
     /// Flags of the vertices that reinsertion may not move; none at all where the map may be scaled, too.
     std::vector<char> still_vertices() const
     {
@@ -145,6 +162,7 @@ private:
     nested_params params_;
     start_map start_;
     std::string reason_;
+    bool hard_ = false;
     std::vector<level_report> reports_;
     stage_log stages_; // made with this, which is to be run at once
 };

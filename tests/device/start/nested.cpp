@@ -294,6 +294,26 @@ TEST_CASE("nested: bodies with a short slit converge by default")
     }
 }
 
+TEST_CASE("nested: levels of a hard shape grow more slowly, and iterations on the mesh itself do not grow with it")
+{
+    queue q;
+    const auto growth = [](const mesh<triangle>& m, const map_result& r)
+    {
+        REQUIRE(!r.report.levels.empty());
+        return double(m.points().size()) / double(r.report.levels.back().vertices);
+    };
+    const int n = test::sized(144, 24);
+    const auto hard = test::slit(test::animal(n), 2 * n / 3);
+    const auto map = parameterize(q, hard);
+    check_converged(hard, map);
+    const bool large = hard.points().size() >= nested_params::hard_vertices;
+    if (large) CHECK(map.report.solve.iterations <= 16); // on levels that grow by eight 20
+    CHECK(growth(hard, map) == doctest::Approx(large ? 4 : 8).epsilon(0.1));
+
+    const auto easy = test::bumpy(test::sized(180, 30), 0.15, 1);
+    CHECK(growth(easy, parameterize(q, easy)) == doctest::Approx(8).epsilon(0.1));
+}
+
 TEST_CASE("nested: a tube 20 times as long as wide converges by default")
 {
     queue q;

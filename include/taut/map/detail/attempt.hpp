@@ -33,6 +33,7 @@ struct attempt
     certificate flips;      ///< of uv, exact
     bool certified = false; ///< there are none, and the energy was finite
     bool stopped = false;   ///< the limits ended it outside of the minimisation
+    bool hard = false;      ///< the descent ended at a hard level (nested_params::hard_from)
     std::vector<std::string> notes;
 };
 

@@ -22,9 +22,9 @@ inline bool accurate(const solve::report& r, double tolerance)
 template <class Element>
 attempt attempt_in_turns(const map_run<Element>& run, const run_start& start)
 {
-    const auto once = [&](precision how, int max_iterations, std::vector<vec2> from)
+    const auto once = [&](precision how, int max_iterations, const std::vector<vec2>& from)
     {
-        return run.levels ? attempt_on_levels(run, start, how, max_iterations, std::move(from))
+        return run.levels ? attempt_on_levels(run, start, how, max_iterations, from)
                           : run.asked->attempt_on_mesh(run, start, how, max_iterations);
     };
     const auto& stopping = run.params.solve.stopping;

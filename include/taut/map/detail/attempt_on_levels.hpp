@@ -25,19 +25,17 @@ nested_params descent_of(const map_run<Element>& run)
     return p;
 }
 
-/// An attempt with a hierarchy. from: as attempt::arrival, where it begins; none: at the start.
+/// An attempt with a hierarchy, `levels`. from: as attempt::arrival, where it begins; none: at the start.
 template <class Element>
-attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, precision how, int max_iterations,
-                          std::vector<vec2> from)
+attempt attempt_on(const mesh_levels<Element>& levels, const nested_params& descent, const map_run<Element>& run,
+                   const run_start& start, precision how, int max_iterations, std::vector<vec2> from)
 {
-    const mesh_levels<Element>& levels = *run.levels;
     const auto& numbers = levels.order().vertices;
     attempt a;
     a.precision = how;
     a.arrival = std::move(from);
     if (a.arrival.empty() && !start.coarse) a.arrival = numbers.apply(centred(start.map.uv, start.centre));
     const bool descends = a.arrival.empty();
-    const nested_params descent = descent_of(run);
     const std::size_t first = descends ? descent.first_level(levels) : 0;
     // Plans are made while the driver compiles, and while coarser levels are solved.
     using plan = typename level_solver<Element>::plan;
@@ -64,6 +62,7 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
         run.clock.stages.append(nested.stages());
         a.descent = {nested.start(), nested.reports(),
                      a.arrival.empty() ? nested.reason() : "the map that came of it could not be certified"};
+        a.hard = nested.hard();
         run.clock.spent(&map_seconds::start);
         if (!a.arrival.empty()) run.clock.has_result(true);
         a.stopped = a.arrival.empty() ? run.clock.over() : !run.clock.proceed();
@@ -85,6 +84,21 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
     a.uv = restored(run, numbers.undo(a.arrival), start.centre, begin);
     run.clock.spent(&map_seconds::solve);
     return certified(run.in, std::move(a));
+}
+
+/// An attempt with the hierarchy of the run, or with one that grows more slowly where that shows the shape to be hard.
+template <class Element>
+attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, precision how, int max_iterations,
+                          const std::vector<vec2>& from)
+{
+    nested_params descent = descent_of(run);
+    if (run.vertices() >= nested_params::hard_vertices) descent.hard_from = 10; // others take 3 to 8
+    attempt a = attempt_on(*run.levels, descent, run, start, how, max_iterations, from);
+    if (!a.hard || a.stopped) return a;
+    descent.hard_from = 0;
+    descent.stopping.decrease_tolerance = nested_params::patient_decrease;
+    descent.small_decrease_count = 1;
+    return attempt_on(run.make_levels(nested_params::patient_factor), descent, run, start, how, max_iterations, from);
 }
 
 } // namespace taut::detail

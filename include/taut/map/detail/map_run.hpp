@@ -74,16 +74,23 @@ struct map_run
         clock.spent(&map_seconds::setup);
         clock.stages.add({.stage = "setup", .vertices = vertices()});
         if (!clock.proceed() || !params.uses_levels()) return;
-        levels.emplace(in.surface, held.marks().pinned(),
-                       hierarchy_params{.proceed = [this] { return clock.proceed(); }}, params.data);
-        clock.spent(&map_seconds::hierarchy);
-        clock.stages.add({.stage = "hierarchy", .vertices = vertices()});
+        levels.emplace(make_levels());
         clock.proceed();
     }
     map_run(const map_run&) = delete;
     map_run& operator=(const map_run&) = delete;
 
     std::size_t vertices() const { return in.surface.points().size(); }
+
+    /// factor: of vertices, from a level to the next coarser one.
+    mesh_levels<Element> make_levels(double factor = hierarchy_params{}.factor) const
+    {
+        mesh_levels<Element> made(in.surface, held.marks().pinned(),
+                                  {.factor = factor, .proceed = [this] { return clock.proceed(); }}, params.data);
+        clock.spent(&map_seconds::hierarchy);
+        clock.stages.add({.stage = "hierarchy", .vertices = vertices()});
+        return made;
+    }
 
     /// Whether nothing holds the map.
     bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
