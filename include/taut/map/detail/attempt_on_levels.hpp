@@ -86,7 +86,8 @@ attempt attempt_on(const mesh_levels<Element>& levels, const nested_params& desc
     return certified(run.in, std::move(a));
 }
 
-/// An attempt with the hierarchy of the run, or with one that grows more slowly where that shows the shape to be hard.
+/// An attempt with the hierarchy of the run, or with one that grows more slowly where that shows the shape to be hard
+/// and the time limit leaves room for it: the map comes later then.
 template <class Element>
 attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, precision how, int max_iterations,
                           const std::vector<vec2>& from)
@@ -95,7 +96,10 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
     if (run.vertices() >= nested_params::hard_vertices) descent.hard_from = 10; // others take 3 to 8
     attempt a = attempt_on(*run.levels, descent, run, start, how, max_iterations, from);
     if (!a.hard || a.stopped) return a;
+    constexpr double room = 8; // times what the run has taken so far; the slower descent takes about three
     descent.hard_from = 0;
+    if (run.clock.left().count() < room * run.clock.total())
+        return attempt_on(*run.levels, descent, run, start, how, max_iterations, from);
     descent.stopping.decrease_tolerance = nested_params::patient_decrease;
     descent.small_decrease_count = 1;
     return attempt_on(run.make_levels(nested_params::patient_factor), descent, run, start, how, max_iterations, from);
