@@ -294,7 +294,7 @@ TEST_CASE("nested: bodies with a short slit converge by default")
     }
 }
 
-TEST_CASE("nested: levels of a hard shape grow more slowly, and iterations on the mesh itself do not grow with it")
+TEST_CASE("nested: levels of a large hard shape grow more slowly, which saves iterations on the mesh itself")
 {
     queue q;
     const auto growth = [](const mesh<triangle>& m, const map_result& r)
