@@ -44,6 +44,16 @@ struct nested_params
     static constexpr double hard_above = 1.5, patient_decrease = 2e-5, patient_factor = 4;
     static constexpr std::size_t hard_vertices = 30000;
 
+    /// Of hard shapes, for levels that grow by `patient_factor`.
+    nested_params patient() const
+    {
+        nested_params p = *this;
+        p.hard_from = 0;
+        p.stopping.decrease_tolerance = patient_decrease;
+        p.small_decrease_count = 1; // no pause is taken for an end at that tolerance
+        return p;
+    }
+
     /// The level that the start map is made on.
     std::size_t first_level(const mesh_levels<triangle>& levels) const
     {

@@ -100,9 +100,8 @@ attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, p
     descent.hard_from = 0;
     if (run.clock.left().count() < room * run.clock.total())
         return attempt_on(*run.levels, descent, run, start, how, max_iterations, from);
-    descent.stopping.decrease_tolerance = nested_params::patient_decrease;
-    descent.small_decrease_count = 1; // no pause is taken for an end at that tolerance
-    return attempt_on(run.make_levels(nested_params::patient_factor), descent, run, start, how, max_iterations, from);
+    return attempt_on(run.make_levels(nested_params::patient_factor), descent.patient(), run, start, how,
+                      max_iterations, from);
 }
 
 } // namespace taut::detail
