@@ -63,7 +63,7 @@ struct unwrap_options
     taut::precision precision{};
     taut::placement placement{};
     int iterations = solve::stopping_params{}.max_iterations;
-    double tolerance = solve::stopping_params{}.gradient_tolerance;
+    std::optional<double> tolerance; ///< none: the default, or where the map has settled
     double time_limit = std::numeric_limits<double>::infinity();
     std::optional<vec3> up, front; ///< of the render; guessed if not given
     bool cut = false;              ///< to a disk

@@ -32,7 +32,10 @@ std::string describe(const solve::report& r, const unwrap_options& options)
         switch (r.stop)
         {
         case stop::gradient:
-            return "converged: relative gradient " + number(r.gradient_norm, 2) + " <= " + number(options.tolerance);
+            return "converged: relative gradient " + number(r.gradient_norm, 2) +
+                   " <= " + number(options.tolerance.value_or(solve::stopping_params{}.gradient_tolerance));
+        case stop::settled:
+            return "converged: five steps gained next to nothing, relative gradient " + number(r.gradient_norm, 2);
         case stop::decrement:
             return "converged: next to nothing left to gain, relative gradient " + number(r.gradient_norm, 2);
         case stop::decrease:

@@ -242,7 +242,8 @@ private:
                  .value = t.value,
                  .gradient = 0,
                  .length = t.step * std::sqrt(-model_.slope),
-                 .capped = t.capped};
+                 .capped = t.capped,
+                 .newton = true};
         if (exact_ && !model_.negative && t.step == 1) step_.promised = model_.decrease;
         taken_ = t.step;
         constexpr double near_end = 1e-2;

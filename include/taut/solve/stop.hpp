@@ -12,6 +12,7 @@ enum class stop
 {
     gradient,        ///< the relative gradient fell below its tolerance: converged
     decrement,       ///< several Newton decrements in a row below what the tolerance asks for: converged
+    settled,         ///< five Newton steps together gained next to nothing of a soft valley: converged
     decrease,        ///< several relative decreases in a row below the tolerance
     step,            ///< several relative steps in a row below the tolerance
     iterations,      ///< as many iterations as allowed
@@ -25,7 +26,8 @@ enum class stop
 /// Whether a run ended near a minimum rather than by a limit, a failure or a request.
 constexpr bool converged(stop reason) noexcept
 {
-    return reason == stop::gradient || reason == stop::decrement || reason == stop::decrease || reason == stop::step;
+    return reason == stop::gradient || reason == stop::decrement || reason == stop::settled ||
+           reason == stop::decrease || reason == stop::step;
 }
 
 constexpr std::string_view to_string(stop reason) noexcept
@@ -36,6 +38,8 @@ constexpr std::string_view to_string(stop reason) noexcept
         return "gradient";
     case stop::decrement:
         return "decrement";
+    case stop::settled:
+        return "settled";
     case stop::decrease:
         return "decrease";
     case stop::step:

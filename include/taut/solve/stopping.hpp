@@ -5,8 +5,10 @@
 #include <taut/solve/stop.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 
@@ -26,6 +28,8 @@ struct step_record
     /// Half the square of Newton's decrement: the decrease that the Hessian itself, where it was positive definite,
     /// promised of a step that was then taken in full.
     double promised = std::numeric_limits<double>::infinity();
+
+    bool newton = false; ///< a step of Newton's method, of which few are worth much
 };
 
 /// The tests of stopping_params over a run, with their memory of the steps before.
@@ -73,6 +77,7 @@ public:
             k.promised <= promise * params_.gradient_tolerance * std::abs(k.value - params_.base) ? promises_ + 1 : 0;
 
         if (promises_ >= params_.decrease_count) return stop::decrement;
+        if (settled(k)) return stop::settled;
         if (decreases_ >= params_.decrease_count) return stop::decrease;
         if (steps_ >= params_.decrease_count) return stop::step;
         if (capped_ >= params_.barrier_count) return stop::barrier;
@@ -82,6 +87,16 @@ public:
 
 private:
     static constexpr double promise = 1e-2; // see stopping_params::gradient_tolerance
+    static constexpr double settled_gradient = 1e-2;
+
+    bool settled(const step_record& k)
+    {
+        values_[steps_seen_++ % values_.size()] = k.value_before;
+        near_ = k.newton && k.gradient <= settled_gradient ? near_ + 1 : 0;
+        const double gain = values_[steps_seen_ % values_.size()] - k.value;
+        return params_.settled_tolerance > 0 && near_ >= values_.size() && std::isinf(k.promised) &&
+               gain <= params_.settled_tolerance * std::abs(k.value - params_.base);
+    }
 
     bool small_gradient(double gradient) const { return gradient == 0 || gradient <= params_.gradient_tolerance; }
 
@@ -90,7 +105,9 @@ private:
     int patience_;
     double lowest_gradient_ = std::numeric_limits<double>::infinity();
     double longest_ = 0;
-    int since_low_ = 0; // steps since the lowest gradient
+    std::array<double, 5> values_{};        // before each of the last steps
+    std::size_t steps_seen_ = 0, near_ = 0; // near_: steps in a row that ended at a small gradient
+    int since_low_ = 0;                     // steps since the lowest gradient
     int decreases_ = 0, promises_ = 0, steps_ = 0, capped_ = 0;
 };
 

@@ -148,6 +148,23 @@ TEST_CASE("drawn start: pins that are where the map is anyway change nothing")
     CHECK(worst < 1e-3 * b.radius);
 }
 
+TEST_CASE("drawn start: a map that has settled is within a thousandth of where stopping parameters of one's own lead")
+{
+    bound_map b;
+    b.turn(test::sized(60, 10), 0.5, true, 3);
+    const auto settled = parameterize(b.q, b.m, {.constraints = b.pins});
+    b.check(settled);
+    const auto strict =
+        parameterize(b.q, b.m, {.constraints = b.pins, .solve = {.stopping = {.max_iterations = 1000}}});
+    b.check(strict);
+    const auto &s = settled.report.solve, &t = strict.report.solve;
+    if (test::sized(1, 0) != 0) CHECK(s.stop == solve::stop::settled);
+    CHECK((t.stop == solve::stop::gradient || t.stop == solve::stop::decrement));
+    CHECK(s.iterations <= t.iterations);
+    CHECK(s.value >= t.value);
+    CHECK(s.value - t.value <= 1e-3 * (t.value - energy::rest_value<2>(default_energy())));
+}
+
 TEST_CASE("drawn start: where nothing fits in the outline of a map with limbs, that map itself is the beginning")
 {
     const auto body = test::animal(24);

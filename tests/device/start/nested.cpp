@@ -48,7 +48,7 @@ void check_converged(const mesh<triangle>& m, const map_result& r, double tolera
     CHECK(r.report.flips.flipped == 0);
     CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
     const auto stop = r.report.solve.stop;
-    CHECK((stop == solve::stop::gradient || stop == solve::stop::decrement));
+    CHECK((stop == solve::stop::gradient || stop == solve::stop::decrement || stop == solve::stop::settled));
     if (stop == solve::stop::gradient) CHECK(r.report.solve.gradient_norm <= tolerance);
     for (const int c : r.report.solve.capping) CHECK((c >= 0 && c < m.cell_count()));
 }
@@ -322,7 +322,8 @@ TEST_CASE("nested: a tube 20 times as long as wide converges by default")
     check_converged(m, r);
     // However it ended, a tighter tolerance gains nothing to speak of.
     const auto tighter = parameterize(q, m, {.solve = {.stopping = {.gradient_tolerance = 1e-9}}});
-    CHECK(r.report.solve.value <= tighter.report.solve.value * (1 + 1e-7));
+    const bool settled = r.report.solve.stop == solve::stop::settled;
+    CHECK(r.report.solve.value <= tighter.report.solve.value * (1 + (settled ? 1e-4 : 1e-7)));
 }
 
 TEST_CASE("nested: the longest tubes get a certified map of moderate distortion by default")

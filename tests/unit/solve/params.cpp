@@ -19,6 +19,7 @@ TEST_CASE("params: a bad field is named, also by minimize")
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<std::pair<std::string, std::function<void(params&)>>> cases{
         {"stopping.gradient_tolerance", [](params& p) { p.stopping.gradient_tolerance = -1; }},
+        {"stopping.settled_tolerance", [](params& p) { p.stopping.settled_tolerance = 1; }},
         {"stopping.decrease_tolerance", [&](params& p) { p.stopping.decrease_tolerance = nan; }},
         {"stopping.step_tolerance", [](params& p) { p.stopping.step_tolerance = 1; }},
         {"stopping.decrease_count", [](params& p) { p.stopping.decrease_count = 0; }},

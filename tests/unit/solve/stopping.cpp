@@ -228,6 +228,59 @@ TEST_CASE("stopping: two promises in a row of next to nothing above the base mea
     for (int i = 0; i < 5; ++i) CHECK_FALSE(never.after(k).has_value());
 }
 
+TEST_CASE("stopping: a run has settled where five Newton steps together gain next to nothing near a minimum")
+{
+    const stopping_params params{.settled_tolerance = 1e-3, .base = 4};
+    const step_record little{.iteration = 1, .value_before = 14, .value = 13.999, .gradient = 1e-2, .newton = true};
+    /// Steps until it ends, of at most nine: `others` first, then like k, each from where the last one ended.
+    const auto steps = [&](const step_record& k, const stopping_params& p, std::vector<step_record> others = {})
+    {
+        stopping_test test(p, 1e-14);
+        test.start(1);
+        double value = 14;
+        for (int n = 1; n < 10; ++n)
+        {
+            step_record next = k;
+            if (!others.empty())
+            {
+                next = others.front();
+                others.erase(others.begin());
+            }
+            next.value = value - (next.value_before - next.value);
+            next.value_before = value;
+            value = next.value;
+            const auto stop = test.after(next);
+            if (!stop) continue;
+            CHECK(stop == stop::settled);
+            return n;
+        }
+        return 10;
+    };
+    CHECK(steps(little, params) == 5);
+
+    step_record much = little;
+    much.value = 13.995; // 5 and 4 more are 9e-3, of 10
+    CHECK(steps(little, params, {much}) == 5);
+    CHECK(steps(little, params, {much, much}) == 6);
+    CHECK(steps(much, params) == 10);
+
+    step_record other = little;
+    other.newton = false;
+    CHECK(steps(other, params) == 10);
+    other = little;
+    other.gradient = 1.01e-2; // far from a minimum, though little is gained
+    CHECK(steps(other, params) == 10);
+    CHECK(steps(little, params, {other, other}) == 7);
+    other = little;
+    other.promised = 1e-3; // a full step along a definite Hessian
+    CHECK(steps(other, params) == 10);
+    CHECK(steps(little, params, {other, other, other, other}) == 5); // only the last one matters
+
+    CHECK(steps(little, {.settled_tolerance = 1e-6, .base = 4}) == 10);
+    CHECK(steps(little, {}) == 10);
+    CHECK_FALSE(stopping_params{}.settled_tolerance > 0);
+}
+
 TEST_CASE("stopping: steps are measured by the longest one")
 {
     stopping_test test({.gradient_tolerance = 0, .decrease_tolerance = 0, .step_tolerance = 1e-2}, 1e-14);
@@ -273,8 +326,9 @@ TEST_CASE("report: prints one line and keeps the stream's format")
 TEST_CASE("report: every stop has a name of its own")
 {
     std::vector<std::string_view> names;
-    for (const auto reason : {stop::gradient, stop::decrement, stop::decrease, stop::step, stop::iterations,
-                              stop::line_search, stop::barrier, stop::time, stop::user, stop::not_finite_start})
+    for (const auto reason :
+         {stop::gradient, stop::decrement, stop::settled, stop::decrease, stop::step, stop::iterations,
+          stop::line_search, stop::barrier, stop::time, stop::user, stop::not_finite_start})
     {
         for (const auto other : names) CHECK(other != to_string(reason));
         names.push_back(to_string(reason));
