@@ -86,8 +86,8 @@ struct parameterize_params
     untangle_params untangling = {};
 
     /// Method, line search (not of Newton's method, which `automatic` is here), stopping. `solve.stopping.time_limit`
-    /// is overruled by time_limit below. Stopping parameters of one's own are strict: they do not end a run that has
-    /// only settled.
+    /// is overruled by time_limit below. Stopping parameters that are given as a whole (`.stopping = {...}`) do not
+    /// end a run that has only settled.
     solve::params solve = {.stopping = {.settled_tolerance = 1e-4}};
 
     /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned, or none (`stopped`).

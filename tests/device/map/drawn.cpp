@@ -158,7 +158,8 @@ TEST_CASE("drawn start: a map that has settled is within a thousandth of where s
         parameterize(b.q, b.m, {.constraints = b.pins, .solve = {.stopping = {.max_iterations = 1000}}});
     b.check(strict);
     const auto &s = settled.report.solve, &t = strict.report.solve;
-    if (test::sized(1, 0) != 0) CHECK(s.stop == solve::stop::settled);
+    CHECK(parameterize_params{}.solve.stopping.settled_tolerance > 0);
+    CHECK((s.stop == solve::stop::settled || s.iterations == t.iterations));
     CHECK((t.stop == solve::stop::gradient || t.stop == solve::stop::decrement));
     CHECK(s.iterations <= t.iterations);
     CHECK(s.value >= t.value);
