@@ -62,11 +62,15 @@
 #define LANE ((int)get_global_id(0) % (C / V))
 #define PACKED (D * (D + 1) / 2)
 #if K > 3
-#define COLOURS 128
+#define COLOURS 256
 #else
 #define COLOURS 64
 #endif
 #define CLASH 256
+#define REAL4 CAT(REAL, 4)
+#define QUADS ((D * D + 3) / 4)
+/// The number of the highest bit.
+#define HIGHEST(bits) (63 - (int)clz((ulong)(bits)))
 
 /// Where entry (r, c) of a packed symmetric block is.
 #define PACK(r, c) ((r) <= (c) ? (r) * D - (r) * ((r) - 1) / 2 + (c) - (r) : (c) * D - (c) * ((c) - 1) / 2 + (r) - (c))
@@ -316,70 +320,68 @@ inline void product_row(const int slice, const int lane, const int rows, const i
 /// Values of the coarse matrix P' A P. On GPUs an item does a row. On CPUs it does a group of `size` rows, and sums row i
 /// of A P once for all of its rows that fine row i goes to. Nonzeros of a row are told apart by the colours of their
 /// columns, `count` in all; where those of a row do not differ, its own colour has the flag CLASH, and it is summed term
-/// by term. codes: the colours of the columns of each row of P, a byte each. visits: of each group the slices of fine
-/// rows that go to it, and a bit for each lane that does.
+/// by term. codes: the colours of the columns of each row of P, a byte each; column_weights: its weights, four places.
+/// visits: of each group the slices of fine rows that go to it, and a bit for each lane that does.
 __kernel void galerkin(const int rows, const int fine_stride, const int size, const int count,
                        __global const int* transpose_offsets, __global const int* transpose,
-                       __global const int* prolongation, __global const REAL* weights, __global const int* codes,
-                       __global const int* colours, __global const int* visit_offsets, __global const int* visits,
-                       __global const int* fine_offsets, __global const int* fine_columns, __global const REAL* fine,
-                       __global const int* offsets, __global const int* columns, __global REAL* coarse)
+                       __global const int* prolongation, __global const REAL* weights,
+                       __global const REAL* column_weights, __global const int* codes, __global const int* colours,
+                       __global const int* visit_offsets, __global const int* visits, __global const int* fine_offsets,
+                       __global const int* fine_columns, __global const REAL* fine, __global const int* offsets,
+                       __global const int* columns, __global REAL* coarse)
 {
 #if V == 1
     if (SLICE * C < rows)
         product_row(SLICE, LANE, rows, fine_stride, transpose_offsets, transpose, prolongation, weights, fine_offsets,
                     fine_columns, fine, offsets, columns, coarse);
 #else
-    const int group = (int)get_global_id(0), begin = group * size, parts = (count * D * D + V - 1) / V;
-    // Of rows of P' A P, and of a slice of A P; rows lie close, and not a power of two apart.
-    REALV sums[(GROUP + 1) * COLOURS * D * D / V], products[C * COLOURS * D * D / V];
-    for (int p = 0; p < (size + 1) * parts; ++p) sums[p] = 0;
-    for (int p = 0; p < C * parts; ++p) products[p] = 0;
+    const int group = (int)get_global_id(0), begin = group * size, pitch = count * QUADS;
+    // Of rows of P' A P, the last for what goes elsewhere, and of a row of A P. Rows are not a power of two apart.
+    REAL4 sums[(GROUP + 1) * COLOURS * QUADS], product[COLOURS * QUADS];
+    for (int p = 0; p < (size + 1) * pitch; ++p) sums[p] = 0;
+    for (int p = 0; p < pitch; ++p) product[p] = 0;
 
     for (int v = visit_offsets[group]; v < visit_offsets[group + 1]; v += 2)
     {
-        const int slice = visits[v], end = fine_offsets[slice + 1];
-        int lanes[C], lane_count = 0;
-        for (int lane = 0; lane < C; ++lane)
+        const int slice = visits[v], first = fine_offsets[slice], end = fine_offsets[slice + 1];
+        for (uint lanes = (uint)visits[v + 1]; lanes; lanes ^= 1U << HIGHEST(lanes))
         {
-            lanes[lane_count] = lane;
-            lane_count += visits[v + 1] >> lane & 1;
-        }
-        for (int at = fine_offsets[slice]; at < end; at += C)
-        {
-            for (int n = 0; n < lane_count; ++n)
+            const int lane = HIGHEST(lanes), i = slice * C + lane;
+            ulong touched[COLOURS / 64] = {0};
+            for (int at = first; at < end; at += C)
             {
-                const int lane = lanes[n], j = fine_columns[at + lane], code = codes[j];
-                REAL block[D * D];
-                UNROLLED (int e = 0; e < D * D; ++e) block[e] = PICK(fine, at * D * D + e * C + lane);
-                REAL* product = (REAL*)(products + lane * parts);
+                const int j = fine_columns[at + lane], code = codes[j];
+                const REAL4 right = *(__global const REAL4*)(column_weights + 4 * j);
+                REAL4 block[QUADS] = {0};
+                UNROLLED (int e = 0; e < D * D; ++e) ((REAL*)block)[e] = PICK(fine, at * D * D + e * C + lane);
                 UNROLLED (int l = 0; l < K; ++l)
                 {
-                    REAL* to = product + (code >> 8 * l & 255) * (D * D);
-                    const REAL right = weights[l * fine_stride + j];
-                    UNROLLED (int e = 0; e < D * D; ++e) to[e] += right * block[e];
+                    const int c = code >> 8 * l & 255;
+                    touched[c / 64] |= 1UL << c % 64;
+                    UNROLLED (int q = 0; q < QUADS; ++q)
+                        product[c * QUADS + q] += ((const REAL*)&right)[l] * block[q];
                 }
             }
-        }
-        for (int n = 0; n < lane_count; ++n)
-        {
-            const int i = slice * C + lanes[n];
-            // What goes to rows elsewhere is added, times 0, to a row that nobody reads.
-            REALV *from = products + lanes[n] * parts, *to[K];
+            REAL4* to[K];
             REAL left[K];
             UNROLLED (int k = 0; k < K; ++k)
             {
                 const int r = prolongation[k * fine_stride + i] - begin;
                 const bool here = (uint)r < (uint)size;
-                to[k] = sums + (here ? r : size) * parts;
+                to[k] = sums + (here ? r : size) * pitch;
                 left[k] = here ? weights[k * fine_stride + i] : 0;
             }
-            for (int p = 0; p < parts; ++p)
-            {
-                const REALV part = from[p];
-                from[p] = 0;
-                UNROLLED (int k = 0; k < K; ++k) to[k][p] += left[k] * part;
-            }
+            UNROLLED (int w = 0; w < COLOURS / 64; ++w)
+                for (ulong some = touched[w]; some; some ^= 1UL << HIGHEST(some))
+                {
+                    const int p = (64 * w + HIGHEST(some)) * QUADS;
+                    UNROLLED (int q = 0; q < QUADS; ++q)
+                    {
+                        const REAL4 part = product[p + q];
+                        product[p + q] = 0;
+                        UNROLLED (int k = 0; k < K; ++k) to[k][p + q] += left[k] * part;
+                    }
+                }
         }
     }
 
@@ -397,7 +399,7 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
             const int J = columns[at + lane], c = colours[J] % CLASH;
             const bool none = J == I && at > start;
             UNROLLED (int e = 0; e < D * D; ++e)
-                coarse[at * D * D + e * C + lane] = none ? 0 : ((const REAL*)(sums + r * parts))[c * D * D + e];
+                coarse[at * D * D + e * C + lane] = none ? 0 : ((const REAL*)(sums + r * pitch))[4 * c * QUADS + e];
         }
     }
 #endif

@@ -78,6 +78,7 @@ TAUT_INTEGER(int)
 TAUT_INTEGER(uint)
 TAUT_INTEGER(long)
 TAUT_INTEGER(ulong)
+ulong TAUT_CONST clz(ulong);
 TAUT_REAL(float, int, int)
 TAUT_DOUBLE(TAUT_REAL(double, long, int))
 TAUT_WIDTH(2)

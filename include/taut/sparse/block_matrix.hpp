@@ -30,7 +30,8 @@ inline std::string block_options(scalar_type real, int D, int K, lane_form form)
            ("-DREAL=" + std::string(spelling(real)) + " -DREAL_IS_DOUBLE=" + (wide ? "1" : "0") +
             " -DD=" + std::to_string(D) + " -DK=" + std::to_string(K) + " -DC=" + std::to_string(form.slice) +
             " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
-            " -DGROUP=" + std::to_string(lane_form::product_rows) + " -DEPSILON=" + (wide ? "1e-12" : "2e-6f"));
+            " -DGROUP=" + std::to_string(lane_form::product_rows(static_cast<std::size_t>(K))) +
+            " -DEPSILON=" + (wide ? "1e-12" : "2e-6f"));
 }
 
 inline late_kernel transfer_kernel(queue q, const char* name, scalar_type real, int D, int K, lane_form form)

@@ -79,6 +79,7 @@ public:
                                    {"transpose", transpose_},
                                    {"prolongation", columns_},
                                    {"weights", weights_},
+                                   {"column_weights", column_weights_},
                                    {"codes", codes_},
                                    {"colours", colours_},
                                    {"visit_offsets", visit_offsets_},
@@ -100,8 +101,8 @@ public:
     /// Bytes of the lists.
     std::size_t bytes() const
     {
-        return columns_.bytes() + weights_.bytes() + transpose_offsets_.bytes() + transpose_.bytes() + codes_.bytes() +
-               colours_.bytes() + visit_offsets_.bytes() + visits_.bytes();
+        return columns_.bytes() + weights_.bytes() + transpose_offsets_.bytes() + transpose_.bytes() +
+               column_weights_.bytes() + codes_.bytes() + colours_.bytes() + visit_offsets_.bytes() + visits_.bytes();
     }
 
 private:
@@ -109,12 +110,14 @@ private:
     {
         if (!groups)
         {
+            column_weights_ = real_buffer(queue_, weights_.type(), 1);
             for (auto* unused : {&codes_, &colours_, &visit_offsets_, &visits_}) *unused = buffer<idx>(queue_, 1);
             product_items_ = form_.items(coarse.stride());
             return;
         }
         codes_ = buffer<idx>(queue_, groups->codes);
         colours_ = buffer<idx>(queue_, groups->colours);
+        column_weights_ = real_buffer(queue_, weights_.type(), groups->weights);
         visit_offsets_ = buffer<idx>(queue_, groups->offsets);
         visits_ = buffer<idx>(queue_, groups->visits);
         product_items_ = {groups->offsets.size() - 1, 1};
@@ -128,7 +131,7 @@ private:
     idx fine_stride_, stride_, group_size_ = 1, colour_count_ = 0;
     range product_items_{0};
     buffer<idx> columns_, transpose_offsets_, transpose_, codes_, colours_, visit_offsets_, visits_;
-    real_buffer weights_;
+    real_buffer weights_, column_weights_;
     detail::late_kernel prolong_, restrict_, galerkin_;
 };
 

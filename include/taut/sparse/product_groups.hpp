@@ -18,7 +18,7 @@ struct product_groups
 {
     static constexpr idx clash = 256;
     /// Colours of the columns of P' A P, at most, for K weights a row: stars have many more vertices in space.
-    static constexpr idx most_colours(std::size_t K) { return K > 3 ? 128 : 64; }
+    static constexpr idx most_colours(std::size_t K) { return K > 3 ? 256 : 64; }
 
     /// coarse: the pattern of the product, t: the transpose of P.
     product_groups(const transfer_weights& P, const transposed_weights& t, const block_pattern& coarse,
@@ -31,9 +31,10 @@ struct product_groups
     }
 
     std::size_t size;
-    idx count = 0;            ///< of colours
-    std::vector<idx> colours; ///< of coarse columns; those of a row differ, or it has the flag `clash` in its own
-    std::vector<idx> codes;   ///< colours of the columns of each fine row, a byte each; 0 for those without a weight
+    idx count = 0;               ///< of colours
+    std::vector<idx> colours;    ///< of coarse columns; those of a row differ, or it has the flag `clash` in its own
+    std::vector<idx> codes;      ///< colours of the columns of each fine row, a byte each; 0 for those without a weight
+    std::vector<double> weights; ///< of each fine row, four places
     std::vector<idx> offsets, visits; ///< of each group the slices that it visits, and a bit a lane
 
 private:
@@ -69,11 +70,16 @@ private:
     {
         static_assert(transfer_weights::most <= sizeof(idx));
         codes.assign(P.rows(), 0);
+        weights.assign(4 * P.rows(), 0);
         const auto some = [&](std::size_t begin, std::size_t end)
         {
             for (std::size_t i = begin; i < end; ++i)
                 for (std::size_t k = 0; k < P.K; ++k)
-                    if (P.weight(i, k) != 0) codes[i] |= colours[P.column(i, k)] % clash << 8 * k;
+                    if (const double w = P.weight(i, k); w != 0)
+                    {
+                        codes[i] |= colours[P.column(i, k)] % clash << 8 * k;
+                        weights[4 * i + k] = w;
+                    }
         };
         parallel_for(codes.size(), some);
     }

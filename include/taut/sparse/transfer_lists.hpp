@@ -27,7 +27,7 @@ struct transfer_lists
         if (form.lanes == 1) return;
         // Large groups share more fine rows; small levels need some groups for all cores.
         constexpr std::size_t few = 32;
-        const std::size_t size = std::clamp<std::size_t>(padded(coarse_rows / few, 16), 16, lane_form::product_rows);
+        const std::size_t size = std::clamp<std::size_t>(padded(coarse_rows / few, 16), 16, lane_form::product_rows(K));
         groups.emplace(P, t, coarse, size);
     }
 
