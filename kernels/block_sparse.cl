@@ -344,9 +344,10 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
     for (int v = visit_offsets[group]; v < visit_offsets[group + 1]; v += 2)
     {
         const int slice = visits[v], first = fine_offsets[slice], end = fine_offsets[slice + 1];
-        for (uint lanes = (uint)visits[v + 1]; lanes; lanes ^= 1U << HIGHEST(lanes))
+        for (int lane = 0; lane < C; ++lane)
         {
-            const int lane = HIGHEST(lanes), i = slice * C + lane;
+            if (!(visits[v + 1] >> lane & 1)) continue;
+            const int i = slice * C + lane;
             ulong touched[COLOURS / 64] = {0};
             for (int at = first; at < end; at += C)
             {
