@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/core/single.hpp>
 #include <taut/measure/planar_size.hpp>
 #include <taut/objective/mesh_levels.hpp>
 #include <taut/objective/newton_objective.hpp>
@@ -98,7 +99,7 @@ public:
             for (int k = 0; k < D; ++k)
             {
                 const double local = p[k] - centre_[k], scale = objective_.layout().scale;
-                p[k] = (single_ ? double(static_cast<float>(local * scale)) / scale : local) + centre_[k];
+                p[k] = (single_ ? in_single(local * scale) / scale : local) + centre_[k];
             }
         return x;
     }

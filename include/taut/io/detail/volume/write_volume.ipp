@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <taut/core/error.hpp>
+#include <taut/core/single.hpp>
 #include <taut/io/detail/byte_order.hpp>
 #include <taut/io/detail/volume/formats.hpp>
 #include <taut/io/io_error.hpp>
@@ -37,7 +38,7 @@ inline bool same_bits(double a, double b)
 /// The coordinate as the file will hold it.
 inline double stored(const coordinate_places& places, double x)
 {
-    return places.single && !places.text ? static_cast<double>(static_cast<float>(x)) : x;
+    return places.single && !places.text ? in_single(x) : x;
 }
 
 inline void require_storable(const volume_file& file, std::span<const vec3> points)
@@ -117,7 +118,7 @@ TAUT_ON_USE_BODY std::vector<vec3> rounded_to_file(const volume_file& file, std:
     std::vector<vec3> result(points.begin(), points.end());
     if (file.places.single)
         for (vec3& p : result)
-            for (int k = 0; k < 3; ++k) p[k] = static_cast<double>(static_cast<float>(p[k]));
+            for (int k = 0; k < 3; ++k) p[k] = in_single(p[k]);
     return result;
 }
 
