@@ -61,7 +61,15 @@ inline double double_area(const vec3& a, const vec3& b)
 template <class Point>
 std::array<double, 3> angles(const Point& p, const Point& q, const Point& r)
 {
-    const Point a = r - q, b = p - r, c = q - p;
+    Point a = r - q, b = p - r, c = q - p;
+    double largest = 0;
+    for (const Point* e : {&a, &b, &c})
+        for (int k = 0; k < Point::length(); ++k) largest = std::max(largest, std::abs((*e)[k]));
+    if (largest > 0) // products of lengths neither overflow nor underflow
+    {
+        const double unit = std::scalbn(1.0, std::clamp(-std::ilogb(largest), -1000, 1000));
+        a *= unit, b *= unit, c *= unit;
+    }
     const double aa = glm::dot(a, a), bb = glm::dot(b, b), cc = glm::dot(c, c);
     const double area = aa >= bb && aa >= cc ? double_area(b, c) : bb >= cc ? double_area(a, c) : double_area(a, b);
     return {std::atan2(area, -glm::dot(b, c)), std::atan2(area, -glm::dot(a, c)), std::atan2(area, -glm::dot(a, b))};

@@ -53,6 +53,21 @@ TEST_CASE("quality: an isometry has no distortion in any measure")
     CHECK(q.angular < 1e-20);
 }
 
+TEST_CASE("quality: angles are those of meshes of any size")
+{
+    const auto m = taut::test::bumpy(6, 0.3, 1);
+    const mat2 sheared(1, 0, 0.5, 1);
+    const double usual = taut::measure_quality<taut::triangle>(m, image(m, sheared)).angular;
+    for (const double size : {1e-300, 1e-160, 1e160, 1e300})
+    {
+        CAPTURE(size);
+        auto points = m.points();
+        for (vec3& p : points) p *= size;
+        const taut::mesh<taut::triangle> sized(points, m.cells());
+        CHECK(taut::measure_quality<taut::triangle>(sized, image(sized, sheared)).angular == Approx(usual));
+    }
+}
+
 TEST_CASE("quality: a similarity is seen by energies only; stretch, area and angles are free of scale")
 {
     const auto m = taut::test::bumpy(6, 0.0, 1);
