@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Files of meshes as other programs write and read them: by their specifications, not by code of the program.
 
-A kind of volume file writes `files(points, cells, dimension)`, contents by extension, and reads its points back with
-`points(content)`, as floats, and its cells with `cells(contents)`. Cells are tetrahedra, or triangles of the plane."""
+A kind of volume file writes `files(points, cells, dimension)`, contents by extension, and reads points
+and cells with `read(contents)`. Cells are tetrahedra, or triangles of the plane. `rounding`: to what it can hold;
+`ambiguous`: text of single precision, whose digits some programs read as doubles."""
 import re
 import struct
 
@@ -37,7 +38,7 @@ def lines(values):
 
 
 class Medit:
-    extension, rounding = ".mesh", staticmethod(same)
+    extension, rounding, ambiguous = ".mesh", staticmethod(same), False
 
     def files(self, points, cells, dimension):
         name = "Tetrahedra" if dimension == 3 else "Triangles"
@@ -59,7 +60,7 @@ class Medit:
 
 
 class Su2:
-    extension, rounding = ".su2", staticmethod(same)
+    extension, rounding, ambiguous = ".su2", staticmethod(same), False
 
     def files(self, points, cells, dimension):
         kind = 10 if dimension == 3 else 5
@@ -79,7 +80,7 @@ class Su2:
 
 
 class Tetgen:
-    extension, rounding = ".node", staticmethod(same)
+    extension, rounding, ambiguous = ".node", staticmethod(same), False
 
     def files(self, points, cells, dimension):
         return {".node": (f"{len(points)} {dimension} 0 0\n" + lines((i, *p) for i, p in enumerate(points))).encode(),
@@ -93,7 +94,7 @@ class Tetgen:
 
 class Gmsh:
     """Vertices and cells are numbered from 1, in order."""
-    extension, rounding = ".msh", staticmethod(same)
+    extension, rounding, ambiguous = ".msh", staticmethod(same), False
 
     def __init__(self, version, binary):
         self.version, self.binary = version, binary
@@ -161,6 +162,7 @@ class Vtk:
     def __init__(self, kind, binary):
         self.kind, self.binary = kind, binary
         self.rounding = single if kind == "float" else same
+        self.ambiguous = kind == "float" and not binary
 
     def block(self, code, values):
         return (struct.pack(f">{len(values)}{code}", *values) if self.binary
@@ -194,6 +196,7 @@ class Vtu:
     def __init__(self, kind, raw):
         self.kind, self.raw = kind, raw
         self.rounding = single if kind == "Float32" else same
+        self.ambiguous = kind == "Float32" and not raw
     extension = ".vtu"
 
     def files(self, points, cells, dimension):

@@ -86,7 +86,7 @@ def check_output(taut, kind, name, command, mesh, dimension, options, pins, rest
     for quality in ("mean_ratio", "scaled_jacobian"):
         told = stats["quality"][quality]["worst"]
         for other in (checked["quality"], measured["shapes"]):
-            assert near(told, other[quality]["worst"]), f"{say}: {quality} {told}, and {other[quality]['worst']} of the file"
+            assert near(told, other[quality]["worst"], 1e-3 if kind.ambiguous else 1e-9), f"{say}: {quality} {told}, and {other[quality]['worst']} of the file"
     if command == "deform":
         assert stats["pins_held"] is True and all(x[v] == to for v, to in pins.items()), say
         assert near(stats["energy"], measured["quality"]["isometric"]["by_volume" if dimension == 3 else "by_area"], 1e-5)
