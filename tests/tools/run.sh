@@ -1434,6 +1434,8 @@ test_smooth()
         fail "the worst element is no better"
     for boundary in fixed free; do
         expect 0 smooth bar.mesh -o out.mesh --boundary $boundary --worst 3 --fix triangles:1 --quiet
+        expect 0 check out.mesh
+        says out '^inverted +0 of'
     done
     expect 2 smooth bar.mesh -o out.mesh --worst 9
     expect 2 smooth bar.mesh -o out.mesh --boundary round
@@ -1474,6 +1476,7 @@ test_volumes()
     error_says 'infeasible' 'tetrahedra'
     expect 6 untangle in.mesh -o late.mesh --time-limit 1e-3 --stats late.json
     absent late.mesh
+    says late.json '"outcome": "stopped"'
     expect 2 untangle in.prob -o late.txt --fix 1
     error_says '--fix is of volume files'
 
@@ -1727,6 +1730,7 @@ test_paste()
     grid 24 flat >flat.obj
     expect 0 paste --source flat.obj --at 312 --radius 0.2 --target target.off --onto 480 -o - --map map.png
     cp out piped.obj
+    [ "$(od -An -tx1 -N8 map.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "map.png is no PNG"
     says piped.obj '^f [0-9]+ [0-9]+ [0-9]+$' '^f [0-9]+/[0-9]+ '
     says err '^result '
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 
 #include <support/meshes.hpp>
 #include <support/size.hpp>
+#include <support/stage_watch.hpp>
 
 #include <taut/map/deform.hpp>
 #include <taut/map/parameterize.hpp>
@@ -28,24 +28,6 @@ mesh<triangle> bumps()
                        });
 }
 
-/// f(), and the wall clock that it took.
-template <class F>
-auto clocked(double& seconds, const F& f)
-{
-    const auto begin = std::chrono::steady_clock::now();
-    auto result = f();
-    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return result;
-}
-
-template <class Stages>
-double total(const Stages& stages)
-{
-    double sum = 0;
-    for (const stage_report& s : stages) sum += s.seconds;
-    return sum;
-}
-
 int iterations(const std::vector<stage_report>& stages, const std::string& name, bool finest)
 {
     int sum = 0;
@@ -54,22 +36,15 @@ int iterations(const std::vector<stage_report>& stages, const std::string& name,
     return sum;
 }
 
-/// What stages may lack of the wall clock: what is before the first and after the last one.
-void check_complete(double sum, double wall)
-{
-    CHECK(sum <= wall);
-    CHECK(sum >= 0.8 * wall - 0.1);
-}
-
 TEST_CASE("stages: of a free map from coarse to fine, complete, with the energies and steps of the levels")
 {
     queue q;
     const auto m = bumps();
-    double wall = 0;
-    const auto r = clocked(wall, [&] { return parameterize(q, m); });
+    test::stage_watch watch;
+    const auto r = parameterize(q, m, {.observer = watch.observer()});
     REQUIRE(r);
     const auto& stages = r.report.stages;
-    check_complete(total(stages), wall);
+    watch.check_complete(stages);
 
     CHECK(stages.front().stage == "setup");
     CHECK(stages.back().stage == "certify");
@@ -120,11 +95,11 @@ TEST_CASE("stages: of a map without levels, and of pins that are drawn or untang
     pins.pin(0, free[0] + vec2(0.05, 0.02));
     for (const bool coarse : {true, false})
     {
-        double wall = 0;
+        test::stage_watch watch;
         const auto start = coarse ? start_method::automatic : start_method::barycentric;
-        const auto r = clocked(wall, [&] { return parameterize(q, m, {.constraints = pins, .start = start}); });
+        const auto r = parameterize(q, m, {.constraints = pins, .start = start, .observer = watch.observer()});
         REQUIRE(r);
-        check_complete(total(r.report.stages), wall);
+        watch.check_complete(r.report.stages);
         int drawn = 0, proved = 0;
         for (const auto& s : r.report.stages)
         {
@@ -164,10 +139,10 @@ TEST_CASE("stages: of a shape whose pins move, and of one that is untangled firs
     for (const bool tangled : {false, true})
     {
         if (tangled) std::swap(initial[40], initial[100]);
-        double wall = 0;
-        const auto r = clocked(wall, [&] { return deform<triangle>(q, m, {.constraints = pins, .initial = initial}); });
+        test::stage_watch watch;
+        const auto r = deform<triangle>(q, m, {.constraints = pins, .initial = initial, .observer = watch.observer()});
         REQUIRE(r);
-        check_complete(total(r.report.stages), wall);
+        watch.check_complete(r.report.stages);
         int steps = 0;
         bool margin = false;
         for (const auto& s : r.report.stages)

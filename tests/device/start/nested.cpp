@@ -12,6 +12,8 @@
 #include <taut/energy/algebra.hpp>
 #include <taut/map/parameterize.hpp>
 #include <taut/measure/quality.hpp>
+#include <taut/start/barycentric_map.hpp>
+#include <taut/start/nested.hpp>
 
 namespace
 {

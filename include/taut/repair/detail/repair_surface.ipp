@@ -126,7 +126,8 @@ private:
         auto flat = place_triangles();
         if (params_.weld_tolerance > 0 && !cells_.empty())
         {
-            place_ = near_places(points_, std::move(place_), open_places(), params_.weld_tolerance);
+            const auto open = open_places(); // before place_ is moved away
+            place_ = near_places(points_, std::move(place_), open, params_.weld_tolerance);
             const auto more = place_triangles();
             flat.insert(flat.end(), more.begin(), more.end());
             std::sort(flat.begin(), flat.end());

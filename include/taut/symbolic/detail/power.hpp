@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <taut/core/single.hpp>
 #include <taut/symbolic/detail/build.hpp>
 
 namespace taut::detail
@@ -53,7 +54,7 @@ inline node_id build_power(tape& t, node_id x, node_id e)
     const auto is_ratio = [&](double n, double parts)
     {
         const double ratio = n / parts;
-        return magnitude == (type == scalar_type::f32 ? static_cast<double>(static_cast<float>(ratio)) : ratio);
+        return magnitude == (type == scalar_type::f32 ? in_single(ratio) : ratio);
     };
     for (const unsigned parts : {1u, 2u, 3u})
     {

@@ -1,17 +1,10 @@
-#!/bin/sh
 # SPDX-License-Identifier: MIT
-# includes.sh FOLDER: headers include what they use of the standard library, as far as names tell.
-set -eu
-cd "$1"
-status=0
-while read -r header names; do
-    for file in $(grep -rlE --include='*.[hi]pp' "std::($names)" .); do
-        grep -v '^ *//' "$file" | grep -qE "std::($names)" || continue
-        grep -q "^#include <$header>" "$file" && continue
-        echo "$file: uses std::($names) without #include <$header>"
-        status=1
-    done
-done <<'RULES'
+"""includes.py FOLDER: headers include what they use of the standard library, as far as names tell."""
+import pathlib
+import re
+import sys
+
+RULES = r"""
 algorithm (max|min|sort|clamp|fill|fill_n|copy|copy_n|any_of|all_of|none_of|max_element|min_element|lower_bound|equal_range|replace|nth_element|equal|count)\(
 array array\b
 atomic atomic\b
@@ -34,5 +27,16 @@ string_view string_view\b
 type_traits (is_same_v|is_floating_point_v|is_integral_v|is_arithmetic_v|conditional_t|remove_reference_t)\b
 utility (move|exchange|pair|swap|forward)\b
 vector vector<
-RULES
-exit $status
+"""
+
+rules = [line.split(" ", 1) for line in RULES.split("\n") if line]
+rules = [(header, names, re.compile(f"std::({names})")) for header, names in rules]
+missing = 0
+for file in sorted(pathlib.Path(sys.argv[1]).rglob("*.[hi]pp")):
+    text = file.read_text()
+    code = "\n".join(line for line in text.split("\n") if not line.lstrip(" ").startswith("//"))
+    for header, names, used in rules:
+        if used.search(code) and f"\n#include <{header}>" not in text:
+            print(f"{file}: uses std::({names}) without #include <{header}>")
+            missing += 1
+sys.exit(1 if missing else 0)
