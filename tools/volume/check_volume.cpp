@@ -54,7 +54,7 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
         report_mesh(report,
                     {mesh_fault::inverted_cell, turned,
                      list_cells(input, turned) + " inverted, in a mesh that is oriented as " + input.file().format +
-                         " files are; `taut untangle` moves vertices, or swap two corners of each"},
+                         " files are; `taut untangle` moves vertices"},
                     true);
     if (!thin.empty())
         report_mesh(report,

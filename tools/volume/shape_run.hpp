@@ -92,6 +92,7 @@ private:
         group_targets targets(input_->file());
         for (const auto& name : options_.fixed) targets.fix(name);
         for (const auto& move : options_.moves) targets.move(move);
+        add_note(targets.note());
         if (options_.smoothing)
         {
             for (const auto& [v, x] : targets.all()) fixed_.push_back(v);
