@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
+#include <taut/io/detail/turned_cells.hpp>
 #include <taut/io/detail/volume/groups.hpp>
 #include <taut/io/detail/volume/numbering.hpp>
 #include <taut/io/detail/volume/numbers.hpp>
-#include <taut/io/detail/volume/turned_cells.hpp>
 #include <taut/io/volume_file.hpp>
 
 namespace taut::io::detail
