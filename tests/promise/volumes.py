@@ -7,7 +7,10 @@ import math
 import os
 import random
 import struct
+import sys
 from fractions import Fraction
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "view"))  # client
 
 from exact import area2, exact, volume6
 from program import main
@@ -266,6 +269,32 @@ def pins_in_single_precision(taut):
     assert all(points[v] == p for v, p in pins.items()), points
 
 
+def page_saves(taut):
+    """Save of `taut view` gives what is certified, in the precision of the file."""
+    from client import Program, places, read, save
+    for far in (2**10, 2**20, 2**21):
+        bar = split(hexahedra((5, 3, 3), (5, 3, 3)), "tetrahedron").moved(lambda x, y, z: (x + far, y, z))
+        name = taut.file(taut.write("bar.vtk", bar.vtk("float")))
+        end = next(v for v, p in enumerate(bar.points) if p == (far + 5, 3, 3))
+        with Program(taut.path, name) as page:
+            s = page.socket()
+            s.message("model")
+            s.rest()
+            s.send(places(1, [(0, 7, bar.points[0]), (end, 7, (far + 5.1, 3.7, 2.9))]))
+            while not (len((state := s.rest())["pins"]) == 2 and state["held"]):
+                pass
+            s.send(save())
+            while (answer := read(s.frame()))["kind"] not in ("file", "note"):
+                pass
+        if answer["kind"] == "note":
+            assert "single precision" in answer["text"], answer
+            continue
+        taut.write("saved.vtk", answer["bytes"])
+        points = read_points(taut, "saved.vtk")
+        assert bar.not_positive(points) == [], far
+        assert points[end] == tuple(map(single, (far + 5.1, 3.7, 2.9))), points[end]
+
+
 def pins_of_untangle(taut):
     """`taut untangle MESH --pins`: what is pinned lies there, what is not may move."""
     cube = split(hexahedra((3, 3, 3)), "tetrahedron")
@@ -333,7 +362,7 @@ def winding(taut):
                 assert ("more than once" in says) == (code == 4), (name, says)
                 if suffix == "vtk":
                     for command in ("untangle", "smooth", "deform"):
-                        taut(command, file, "-o", f"out.{suffix}", "--time-limit", "20", code=(6, 7) if code else 0)
+                        taut(command, file, "-o", f"out.{suffix}", "--time-limit", "2", code=(6, 7) if code else 0)
                         assert os.path.exists(taut.file(f"out.{suffix}")) == (code == 0), (name, command)
                         for left in (f"out.{suffix}", f"out.{suffix}.invalid"):
                             if os.path.exists(taut.file(left)):
@@ -400,6 +429,21 @@ def what_no_turning_mends(taut):
             output = () if command in ("check", "eval") else ("-o", "out.vtk")
             run = taut(command, file, *output, code=4)
             assert why in run.stdout + run.stderr, (name, command, run.stdout, run.stderr)
+
+
+def problems(taut):
+    """A problem has the order of corners that it states: cells that clash are told by every command."""
+    mesh = split(quads(3, 3), "triangle")
+    for turned in ([], [4]):
+        cells = [c if i not in turned else (c[0], c[2], c[1]) for i, (_, c) in enumerate(mesh.cells)]
+        rows = [f"{len(mesh.points)} 2"] + [f"{x!r} {y!r}" for x, y in mesh.points]
+        rim = [v for v, p in enumerate(mesh.points) if not all(0 < x < 1 for x in p)]
+        rows = rows + rows + [f"{len(cells)} 3"] + [" ".join(map(str, c)) for c in cells]
+        taut.write("in.prob", "\n".join(rows + [str(len(rim))] + list(map(str, rim))) + "\n")
+        for command in ("check", "eval", "untangle", "deform"):
+            output = () if command in ("check", "eval") else ("-o", "out.prob")
+            run = taut(command, "in.prob", *output, code=4 if turned else 0)
+            assert not turned or "oriented differently" in run.stdout + run.stderr, (command, run.stdout, run.stderr)
 
 
 def clockwise_su2(taut):
@@ -487,5 +531,5 @@ def any_size(taut):
             assert all(math.dist(p, q) < 1e-6 for p, q in zip(back, best)), (kind, exponent)
 
 
-main(single_precision, pins_in_single_precision, pins_of_untangle, winding, turned_cells, tangled_is_not_turned,
-     what_no_turning_mends, clockwise_su2, interfaces, any_size)
+main(single_precision, pins_in_single_precision, page_saves, pins_of_untangle, winding, turned_cells, tangled_is_not_turned,
+     what_no_turning_mends, problems, clockwise_su2, interfaces, any_size)

@@ -115,7 +115,7 @@ public:
         if (file_.places.per_point == 2 && volume)
             throw io_error(file_.path, "volume cells, but two coordinates a point; give three");
         file_.dimension = file_.places.per_point == 2 || (!volume && flat && !file_.points.empty()) ? 2 : 3;
-        turn_cells(file_, cells_to_turn(file_));
+        if (file_.rest.empty()) turn_cells(file_, cells_to_turn(file_)); // a problem has the order that it states
     }
 
 private:
