@@ -252,7 +252,7 @@ def pins_in_single_precision(taut):
         points = read_points(taut, "out.vtk")
         for v, p in pins.items():
             assert points[v] == tuple(map(single, p)), (command, points[v])
-        assert "2 pins are (0, 63) rounded to the single precision of the file" in run.stderr, run.stderr
+        assert "2 pins (0, 63) are rounded to the single precision of the file" in run.stderr, run.stderr
         stats = json.load(open(taut.file("stats.json")))
         largest = max(abs(single(x) - x) for p in pins.values() for x in p)
         assert stats["pin_rounding"] == largest, (stats["pin_rounding"], largest)

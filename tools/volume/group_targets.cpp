@@ -98,8 +98,8 @@ void group_targets::transform(const std::string& name, int kind, const std::vect
 std::string group_targets::note() const
 {
     if (settled_.empty()) return {};
-    return taut::detail::list_ids("vertex has", "vertices have", settled_) +
-           " places in two groups that differ by rounding; that of the first counts, which is the one of --fix";
+    return taut::detail::list_ids("vertex", "vertices", settled_) +
+           " in two groups, whose places differ by rounding; that of the first counts, of --fix before --move";
 }
 
 void group_targets::take(idx v, const vec3& x, const std::string& name)

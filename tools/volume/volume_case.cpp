@@ -89,7 +89,7 @@ void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_
 
 std::string turned_note(const io::volume_file& file)
 {
-    return io::describe_turned(file) + "; they are read turned over, and what is written has them as the file does";
+    return io::describe_turned(file) + "; read turned over, and written as the file has it";
 }
 
 std::string count_cells(const io::volume_file& file, int dimension)

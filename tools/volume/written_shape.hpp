@@ -122,8 +122,8 @@ public:
     std::string note() const
     {
         if (vertices_.empty()) return {};
-        return detail::list_ids("pin is", "pins are", vertices_) + " rounded to the single precision of the file, by " +
-               number(largest_) + " at most, and held there";
+        return detail::list_ids("pin", "pins", vertices_) + (vertices_.size() == 1 ? " is" : " are") +
+               " rounded to the single precision of the file, by " + number(largest_) + " at most, and held there";
     }
 
 private:
