@@ -40,18 +40,25 @@ public:
             for (const idx v : cells[c]) stars_[static_cast<std::size_t>(v)].push_back(c);
     }
 
-    /// Goes through the simplices that are not positive until none is left, or nothing helps.
+    /// Moves the vertices of simplices that are not positive, and where that does not help those around them, too, to
+    /// make room, until none is left or nothing changes.
     template <class Movable>
     void run(const Movable& movable)
     {
-        constexpr int rounds = 30;
-        bool changed = true;
-        for (int round = 0; round < rounds && changed; ++round)
+        constexpr int rounds = 40;
+        constexpr std::size_t most_rings = 3;
+        std::size_t rings = 0, before = cells_.size();
+        for (int round = 0; round < rounds; ++round)
         {
-            changed = false;
+            std::vector<std::size_t> bad;
             for (std::size_t c = 0; c < cells_.size(); ++c)
-                for (std::size_t k = 0; k <= D && judge(c).sign <= 0; ++k)
-                    changed = improve(static_cast<std::size_t>(cells_[c][k]), movable) || changed;
+                if (judge(c).sign <= 0) bad.push_back(c);
+            if (bad.empty()) return;
+            rings = bad.size() < before ? 0 : std::min(rings + 1, most_rings);
+            before = bad.size();
+            bool changed = false;
+            for (const std::size_t v : around(std::move(bad), rings)) changed = improve(v, movable) || changed;
+            if (!changed && rings == most_rings) return;
         }
     }
 
@@ -62,6 +69,25 @@ private:
         return orient(x_[static_cast<std::size_t>(cells_[c][K])]...);
     }
     orientation judge(std::size_t c) const { return judge(c, std::make_index_sequence<D + 1>{}); }
+
+    /// The vertices of some simplices, and of so many rings around these.
+    std::vector<std::size_t> around(std::vector<std::size_t> simplices, std::size_t rings) const
+    {
+        std::vector<char> seen(x_.size(), 0);
+        std::vector<std::size_t> vertices;
+        for (std::size_t ring = 0;; ++ring)
+        {
+            const std::size_t first = vertices.size();
+            for (const std::size_t c : simplices)
+                for (const idx v : cells_[c])
+                    if (!std::exchange(seen[static_cast<std::size_t>(v)], 1))
+                        vertices.push_back(static_cast<std::size_t>(v));
+            if (ring == rings) return vertices;
+            simplices.clear();
+            for (std::size_t k = first; k < vertices.size(); ++k)
+                simplices.insert(simplices.end(), stars_[vertices[k]].begin(), stars_[vertices[k]].end());
+        }
+    }
 
     star_rank rank(std::size_t v) const
     {
