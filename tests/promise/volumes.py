@@ -447,26 +447,40 @@ def problems(taut):
             assert not turned or "oriented differently" in run.stdout + run.stderr, (command, run.stdout, run.stderr)
 
 
+def su2(mesh, markers, turned=()):
+    """The text of a planar mesh; markers: the edges of each by name."""
+    cells = [[c[j] for j in MIRRORED[k]] if i in turned else c for i, (k, c) in enumerate(mesh.cells)]
+    lines = ["NDIME= 2", f"NELEM= {len(cells)}"] + [f"5 {' '.join(map(str, c))} {i}" for i, c in enumerate(cells)]
+    lines += [f"NPOIN= {len(mesh.points)}"] + [f"{x!r} {y!r} {i}" for i, (x, y) in enumerate(mesh.points)]
+    lines.append(f"NMARK= {len(markers)}")
+    for name, edges in markers.items():
+        lines += [f"MARKER_TAG= {name}", f"MARKER_ELEMS= {len(edges)}"] + [f"3 {a} {b}" for a, b in edges]
+    return "\n".join(lines) + "\n"
+
+
 def clockwise_su2(taut):
-    """SU2 has no rule for the order of corners."""
+    """SU2 has no rule for the order of corners, and every corner of a mesh is in two markers."""
     mesh = split(quads(5, 5), "triangle")
+    markers = {"lower": [(i, i + 1) for i in range(5)], "upper": [(30 + i, 31 + i) for i in range(5)],
+               "right": [(6 * i + 5, 6 * i + 11) for i in range(5)]}
     dice = random.Random(4)
     for turned in (set(range(50)), {i for i in range(50) if dice.random() < 0.5}, {7}):
-        cells = [[c[j] for j in MIRRORED[k]] if i in turned else c for i, (k, c) in enumerate(mesh.cells)]
-        sides = {"lower": [(i, i + 1) for i in range(5)], "upper": [(30 + i, 31 + i) for i in range(5)]}
-        text = f"NDIME= 2\nNELEM= {len(cells)}\n" + "".join(
-            f"5 {' '.join(map(str, c))} {i}\n" for i, c in enumerate(cells)) + f"NPOIN= {len(mesh.points)}\n"
-        text += "".join(f"{x!r} {y!r} {i}\n" for i, (x, y) in enumerate(mesh.points)) + f"NMARK= {len(sides)}\n"
-        for name, edges in sides.items():
-            text += f"MARKER_TAG= {name}\nMARKER_ELEMS= {len(edges)}\n" + "".join(f"3 {a} {b}\n" for a, b in edges)
+        text = su2(mesh, markers, turned)
         taut.write("in.su2", text)
         taut("deform", "in.su2", "-o", "out.su2", "--fix", "lower", "--move", "upper:translate:0,0.2,0")
-        lines = taut.read("out.su2").decode().splitlines()
-        at = next(i for i, line in enumerate(lines) if line.startswith("NPOIN"))
-        points = [tuple(map(float, line.split()[:2])) for line in lines[at + 1:at + 1 + len(mesh.points)]]
+        points = read_points(taut, "out.su2")
         assert mesh.not_positive(points) == []
-        assert lines[2:2 + len(cells)] == text.splitlines()[2:2 + len(cells)]
+        assert taut.read("out.su2").decode().splitlines()[:52] == text.splitlines()[:52]
         assert all(math.dist(points[30 + i], (i / 5, 1.2)) < 1e-12 for i in range(6)), points[30:]
+    taut.write("in.su2", su2(mesh, markers))
+    for off, code in ((6e-18, 0), (-1e-37, 0), (1e-3, 4)):
+        taut.write("lower.csv", "".join(f"{i},{i / 5!r},{-0.1 * math.sin(math.pi * i / 5) if i < 5 else off!r},0\n"
+                                        for i in range(6)))
+        run = taut("deform", "in.su2", "-o", "out.su2", "--fix", "right", "--move", "lower=lower.csv", code=code)
+        if code == 0:
+            assert "1 vertex (5) in two groups" in run.stderr, run.stderr
+            points = read_points(taut, "out.su2")
+            assert points[5] == (1, 0) and mesh.not_positive(points) == [], points[5]
 
 
 def interfaces(taut):
