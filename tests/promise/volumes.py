@@ -182,6 +182,10 @@ def read_points(program, name):
         at = next(i for i, line in enumerate(lines) if line.startswith("NPOIN"))
         d, n = int(lines[0].split("=")[1]), int(lines[at].split("=")[1])
         return [tuple(map(float, line.split()[:d])) for line in lines[at + 1:at + 1 + n]]
+    if data.startswith(b"$MeshFormat"):
+        lines = data.decode().splitlines()
+        at = lines.index("$Nodes")
+        return [tuple(map(float, line.split()[1:])) for line in lines[at + 2:at + 2 + int(lines[at + 1])]]
     at = data.index(b"POINTS ")
     end = data.index(b"\n", at)
     _, n, kind = data[at:end].split()
@@ -509,6 +513,17 @@ def interfaces(taut):
         else:
             assert left
         assert any(points[v] != mesh.points[v] for v in rest_of)
+    data = f"CELL_DATA {len(material)}\nSCALARS material int 1\nLOOKUP_TABLE default\n" + "\n".join(map(str, material))
+    taut.write("two.vtk", mesh.vtk(binary=False) + data.encode() + b"\n")
+    rows = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(mesh.points))]
+    rows += [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(mesh.points)]
+    rows += ["$EndNodes", "$Elements", str(len(mesh.cells))]
+    rows += [f"{i + 1} 4 2 {material[i]} 1 {' '.join(str(v + 1) for v in c)}" for i, (_, c) in enumerate(mesh.cells)]
+    taut.write("two.msh", "\n".join(rows + ["$EndElements"]) + "\n")
+    for name in ("two.vtk", "two.msh"):
+        taut("smooth", name, "-o", "out." + name[-3:])
+        points = read_points(taut, "out." + name[-3:])
+        assert mesh.not_positive(points) == [] and all(points[v][0] == 0.5 for v in middle), name
     taut("smooth", "two.mesh", "-o", "out.mesh", "--interfaces", "free")
     assert any(read_points(taut, "out.mesh")[v][0] != 0.5 for v in middle)
     for boundary in ("free", "fixed"):
