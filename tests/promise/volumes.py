@@ -368,7 +368,8 @@ def winding(taut):
                 assert ("more than once" in says) == (code == 4), (name, says)
                 if suffix == "vtk":
                     for command in ("untangle", "smooth", "deform"):
-                        taut(command, file, "-o", f"out.{suffix}", "--time-limit", "2", code=(6, 7) if code else 0)
+                        limit = ("--time-limit", "2") if code else ()  # what has no map is not searched for long
+                        taut(command, file, "-o", f"out.{suffix}", *limit, code=(6, 7) if code else 0)
                         assert os.path.exists(taut.file(f"out.{suffix}")) == (code == 0), (name, command)
                         for left in (f"out.{suffix}", f"out.{suffix}.invalid"):
                             if os.path.exists(taut.file(left)):
