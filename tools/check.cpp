@@ -185,10 +185,11 @@ void check_problem(check_report& report, const check_options& options, io::prob_
     report.cells = problem.rest.cells().size();
     report.has_map = true;
     report.map = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial));
-    // Untangling minds the shape of each cell alone; what else a surface may be is no obstacle.
+    // What touches at a vertex alone, and vertices without cells, are no obstacle to untangling.
     const mesh_requirements need{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
     for (const auto& f : taut::check(problem.rest, need))
-        report_mesh(report, f, f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell);
+        report_mesh(report, f,
+                    f.fault != mesh_fault::unreferenced_vertex && f.fault != mesh_fault::non_manifold_vertex);
     auto pins = taut::constraints(problem.rest);
     pins.fix(fixed, problem.initial);
     read_constraints(report, options.pins, pins, problem.rest.vertex_count());

@@ -36,6 +36,7 @@ exit_code run(const shape_options& options, std::chrono::steady_clock::time_poin
     auto file = read_volume_at_rest(options.input, options.rest);
     if (options.smoothing) file.rest.clear();
     require_drawable(file, {options.picture, options.cut, options.smoothing});
+    require_mesh(file);
     return with_case(file, [&]<class Element>(const volume_case<Element>& input)
                      { return shape_run<Element>(options, clock, progress, place_of_report, input)(); });
 }

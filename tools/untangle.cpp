@@ -45,6 +45,7 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
         report.seconds.read = clock.timed([&] { file = read_volume_at_rest(options.input, options.rest); });
         require_name(options.output, *file);
         require_drawable(*file, {options.picture, options.cut});
+        require_mesh(*file);
         return with_case(*file, [&]<class Element>(const volume_case<Element>& input)
                          { return untangled(problem_of(input, options, report), &input); });
     }
@@ -57,7 +58,9 @@ exit_code run(const untangle_options& options, std::chrono::steady_clock::time_p
         [&]<class Element>(io::prob_file<Element>& read)
         {
             auto problem = make_untangle_problem(std::move(read));
-            require_drawable(file_of(problem), {options.picture, options.cut});
+            const auto as_file = file_of(problem);
+            require_drawable(as_file, {options.picture, options.cut});
+            require_mesh(as_file);
             return untangled(std::move(problem));
         },
         *file);

@@ -25,6 +25,7 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
     json["vertices"] = r.vertices;
     json["elements"] = r.elements;
     json["pinned"] = r.pinned;
+    if (!r.format.empty()) json["pin_rounding"] = r.pin_rounding;
     json["device"] = r.device;
     json["outcome"] = r.outcome;
     json["reason"] = r.reason;

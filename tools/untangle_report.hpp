@@ -40,6 +40,7 @@ struct untangle_report
     std::string stage;
     std::optional<refined_size> refined; ///< none: no element was split
     std::vector<untangle_stage_report> stages;
+    double pin_rounding = 0; ///< by which pins were moved to where the file can hold them, at most
     std::vector<std::string> notes;
     struct
     {

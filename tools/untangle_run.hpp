@@ -34,6 +34,7 @@
 #include "volume/refined_case.hpp"
 #include "volume/volume_drawing.hpp"
 #include "volume/volume_problem.hpp"
+#include "volume/written_shape.hpp"
 #include "writing.hpp"
 
 namespace taut::tools
@@ -97,6 +98,12 @@ private:
     {
         if (!input_) return certify<D>(problem_->rest.cells(), std::span<const vec<D>>(x));
         state = input_->look(input_->as_written(x));
+        return cells_of(state);
+    }
+
+    /// The certificate, counted in cells.
+    static certificate cells_of(const volume_state& state)
+    {
         auto found = state.simplices;
         found.flipped = state.inverted.size();
         return found;
@@ -190,7 +197,8 @@ private:
         const auto again = [&](const volume_case<Element>& edged, const std::vector<vec<D>>& from)
         {
             params.time_limit = clock_.left(options_.time_limit);
-            auto problem = problem_of(edged, options_, report_);
+            untangle_report told; // it was before
+            auto problem = problem_of(edged, options_, told);
             problem.initial = from;
             problem.held = problem_->held;
             auto found = untangle(q, problem, params);
@@ -201,10 +209,23 @@ private:
         if (!note.empty()) report_.notes.push_back(std::move(note));
     }
 
+    /// The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.
     void take(untangle_result<Element> result)
     {
-        // The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.
-        report_.after = certified(result.map, report_.state_after);
+        std::string defects; // of rounding
+        if (!input_)
+            report_.after = certified(result.map, report_.state_after);
+        else
+        {
+            const auto movable = [&](std::size_t v, int k) { return !problem_->held.test(v, k); };
+            written_shape<Element> written(*input_, std::move(result.map), movable);
+            if (result) defects = written.defects(*input_);
+            if (!written.note.empty()) report_.notes.push_back(std::move(written.note));
+            result.map = std::move(written.x);
+            points_ = std::move(written.points);
+            report_.state_after = std::move(written.state);
+            report_.after = cells_of(report_.state_after);
+        }
         bool held = true;
         for (std::size_t v = 0; v < problem_->held.size(); ++v)
             for (int k = 0; k < D; ++k)
@@ -212,11 +233,7 @@ private:
         const bool valid = held && report_.after;
         report_.outcome = valid ? "injective" : interrupted() ? "interrupted" : "gave_up";
         report_.code = interrupted() ? interruption() : valid ? exit_code::valid : exit_code::no_valid_map;
-        report_.reason = valid    ? ""
-                         : !held  ? "a pin has moved"
-                         : result ? "in the single precision of the file there is " +
-                                        describe_defects<Element>(report_.after, problem_->owners)
-                                  : result.reason;
+        report_.reason = valid ? "" : !held ? "a pin has moved" : defects.empty() ? result.reason : defects;
         report_.ids = std::move(result.ids);
         report_.least_det = result.flips.min_det;
         report_.least_relative_det = result.least_relative_det;
@@ -238,14 +255,13 @@ private:
         std::vector<io::file_to_write> files;
         // A map with defects never gets the name that was asked for.
         if (!map_.empty()) report_.written = valid_ ? options_.output : name_of_invalid(options_.output);
-        const auto points = input_ && !map_.empty() ? input_->in_file(map_) : std::vector<vec3>();
         if (input_ && valid_)
-            files = io::volume_outputs(report_.written, input_->file(), points);
+            files = io::volume_outputs(report_.written, input_->file(), points_);
         else if (!report_.written.empty())
             files.push_back({report_.written, [&](io::atomic_file& file)
                              {
                                  if (input_)
-                                     file.write(io::with_points(input_->file(), points));
+                                     file.write(io::with_points(input_->file(), points_));
                                  else if (problem_file_)
                                      file.write(io::with_points(*problem_file_, in_space()));
                                  else
@@ -312,6 +328,7 @@ private:
     const char* place_of_report_; ///< null: there is none
     std::optional<untangle_problem<Element>> problem_;
     std::vector<vec<D>> map_;
+    std::vector<vec3> points_; ///< of the file, where there is one
     bool valid_ = false;
 };
 

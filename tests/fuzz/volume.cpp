@@ -95,7 +95,8 @@ void examine(const io::volume_file& file, const std::function<io::volume_file(co
     attempt([&] { io::triangles_of(file); });
     attempt([&] { io::corner_simplices_of(file); });
     attempt([&] { io::corner_simplices_of<triangle>(file); });
-    attempt([&] { io::cell_faces_of(file); });
+    attempt([&] { io::check_sides(file); });
+    attempt([&] { io::kept_facets(file, true); });
     attempt([&] { file.find_group("1"); });
 }
 

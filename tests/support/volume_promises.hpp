@@ -38,6 +38,14 @@ inline std::string outside(const io::volume_file& file, const std::vector<bool>&
     return result + file.bytes.substr(done);
 }
 
+/// The cells in the order that the file has: which of them are turned while reading, the points say.
+inline std::vector<io::cell_block> cells_in_file(const io::volume_file& file)
+{
+    auto copy = file;
+    io::turn_cells(copy, file.turned);
+    return copy.cells;
+}
+
 /// What does not hold of a file that was read: empty, or a sentence. Every second point is moved, the file written and
 /// read again: the points are those, all else is the same, bytes outside the coordinates and of points that stayed.
 inline std::string broken_promise(const io::volume_file& file,
@@ -65,9 +73,9 @@ inline std::string broken_promise(const io::volume_file& file,
     if (!std::equal(points.begin(), points.end(), back.points.begin(), back.points.end(), same_point))
         return "the points that were written";
     if (back.cells.size() != file.cells.size() || back.groups.size() != file.groups.size()) return "blocks and groups";
-    for (std::size_t b = 0; b < file.cells.size(); ++b)
-        if (back.cells[b].kind != file.cells[b].kind || back.cells[b].corners != file.cells[b].corners)
-            return "the same cells";
+    const auto before = cells_in_file(file), after = cells_in_file(back);
+    for (std::size_t b = 0; b < before.size(); ++b)
+        if (after[b].kind != before[b].kind || after[b].corners != before[b].corners) return "the same cells";
     for (std::size_t g = 0; g < file.groups.size(); ++g)
         if (back.groups[g].name != file.groups[g].name || back.groups[g].vertices != file.groups[g].vertices)
             return "the same groups";

@@ -21,6 +21,7 @@
 #include "../failure.hpp"
 #include "../seams.hpp"
 #include "../volume/volume_case.hpp"
+#include "../volume/written_shape.hpp"
 #include "floats.hpp"
 #include "session_subject.hpp"
 #include "written.hpp"
@@ -217,7 +218,24 @@ public:
         base::go_to(result.x);
     }
 
-    subject::saved write() const override { return {name_, io::with_points(opened::file, input.in_file(base::x()))}; }
+    /// As `taut deform` does, to places that the file can hold.
+    void pin(std::span<const place> pins) override
+    {
+        tools::held_by_file held(opened::file);
+        std::vector<place> places(pins.begin(), pins.end());
+        for (place& p : places)
+            for (int k = 0; k < Element::dimension; ++k) p.x[k] = held(p.vertex, p.x[k]);
+        base::pin(places);
+    }
+
+    subject::saved write() const override
+    {
+        const auto held = base::asked().held();
+        const tools::written_shape<Element> written(input, base::x(),
+                                                    [&](std::size_t v, int k) { return !held.test(v, k); });
+        if (auto why = written.defects(input); !why.empty()) throw error(why);
+        return {name_, io::with_points(opened::file, written.points)};
+    }
 
 private:
     const std::vector<corners>& shown() const override { return faces_; }
@@ -295,6 +313,7 @@ std::unique_ptr<subject> make_subject(queue& q, const source& from)
     if (from.shell) return std::make_unique<shell_subject>(q, from);
     if (!tools::names_volume(from.path)) return std::make_unique<map_subject>(q, from);
     auto file = io::read_volume_file(from.path);
+    tools::require_mesh(file);
     if (file.dimension == 2) return std::make_unique<shape_subject<triangle>>(q, std::move(file), from);
     return std::make_unique<shape_subject<tetrahedron>>(q, std::move(file), from);
 }

@@ -54,7 +54,7 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
         report_mesh(report,
                     {mesh_fault::inverted_cell, turned,
                      list_cells(input, turned) + " inverted, in a mesh that is oriented as " + input.file().format +
-                         " files are; `taut untangle` moves vertices, or swap two corners of each"},
+                         " files are; `taut untangle` moves vertices"},
                     true);
     if (!thin.empty())
         report_mesh(report,
@@ -100,47 +100,11 @@ void report_open_quads(check_report& report, const io::cell_faces& sides)
                    exit_code::valid);
 }
 
-/// How the cells of a volume of several kinds meet.
+/// How cells of several kinds meet.
 void report_faces(check_report& report, const io::volume_file& file)
 {
-    const auto sides = io::cell_faces_of(file);
-    report_open_quads(report, sides);
-    std::vector<idx> crowded, clashing;
-    std::vector<std::array<idx, 4>> told;
-    for (std::size_t s = 0; s < sides.faces.size(); ++s)
-    {
-        const auto& face = sides.faces[s];
-        const idx twin = sides.twin[s];
-        if (twin == io::cell_faces::crowded)
-        {
-            auto sorted = face.vertices;
-            std::sort(sorted.begin(), sorted.end());
-            told.push_back(sorted);
-        }
-        if (twin < static_cast<idx>(s)) continue;
-        // Neighbours go around the face that they share in opposite ways.
-        const auto here = face.corners(), there = sides.faces[static_cast<std::size_t>(twin)].corners();
-        const auto at = std::find(there.begin(), there.end(), here[0]) - there.begin();
-        if (here[1] == there[static_cast<std::size_t>(at + 1) % there.size()])
-            for (const idx cell : {face.cell, sides.faces[static_cast<std::size_t>(twin)].cell})
-                clashing.push_back(cell);
-    }
-    std::sort(told.begin(), told.end());
-    told.erase(std::unique(told.begin(), told.end()), told.end());
-    for (const auto& face : told)
-        crowded.insert(crowded.end(), face.begin() + (face[0] < 0), face.begin() + (face[0] < 0) + 3);
-    if (!clashing.empty())
-        report_mesh(report,
-                    {mesh_fault::inconsistent_orientation, clashing,
-                     detail::list_ids("pair", "pairs", clashing, 2) +
-                         " of cells oriented differently; turn one of each over, so that all agree"},
-                    true);
-    if (!crowded.empty())
-        report_mesh(report,
-                    {mesh_fault::non_manifold_facet, crowded,
-                     detail::list_ids("face", "faces", crowded, 3) +
-                         " with three or more cells; remove the extra ones or separate them"},
-                    true);
+    if (file.dimension == 3) report_open_quads(report, io::cell_faces_of(file));
+    for (const auto& found : io::check_sides(file)) report_mesh(report, found, true);
 }
 
 } // namespace
@@ -150,7 +114,10 @@ void report_contents(check_report& report, const io::volume_file& file)
     report.kind = file.format + (file.dimension == 2 ? ", planar" : ", volume");
     report.vertices = file.points.size();
     report.cells_name = count_cells(file, file.dimension);
-    for (const auto& note : file.notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
+    auto notes = file.notes;
+    if (!file.turned.empty()) notes.push_back(turned_note(file));
+    for (const auto& note : notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
+    report.details["turned_ids"] = file.turned;
 
     report.details["elements"] = nlohmann::ordered_json::object();
     std::vector<char> used(file.points.size(), 0);
@@ -220,7 +187,7 @@ void report_cells(check_report& report, const volume_case<Element>& input)
     report_signs(report, input, state);
     if (!input.parts().overlapping)
         report_facets(report, input.simplices());
-    else if (D == 3)
+    else
         report_faces(report, input.file());
     if (report.map.flipped == 0 && report.map.branched > 0)
         report.add({true, "mesh", D == 2 ? "branch_points" : "branch_edges", report.map.branch_ids,

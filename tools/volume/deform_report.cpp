@@ -32,6 +32,7 @@ nlohmann::ordered_json to_json(const deform_report& r, const shape_options& o)
     if (!o.smoothing) json["refined"] = refined_json(r.refined);
     json["converged"] = run.converged;
     json["pins_held"] = run.pins_held;
+    json["pin_rounding"] = r.pin_rounding;
     json["farthest"] = run.farthest;
     json["distance"] = run.distance;
     json["energy"] = finite(run.energy);

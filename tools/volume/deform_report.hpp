@@ -25,6 +25,7 @@ struct deform_report
     std::optional<refined_size> refined; ///< none: no element was split
     const char* element = "";            ///< a word
     std::size_t vertices = 0, elements = 0, pins = 0, springs = 0;
+    double pin_rounding = 0; ///< by which pins were moved to where the file can hold them, at most
     int dimension = 3;
     bool mixed = false; ///< there are cells other than simplices
     struct

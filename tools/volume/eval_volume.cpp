@@ -106,6 +106,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
     const auto state = input.look(x);
     const bool has_rest = !input.file().rest.empty();
     std::vector<std::string> notes = input.file().notes;
+    if (!input.file().turned.empty()) notes.push_back(turned_note(input.file()));
     volume_map map;
     if (has_rest) map = measure(input, x);
     if (!has_rest) notes.push_back("no shape at rest, so no distortion: name its file first, `taut eval REST MAP`");
@@ -180,6 +181,7 @@ exit_code evaluate_volume(const eval_volume_options& options)
     const auto file = read_volume_at_rest(options.input, options.rest);
     const drawing_options drawing{options.picture, options.cut, file.rest.empty()};
     require_drawable(file, drawing);
+    require_mesh(file);
     with_case(file,
               [&](const auto& input)
               {

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
 #include <taut/constrain/constraints.hpp>
 #include <taut/io/pins.hpp>
 #include <taut/measure/rigid_motion.hpp>
+#include <taut/mesh/describe.hpp>
 
 #include "failure.hpp"
 
@@ -32,6 +34,14 @@ std::vector<double> numbers_of(const std::string& text, std::size_t count, const
     if (numbers.size() != count)
         throw usage_error(option + ": give " + std::to_string(count) + " numbers with commas between");
     return numbers;
+}
+
+group_targets::group_targets(const io::volume_file& file) : file_(file)
+{
+    constexpr double digits = 1e-10;
+    vec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const vec3& p : file.points) low = glm::min(low, digits * p), high = glm::max(high, digits * p);
+    for (int k = 0; k < 3; ++k) rounding_ = std::max(rounding_, high[k] - low[k]);
 }
 
 void group_targets::fix(const std::string& name)
@@ -85,9 +95,22 @@ void group_targets::transform(const std::string& name, int kind, const std::vect
     for (const idx v : members) take(v, kind == 1 ? middle + n[0] * (point(v) - middle) : motion(point(v)), name);
 }
 
+std::string group_targets::note() const
+{
+    if (settled_.empty()) return {};
+    return taut::detail::list_ids("vertex", "vertices", settled_) +
+           " in two groups, whose places differ by rounding; that of the first counts, of --fix before --move";
+}
+
 void group_targets::take(idx v, const vec3& x, const std::string& name)
 {
     const auto [at, is_new] = targets_.try_emplace(v, x);
+    const auto apart = [&](int k) { return std::abs(at->second[k] - x[k]) > rounding_; };
+    if (!is_new && at->second != x && !apart(0) && !apart(1) && !apart(2))
+    {
+        settled_.push_back(v);
+        return;
+    }
     if (!is_new && at->second != x && owner_[v] == name)
         throw unsuitable_input("group " + name + " is to be at two places, as vertex " + std::to_string(v) +
                                " shows; give it one --move, or --fix alone");

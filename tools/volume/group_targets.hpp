@@ -10,12 +10,13 @@
 namespace taut::tools
 {
 
-/// Where the vertices of groups go, by vertex: each group by itself, and an error where two disagree.
+/// Where the vertices of groups go, by vertex: each group by itself, and an error where two disagree by more than
+/// rounding.
 class group_targets
 {
 public:
     /// The file is referred to.
-    explicit group_targets(const io::volume_file& file) : file_(file) {}
+    explicit group_targets(const io::volume_file& file);
 
     /// Leaves a group where it is. Throws group_error, unsuitable_input.
     void fix(const std::string& name);
@@ -26,6 +27,9 @@ public:
 
     const std::map<idx, vec3>& all() const { return targets_; }
 
+    /// On vertices that two groups have at places that differ by rounding alone; empty: there are none.
+    std::string note() const;
+
 private:
     const io::volume_group& group(const std::string& name) const { return file_.find_group(name); }
     const vec3& point(idx v) const { return file_.points[static_cast<std::size_t>(v)]; }
@@ -35,6 +39,8 @@ private:
     const io::volume_file& file_;
     std::map<idx, vec3> targets_;
     std::map<idx, std::string> owner_;
+    double rounding_ = 0; ///< distance of places that are the same
+    std::vector<idx> settled_;
 };
 
 /// Numbers between commas; throws usage_error that begins with `option` unless there are `count`.

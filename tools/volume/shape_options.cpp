@@ -87,6 +87,10 @@ void declare_smooth(CLI::App& app, shape_options& o)
                                                     {"fixed", smooth_boundary::fixed},
                                                     {"free", smooth_boundary::free}},
                "What the boundary may do");
+    add_choice(
+        app, "--interfaces", o.free_interfaces, std::vector<choice<bool>>{{"kept", false}, {"free", true}},
+        "Faces inside between regions or with a label: kept, they slide in flat parts of their own, as do pieces "
+        "of the boundary");
     app.add_option("--worst", o.worst_exponent, "Exponent of the energy: 1 the mean counts, more: the worst")
         ->type_name("1..8")
         ->check(CLI::Range(1, 8));

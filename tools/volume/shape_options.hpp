@@ -42,6 +42,7 @@ struct shape_options
 
     // smooth
     smooth_boundary boundary = smooth_boundary::sliding;
+    bool free_interfaces = false; ///< between regions and on labelled faces inside, which are kept else
     int worst_exponent = 2;
 };
 

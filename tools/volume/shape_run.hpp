@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include <taut/io/cell_faces.hpp>
 #include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/pins.hpp>
 #include <taut/io/write_files.hpp>
 #include <taut/io/write_volume.hpp>
 #include <taut/map/deform_refined.hpp>
 #include <taut/map/smooth.hpp>
-#include <taut/measure/describe_defects.hpp>
 
 #include "failure.hpp"
 #include "interrupt.hpp"
@@ -31,6 +31,7 @@
 #include "volume/mend_insides.hpp"
 #include "volume/refined_case.hpp"
 #include "volume/volume_drawing.hpp"
+#include "volume/written_shape.hpp"
 #include "writing.hpp"
 
 namespace taut::tools
@@ -79,23 +80,52 @@ private:
     const char* phase() const { return options_.smoothing ? "smooth" : "deform"; }
     void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
 
+    void add_note(std::string note)
+    {
+        if (!note.empty()) notes_.push_back(std::move(note));
+    }
+
     void prepare()
     {
         require_name(options_.output, input_->file());
+        if (!input_->file().turned.empty()) add_note(turned_note(input_->file()));
         group_targets targets(input_->file());
         for (const auto& name : options_.fixed) targets.fix(name);
         for (const auto& move : options_.moves) targets.move(move);
+        add_note(targets.note());
         if (options_.smoothing)
         {
             for (const auto& [v, x] : targets.all()) fixed_.push_back(v);
+            keep_interfaces();
             return;
         }
         const auto& mesh = input_->simplices();
         pins_ = constraints<Element>(mesh);
-        for (const auto& [v, x] : targets.all()) pins_.pin(v, vec<D>(x));
-        if (!options_.pins.empty()) add_pins(pins_, io::read_pins<D>(options_.pins, mesh.vertex_count()));
+        held_by_file held(input_->file());
+        for (const auto& [v, x] : targets.all()) pins_.pin(v, held(v, vec<D>(x)));
+        if (!options_.pins.empty()) add_pins(pins_, held(io::read_pins<D>(options_.pins, mesh.vertex_count())));
+        report_.pin_rounding = held.largest();
+        add_note(held.note());
         report_.pins = pins_.pins().size();
         report_.springs = pins_.springs().size();
+    }
+
+    /// Of a file that has regions, or labelled faces.
+    void keep_interfaces()
+    {
+        if (options_.free_interfaces) return;
+        const auto& file = input_->file();
+        kept_facets_ = io::kept_facets(file, options_.boundary == smooth_boundary::sliding);
+        std::vector<char> outside(file.points.size(), 0), inside = outside;
+        for (const auto& facet : boundary_facets(input_->simplices(), input_->owners()))
+            for (const idx v : facet) outside[static_cast<std::size_t>(v)] = 1;
+        for (const auto& facet : kept_facets_)
+            for (const idx v : facet.corners()) inside[static_cast<std::size_t>(v)] = 1;
+        std::size_t kept = 0;
+        for (std::size_t v = 0; v < inside.size(); ++v) kept += inside[v] && !outside[v];
+        if (kept > 0)
+            add_note(count(kept, "vertex inside keeps to an interface", "vertices inside keep to interfaces") +
+                     " between regions, or to labelled faces; --interfaces free lets them go");
     }
 
     template <class Params>
@@ -128,7 +158,8 @@ private:
                                                            .targets = parts.parts().regular,
                                                            .owners = parts.owners(),
                                                            .worst_exponent = options_.worst_exponent,
-                                                           .fixed = fixed_}));
+                                                           .fixed = fixed_,
+                                                           .kept = kept_facets_}));
             return {std::move(r.x), std::move(r.report)};
         }
         deform_params<Element> params{
@@ -175,18 +206,31 @@ private:
                 all.stopped = how.stopped;
                 return other;
             };
-            if (auto note = mend_insides(*input_, x, again); !note.empty())
-                report_.run.notes.push_back(std::move(note));
+            add_note(mend_insides(*input_, x, again));
         }
-        if (!options_.smoothing && report_.pins + report_.springs == 0) report_.run.notes.emplace_back(nothing_held);
+        if (!options_.smoothing && report_.pins + report_.springs == 0) add_note(nothing_held);
         if (options_.smoothing && options_.boundary == smooth_boundary::free && fixed_.empty())
-            report_.run.notes.emplace_back("nothing is held, and the boundary is free: the mesh may come to lie "
-                                           "elsewhere; --fix says what stays");
+            add_note("nothing is held, and the boundary is free: the mesh may come to lie elsewhere; --fix says what "
+                     "stays");
         take(std::move(x));
+        report_.run.notes.insert(report_.run.notes.end(), notes_.begin(), notes_.end());
+    }
+
+    /// Whether writing may round a coordinate: it is none that the user, or a boundary that slides, holds.
+    auto movable(const map& x) const
+    {
+        std::vector<char> still(x.size(), 0);
+        for (const idx v : fixed_) still[static_cast<std::size_t>(v)] = 1;
+        const auto marks = pins_.held();
+        return [this, still, marks, &x](std::size_t v, int k)
+        {
+            if (!options_.smoothing) return !(v < marks.size() && marks.test(v, k));
+            return !still[v] && (v >= input_->file().points.size() || x[v][k] != input_->file().points[v][k]);
+        };
     }
 
     /// The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.
-    void take(map x)
+    void take(const map& x)
     {
         session_report& run = report_.run;
         const bool late = run.outcome == outcome::stopped || (run.outcome == outcome::valid && run.stopped);
@@ -196,19 +240,37 @@ private:
                 : run.outcome == outcome::infeasible ? exit_code::infeasible
                                                      : exit_code::no_valid_map;
         if (x.empty() || code_ == exit_code::infeasible || code_ == exit_code::no_valid_map) return;
-        points_ = input_->in_file(x);
-        report_.after = input_->look(input_->as_written(x));
+        written_shape<Element> written(*input_, x, movable(x));
+        add_note(written.note);
+        const bool held = measure_pins(written.x) || !run.pins_held;
+        valid_ = held && written.state.simplices;
+        if (!valid_)
+        {
+            code_ = exit_code::no_valid_map;
+            run.reason = held ? written.defects(*input_) : "a pin has moved";
+        }
+        points_ = std::move(written.points);
+        report_.after = std::move(written.state);
+    }
+
+    /// How far pins are from their places in what is written; whether all are there.
+    bool measure_pins(const map& x)
+    {
+        session_report& run = report_.run;
         bool held = true;
-        if (run.pins_held)
-            for (const auto& [v, pin] : pins_.pins())
-                for (int k = 0; k < D; ++k)
-                    held = held && ((pin.held >> k & 1u) == 0 || x[static_cast<std::size_t>(v)][k] == pin.value[k]);
-        valid_ = held && report_.after.simplices;
-        if (valid_) return;
-        code_ = exit_code::no_valid_map;
-        run.reason = held ? "in the single precision of the file the mesh has " +
-                                describe_defects<Element>(report_.after.simplices, input_->owners())
-                          : "a pin has moved";
+        double most = 0;
+        for (const auto& [v, pin] : pins_.pins())
+        {
+            vec<D> gap(0.0);
+            for (int k = 0; k < D; ++k)
+                if ((pin.held >> k & 1u) != 0) gap[k] = x[static_cast<std::size_t>(v)][k] - pin.value[k];
+            if (gap == vec<D>(0.0)) continue;
+            held = false;
+            if (const double distance = glm::length(gap); run.farthest < 0 || distance > most)
+                run.farthest = v, most = distance;
+        }
+        if (!held) run.distance = most;
+        return held;
     }
 
     [[noreturn]] void refuse() const
@@ -252,7 +314,9 @@ private:
     std::vector<idx> parts_; ///< of each element, that of the input; where it is refined
     constraints<Element> pins_;
     std::vector<idx> fixed_;
+    std::vector<kept_facet> kept_facets_;
     std::vector<vec3> points_;
+    std::vector<std::string> notes_; ///< of the command, behind those of the library
     deform_report report_;
     exit_code code_ = exit_code::valid;
     bool valid_ = false, kept_ = false; ///< kept_: there is a result already

@@ -2,8 +2,10 @@
 #include "volume/volume_case.hpp"
 
 #include <array>
+#include <iterator>
 
 #include <taut/exact/cell_validity.hpp>
+#include <taut/io/cell_faces.hpp>
 #include <taut/io/read_volume.hpp>
 #include <taut/io/write_volume.hpp>
 
@@ -47,6 +49,11 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
     if (other.points.size() != file.points.size())
         throw unsuitable_input(rest + " has " + count(other.points.size(), "point", "points") + ", not " +
                                count(file.points.size()) + " as " + path);
+    // Which cells are turned, the shape at rest says.
+    std::vector<idx> differing;
+    std::set_symmetric_difference(file.turned.begin(), file.turned.end(), other.turned.begin(), other.turned.end(),
+                                  std::back_inserter(differing));
+    io::turn_cells(file, differing);
     const auto cells_of = [](const io::volume_file& f)
     {
         std::vector<std::pair<io::cell_kind, std::vector<idx>>> cells;
@@ -61,6 +68,11 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
     return file;
 }
 
+void require_mesh(const io::volume_file& file)
+{
+    if (auto found = io::check_sides(file); !found.empty()) throw mesh_error(std::move(found.front()));
+}
+
 void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_state& state)
 {
     io::for_each_cell(file, 3,
@@ -73,6 +85,11 @@ void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_
                           if (verdict == cell_validity::invalid) state.negative_inside.push_back(number);
                           if (verdict == cell_validity::undecided) state.undecided.push_back(number);
                       });
+}
+
+std::string turned_note(const io::volume_file& file)
+{
+    return io::describe_turned(file) + "; read turned over, and written as the file has it";
 }
 
 std::string count_cells(const io::volume_file& file, int dimension)

@@ -91,7 +91,7 @@ public:
     volume_state look(std::span<const vec<D>> x) const
     {
         const auto& cells = simplices().cells();
-        volume_state state{certify<D>(cells, x, {}, cells.size()),
+        volume_state state{certify<D>(cells, x, {}, cells.size(), owners()),
                            {},
                            {},
                            {},
@@ -151,6 +151,12 @@ private:
     const io::volume_file& file_;
     io::corner_simplices<Element> parts_;
 };
+
+/// Throws mesh_error for cells that cannot all be positive and not overlap, by how they meet: io::check_sides().
+void require_mesh(const io::volume_file& file);
+
+/// On cells that were turned while the file was read, of which there are some.
+std::string turned_note(const io::volume_file& file);
 
 /// Calls f(volume_case) for the cells that the file has: of the plane or of space.
 template <class F>

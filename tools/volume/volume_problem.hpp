@@ -10,6 +10,7 @@
 #include "untangle_report.hpp"
 #include "volume/group_targets.hpp"
 #include "volume/volume_case.hpp"
+#include "volume/written_shape.hpp"
 
 namespace taut::tools
 {
@@ -25,7 +26,11 @@ untangle_problem<Element> problem_of(const volume_case<Element>& input, const un
     group_targets groups(input.file());
     for (const auto& name : options.fixed) groups.fix(name);
     for (const auto& [v, place] : groups.all()) pins.pin(v, vec<Element::dimension>(place));
-    if (!options.pins.empty()) add_pins(pins, io::read_pins<Element::dimension>(options.pins, m.vertex_count()));
+    held_by_file held(input.file());
+    if (!options.pins.empty()) add_pins(pins, held(io::read_pins<Element::dimension>(options.pins, m.vertex_count())));
+    report.pin_rounding = held.largest();
+    if (!input.file().turned.empty()) report.notes.push_back(turned_note(input.file()));
+    if (auto note = held.note(); !note.empty()) report.notes.push_back(std::move(note));
     if (!pins.springs().empty()) report.notes.push_back("springs take no part in untangling");
     const bool named = !options.fixed.empty() || !options.pins.empty();
     if (options.boundary == untangle_boundary::fixed || (options.boundary == untangle_boundary::automatic && !named))

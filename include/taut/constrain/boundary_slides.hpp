@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -57,6 +60,156 @@ int axis_of(const vec<D>& direction)
 
 } // namespace detail
 
+/// A facet that a mesh keeps, with the piece of a surface that it belongs to: in the plane an edge of a line. Where
+/// pieces meet or end, that keeps its shape, too.
+struct kept_facet
+{
+    std::array<idx, 4> vertices{-1, -1, -1, -1}; ///< around; -1 behind the last
+    idx piece = 0;
+
+    std::span<const idx> corners() const
+    {
+        return std::span<const idx>(vertices).first(vertices[2] < 0 ? 2 : vertices[3] < 0 ? 3 : 4);
+    }
+};
+
+namespace detail
+{
+
+/// Collects the directions in which vertices may not move.
+template <class Element>
+class kept_directions
+{
+public:
+    static constexpr int D = Element::dimension;
+
+    kept_directions(const mesh<Element>& m, double tolerance)
+        : mesh_(m), tolerance_(tolerance), normals_(m.points().size())
+    {
+    }
+
+    void add(std::span<const std::array<idx, D>> facets)
+    {
+        for (const auto& facet : facets)
+        {
+            vec<D> normal;
+            if constexpr (D == 2)
+                normal = across(at(facet[1]) - at(facet[0]));
+            else
+                normal = glm::cross(at(facet[1]) - at(facet[0]), at(facet[2]) - at(facet[0]));
+            for (const idx v : facet) hold(v, normal);
+        }
+    }
+
+    void add(std::span<const kept_facet> facets)
+    {
+        // Of each end of a facet, sorted: how many facets have it, of which piece, and whether of one alone.
+        struct rim
+        {
+            std::size_t facets = 0;
+            idx piece = -1;
+            bool one_piece = true;
+        };
+        std::map<std::array<idx, 2>, rim> rims;
+        const auto for_ends = [&](const kept_facet& facet, const auto& visit)
+        {
+            const auto v = facet.corners();
+            for (std::size_t k = 0; k < v.size(); ++k)
+                if (D == 2)
+                    visit(std::array<idx, 2>{v[k], v[k]}, k);
+                else
+                    visit(std::array<idx, 2>{std::min(v[k], v[(k + 1) % v.size()]),
+                                             std::max(v[k], v[(k + 1) % v.size()])},
+                          k);
+        };
+        for (const auto& facet : facets)
+            for_ends(facet,
+                     [&](const std::array<idx, 2>& end, std::size_t)
+                     {
+                         auto& r = rims[end];
+                         r.one_piece = r.one_piece && (r.facets == 0 || r.piece == facet.piece);
+                         r.piece = facet.piece;
+                         ++r.facets;
+                     });
+        for (const auto& facet : facets)
+        {
+            const auto v = facet.corners();
+            const std::size_t n = v.size();
+            const auto normal = [&](std::size_t k) // at a corner
+            {
+                if constexpr (D == 2)
+                    return across(at(v[1]) - at(v[0]));
+                else
+                    return glm::cross(at(v[(k + 1) % n]) - at(v[k]), at(v[(k + n - 1) % n]) - at(v[k]));
+            };
+            for (std::size_t k = 0; k < n; ++k) hold(v[k], normal(k));
+            for_ends(facet,
+                     [&](const std::array<idx, 2>& end, std::size_t k)
+                     {
+                         const auto& r = rims[end];
+                         if (r.facets == 2 && r.one_piece) return;
+                         if constexpr (D == 2)
+                             hold(v[k], at(v[1]) - at(v[0]));
+                         else
+                             for (const std::size_t c : {k, (k + 1) % n})
+                                 hold(v[c], glm::cross(unit(normal(c)), at(v[(k + 1) % n]) - at(v[k])));
+                     });
+        }
+    }
+
+    boundary_motion<Element> motion() const
+    {
+        boundary_motion<Element> result{taut::constraints<Element>(mesh_), {}};
+        for (std::size_t v = 0; v < normals_.size(); ++v)
+        {
+            const auto& n = normals_[v];
+            const auto id = static_cast<idx>(v);
+            const vec<D> here = at(id);
+            if (n.rank() == D)
+                result.pins.pin(id, here);
+            else if (n.rank() == 1)
+            {
+                if (const int axis = detail::axis_of<D>(n[0]); axis >= 0)
+                    result.pins.pin(id, axis, here[axis]);
+                else
+                    result.slides.push_back(slide<D>::across(id, n[0]));
+            }
+            if constexpr (D == 3)
+                if (n.rank() == 2)
+                {
+                    const vec3 along = glm::cross(n[0], n[1]);
+                    const int axis = detail::axis_of<3>(along);
+                    if (axis < 0)
+                        result.slides.push_back(slide<3>::along(id, along));
+                    else
+                        for (const int k : {(axis + 1) % 3, (axis + 2) % 3}) result.pins.pin(id, k, here[k]);
+                }
+        }
+        return result;
+    }
+
+private:
+    vec<D> at(idx v) const { return vec<D>(mesh_.points()[static_cast<std::size_t>(v)]); }
+    static vec2 across(const vec2& edge) { return {edge.y, -edge.x}; }
+    static vec<D> unit(const vec<D>& x)
+    {
+        const double length = glm::length(x);
+        return length > 0 ? x / length : vec<D>(0.0);
+    }
+
+    void hold(idx v, const vec<D>& direction)
+    {
+        const vec<D> n = unit(direction);
+        if (n != vec<D>(0.0)) normals_[static_cast<std::size_t>(v)].add(n, tolerance_);
+    }
+
+    const mesh<Element>& mesh_;
+    double tolerance_;
+    std::vector<span_of_normals<D>> normals_;
+};
+
+} // namespace detail
+
 /// The motions that keep the boundary of a mesh: a vertex in a flat part of it moves in its plane, one on a straight
 /// crease (in the plane, a straight outline) along it, all others are pinned. Held coordinates hold bit for bit.
 ///
@@ -65,47 +218,9 @@ template <class Element>
 boundary_motion<Element> sliding_boundary(const mesh<Element>& m, double tolerance = 1e-4,
                                           std::span<const idx> owners = {})
 {
-    constexpr int D = Element::dimension;
-    std::vector<detail::span_of_normals<D>> normals(m.points().size());
-    for (const auto& facet : boundary_facets(m, owners))
-    {
-        const auto at = [&](std::size_t k) { return vec<D>(m.points()[static_cast<std::size_t>(facet[k])]); };
-        vec<D> normal;
-        if constexpr (D == 2)
-            normal = vec2(at(1).y - at(0).y, at(0).x - at(1).x);
-        else
-            normal = glm::cross(at(1) - at(0), at(2) - at(0));
-        const double length = glm::length(normal);
-        if (!(length > 0)) continue;
-        for (const idx v : facet) normals[static_cast<std::size_t>(v)].add(normal / length, tolerance);
-    }
-    boundary_motion<Element> motion{taut::constraints<Element>(m), {}};
-    for (std::size_t v = 0; v < normals.size(); ++v)
-    {
-        const auto& n = normals[v];
-        const auto id = static_cast<idx>(v);
-        const vec<D> here(m.points()[v]);
-        if (n.rank() == D)
-            motion.pins.pin(id, here);
-        else if (n.rank() == 1)
-        {
-            if (const int axis = detail::axis_of<D>(n[0]); axis >= 0)
-                motion.pins.pin(id, axis, here[axis]);
-            else
-                motion.slides.push_back(slide<D>::across(id, n[0]));
-        }
-        if constexpr (D == 3)
-            if (n.rank() == 2)
-            {
-                const vec3 along = glm::cross(n[0], n[1]);
-                const int axis = detail::axis_of<3>(along);
-                if (axis < 0)
-                    motion.slides.push_back(slide<3>::along(id, along));
-                else
-                    for (const int k : {(axis + 1) % 3, (axis + 2) % 3}) motion.pins.pin(id, k, here[k]);
-            }
-    }
-    return motion;
+    detail::kept_directions<Element> kept(m, tolerance);
+    kept.add(boundary_facets(m, owners));
+    return kept.motion();
 }
 
 } // namespace taut

@@ -19,26 +19,43 @@ namespace taut
 namespace detail
 {
 
-/// An edge of a volume, its smaller vertex first, and whether a tetrahedron around it crosses the half-plane that
-/// leaves the edge along a coordinate axis. Where all of them are positive, as many do as there are turns around it.
+/// An edge of a volume, and whether a tetrahedron around it crosses the half-plane that leaves the edge along a
+/// coordinate axis. Where all of them are positive, as many do as there are turns around it.
 class edge_turns
 {
 public:
     using edge = std::array<idx, 2>;
 
-    edge_turns(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x) : cells_(cells), x_(x) {}
+    edge_turns(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x, std::span<const idx> owners)
+        : cells_(cells), x_(x), roles_(simplex_roles<3>(owners))
+    {
+    }
 
-    /// Calls visit(edge, c, d) for the edges of a cell; (a, b, c, d) is an even permutation of its corners, a < b.
+    /// Calls visit(edge, c, d) for the edges of a cell; (a, b, c, d) is an even permutation of corners. Of tetrahedra
+    /// alone, a < b. A quad at an edge lies elsewhere at the other end, so where there are any, an edge is looked at
+    /// from both ends: a is the corner that the simplex is at, and c and d are what follows it in the two sides.
     template <class Visit>
     void for_edges(std::size_t cell, const Visit& visit) const
     {
+        const auto& t = cells_[cell];
+        const auto role = roles_.empty() ? simplex_role::cell : roles_[cell];
+        if (role == simplex_role::edge) return;
+        if (role != simplex_role::cell)
+        {
+            for (std::size_t k = 1; k < 4; ++k) visit(edge{t[0], t[k]}, t[k % 3 + 1], t[(k + 1) % 3 + 1]);
+            if (role == simplex_role::pyramid_corner) visit(edge{t[3], t[0]}, t[2], t[1]); // which has none at its apex
+            return;
+        }
         constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
                                      {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
         for (const auto& e : edges)
         {
             std::array<idx, 4> v;
-            for (std::size_t k = 0; k < 4; ++k) v[k] = cells_[cell][static_cast<std::size_t>(e[k])];
-            if (v[0] > v[1]) std::swap(v[0], v[1]), std::swap(v[2], v[3]);
+            for (std::size_t k = 0; k < 4; ++k) v[k] = t[static_cast<std::size_t>(e[k])];
+            if (!roles_.empty())
+                visit(edge{v[1], v[0]}, v[3], v[2]);
+            else if (v[0] > v[1])
+                std::swap(v[0], v[1]), std::swap(v[2], v[3]);
             visit(edge{v[0], v[1]}, v[2], v[3]);
         }
     }
@@ -66,6 +83,7 @@ private:
 
     std::span<const std::array<idx, 4>> cells_;
     std::span<const vec3> x_;
+    std::vector<simplex_role> roles_;
 };
 
 } // namespace detail
@@ -79,11 +97,14 @@ private:
 /// than half a turn at a time, so they pass a half-plane at the edge once a turn. Edges on the boundary, or whose
 /// tetrahedra differ in orientation, are not looked at.
 ///
-/// cells: #T by 4 vertex indices, in range; x: one image point a vertex. Ascending.
+/// cells: #T by 4 vertex indices, in range; x: one image point a vertex. owners: where tetrahedra are the corners of
+/// other cells, the cell of each; a cell is then an edge of the links of its own edges alone. Smaller vertex first,
+/// ascending.
 template <class = void>
-std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x)
+std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x,
+                                             std::span<const idx> owners = {})
 {
-    const detail::edge_turns turns(cells, x);
+    const detail::edge_turns turns(cells, x, owners);
     using edge = detail::edge_turns::edge;
     constexpr std::size_t block = 8192;
     std::vector<std::vector<edge>> parts((cells.size() + block - 1) / block);
@@ -130,7 +151,9 @@ std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>>
     std::vector<edge> found;
     for (auto& [e, n] : suspicious)
         if (const std::size_t loops = n.positive != n.negative ? n.link.loops() : 0; loops > 0 && n.turns > loops)
-            found.push_back(e);
+            found.push_back({std::min(e[0], e[1]), std::max(e[0], e[1])});
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end()); // seen from both ends
     return found;
 }
 

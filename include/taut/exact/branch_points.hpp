@@ -10,6 +10,7 @@
 
 #include <taut/core/types.hpp>
 #include <taut/exact/predicates.hpp>
+#include <taut/exact/simplex_role.hpp>
 
 namespace taut
 {
@@ -17,7 +18,7 @@ namespace taut
 namespace detail
 {
 
-/// The triangles around one vertex, as the edges of its link.
+/// The cells around one vertex, as the edges of its link.
 class vertex_link
 {
 public:
@@ -69,16 +70,21 @@ private:
 /// edge (a, b) that crosses the horizontal line through v upwards, and whether it does is a comparison of coordinates.
 /// Vertices on a boundary, or whose triangles differ in orientation, are not looked at.
 ///
-/// cells: #F by 3 vertex indices, in range; x: one image point a vertex. Ascending.
-inline std::vector<idx> branch_points(std::span<const std::array<idx, 3>> cells, std::span<const vec2> x)
+/// cells: #F by 3 vertex indices, in range; x: one image point a vertex. owners: where triangles are the corners of
+/// quads, the cell of each; a quad is an edge of the links of its own corners alone. Ascending.
+inline std::vector<idx> branch_points(std::span<const std::array<idx, 3>> cells, std::span<const vec2> x,
+                                      std::span<const idx> owners = {})
 {
+    const auto roles = simplex_roles<2>(owners);
+    const auto corners_of = [&](std::size_t t)
+    { return roles.empty() || roles[t] == simplex_role::cell ? std::size_t{3} : std::size_t{1}; };
     const auto at = [&](idx v) -> const vec2& { return x[static_cast<std::size_t>(v)]; };
     const auto rises = [&](idx v, idx a, idx b) { return at(a).y < at(v).y && at(b).y >= at(v).y; };
     std::vector<unsigned char> turns(x.size(), 0); // at most 2: more is no news
     bool suspicious = false;
-    for (const auto& t : cells)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (rises(t[k], t[(k + 1) % 3], t[(k + 2) % 3]))
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        for (std::size_t k = 0; k < corners_of(c); ++k)
+            if (const auto& t = cells[c]; rises(t[k], t[(k + 1) % 3], t[(k + 2) % 3]))
                 if (auto& n = turns[static_cast<std::size_t>(t[k])]; n < 2) suspicious |= ++n == 2;
     if (!suspicious) return {};
 
@@ -99,9 +105,10 @@ inline std::vector<idx> branch_points(std::span<const std::array<idx, 3>> cells,
             place[v] = static_cast<idx>(around.size());
             around.push_back({.vertex = static_cast<idx>(v), .link = {}});
         }
-    for (const auto& t : cells)
-        for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        for (std::size_t k = 0; k < corners_of(c); ++k)
         {
+            const auto& t = cells[c];
             const idx i = place[static_cast<std::size_t>(t[k])], a = t[(k + 1) % 3], b = t[(k + 2) % 3];
             if (i < 0) continue;
             auto& n = around[static_cast<std::size_t>(i)];

@@ -90,9 +90,10 @@ struct flip_count
 /// x:       #V image points
 /// measure: #F rest areas or volumes, in the same units as x; empty: det is not divided by anything
 /// max_ids: how many flipped elements and how many branch points to list
+/// owners:  where elements are the corners of other cells, the cell of each (mesh/cell_corners.hpp)
 template <int D>
 certificate certify(std::span<const std::array<idx, D + 1>> cells, std::span<const vec<D>> x,
-                    std::span<const double> measure = {}, std::size_t max_ids = 16)
+                    std::span<const double> measure = {}, std::size_t max_ids = 16, std::span<const idx> owners = {})
 {
     constexpr double factorial = D == 2 ? 2 : 6; // edge determinant of a simplex of measure 1
     if (cells.empty()) return {};
@@ -125,13 +126,13 @@ certificate certify(std::span<const std::array<idx, D + 1>> cells, std::span<con
                        .max_det = all.most};
     if constexpr (D == 2)
     {
-        result.branch_ids = branch_points(cells, x);
+        result.branch_ids = branch_points(cells, x, owners);
         result.branched = result.branch_ids.size();
         result.branch_ids.resize(std::min(max_ids, result.branched));
     }
     else if (result.flipped == 0)
     {
-        const auto edges = branch_edges(cells, x);
+        const auto edges = branch_edges(cells, x, owners);
         result.branched = edges.size();
         for (std::size_t e = 0; e < std::min(max_ids, edges.size()); ++e)
             result.branch_ids.insert(result.branch_ids.end(), edges[e].begin(), edges[e].end());

@@ -4,25 +4,35 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
+#include <map>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include <taut/constrain/boundary_slides.hpp>
+#include <taut/core/counting_sort.hpp>
+#include <taut/core/parallel.hpp>
 #include <taut/io/volume_file.hpp>
+#include <taut/mesh/describe.hpp>
 
 namespace taut::io
 {
 
-/// A side of a volume cell, its normal pointing out where the cell is positive.
+/// A side of a cell of the file's dimension: a face, its normal pointing out where the cell is positive, or in the
+/// plane an edge, with the cell to its left.
 struct cell_face
 {
     idx cell;                    ///< as for_each_cell() counts
-    std::array<idx, 4> vertices; ///< around; the last is -1 in a triangle
+    std::array<idx, 4> vertices; ///< around; -1 behind the last
 
-    std::span<const idx> corners() const { return std::span<const idx>(vertices).first(vertices[3] < 0 ? 3 : 4); }
+    std::span<const idx> corners() const
+    {
+        return std::span<const idx>(vertices).first(vertices[2] < 0 ? 2 : vertices[3] < 0 ? 3 : 4);
+    }
 };
 
-/// The sides of all volume cells, those of a cell together, and which meet.
+/// The sides of all cells of the file's dimension, those of a cell together, and which meet.
 struct cell_faces
 {
     static constexpr idx boundary = -1; ///< no cell is on the other side
@@ -30,16 +40,28 @@ struct cell_faces
 
     std::vector<cell_face> faces;
     std::vector<idx> twin; ///< the other side of each, or boundary, or crowded
+
+    /// Whether a side goes around as its twin does: one of the two cells has its corners in the other order.
+    bool clashes(std::size_t side) const
+    {
+        if (twin[side] < 0) return false;
+        const auto here = faces[side].corners(), there = faces[static_cast<std::size_t>(twin[side])].corners();
+        if (here.size() == 2) return here[0] == there[0];
+        const auto at = std::find(there.begin(), there.end(), here[0]) - there.begin();
+        return here[1] == there[static_cast<std::size_t>(at + 1) % there.size()];
+    }
 };
 
 namespace detail
 {
 
-/// Corners of the sides of a cell, by VTK's numbers; -1 ends a triangle.
+/// Corners of the sides of a cell, by VTK's numbers; -1 behind the last.
 template <class = void>
 std::span<const std::array<int, 4>> face_table(cell_kind kind)
 {
     using face = std::array<int, 4>;
+    static constexpr std::array<face, 3> triangle = {{{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}}};
+    static constexpr std::array<face, 4> quad = {{{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 3, -1, -1}, {3, 0, -1, -1}}};
     static constexpr std::array<face, 4> tetrahedron = {{{1, 2, 3, -1}, {0, 3, 2, -1}, {0, 1, 3, -1}, {0, 2, 1, -1}}};
     static constexpr std::array<face, 5> pyramid = {
         {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}};
@@ -49,6 +71,10 @@ std::span<const std::array<int, 4>> face_table(cell_kind kind)
         {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
     switch (kind)
     {
+    case cell_kind::triangle:
+        return triangle;
+    case cell_kind::quad:
+        return quad;
     case cell_kind::tetrahedron:
         return tetrahedron;
     case cell_kind::pyramid:
@@ -64,13 +90,13 @@ std::span<const std::array<int, 4>> face_table(cell_kind kind)
 
 } // namespace detail
 
-/// Time O(n log n).
+/// Time O(n log(largest valence)).
 template <class = void>
 cell_faces cell_faces_of(const volume_file& file)
 {
     cell_faces result;
     std::vector<std::array<idx, 4>> keys;
-    for_each_cell(file, 3,
+    for_each_cell(file, file.dimension,
                   [&](cell_kind kind, idx number, std::span<const idx> corners)
                   {
                       for (const auto& side : detail::face_table(kind))
@@ -82,13 +108,26 @@ cell_faces cell_faces_of(const volume_file& file)
                           std::sort(keys.back().begin(), keys.back().end());
                       }
                   });
-    std::vector<idx> order(keys.size());
-    std::iota(order.begin(), order.end(), 0);
     const auto key = [&](idx side) -> const auto&
     {
         return keys[static_cast<std::size_t>(side)];
     };
-    std::sort(order.begin(), order.end(), [&](idx a, idx b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+    std::vector<idx> order(keys.size());
+    const auto smallest = [&](std::size_t side)
+    {
+        const auto corners = result.faces[side].corners();
+        return *std::min_element(corners.begin(), corners.end());
+    };
+    const auto start = taut::detail::counting_sort(keys.size(), file.points.size(), smallest,
+                                                   [&](std::size_t side, std::size_t position)
+                                                   { order[position] = static_cast<idx>(side); });
+    parallel_for(file.points.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t v = begin; v < end; ++v)
+                         std::sort(order.begin() + start[v], order.begin() + start[v + 1],
+                                   [&](idx a, idx b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+                 });
     result.twin.assign(keys.size(), cell_faces::boundary);
     for (std::size_t first = 0, last = 0; first < order.size(); first = last)
     {
@@ -99,6 +138,134 @@ cell_faces cell_faces_of(const volume_file& file)
                 last - first > 2 ? cell_faces::crowded : order[k == first ? last - 1 : first];
     }
     return result;
+}
+
+namespace detail
+{
+
+/// Numbers of the cells of a file by what they are labelled with, 0: with nothing. Of gmsh files physical groups or
+/// else entities count, of VTK arrays those that are no numbers of single cells.
+template <class = void>
+std::vector<idx> region_numbers(const volume_file& file)
+{
+    std::size_t cells = 0;
+    for (const auto& block : file.cells) cells += block.size();
+    std::vector<const volume_label*> labels;
+    for (const auto& label : file.labels)
+    {
+        const std::set<long long> values(label.values.begin(), label.values.end());
+        const bool many = (file.format == "VTK" || file.format == "VTU") &&
+                          (values.size() > 256 || 4 * values.size() > label.values.size());
+        if (!label.of_cells || label.values.size() != cells || many || values == std::set<long long>{0}) continue;
+        labels.push_back(&label);
+        if (label.name == "physical") break;
+    }
+    std::vector<idx> numbers(cells, 0);
+    std::map<std::vector<long long>, idx> known{{std::vector<long long>(labels.size(), 0), 0}};
+    for (std::size_t c = 0; c < cells && !labels.empty(); ++c)
+    {
+        std::vector<long long> values;
+        for (const auto* label : labels) values.push_back(label->values[c]);
+        numbers[c] = known.try_emplace(std::move(values), static_cast<idx>(known.size())).first->second;
+    }
+    return numbers;
+}
+
+} // namespace detail
+
+/// The sides between cells of different labels, references or regions, those inside that a labelled face of the file
+/// lies on (in the plane a line), and, if boundary says so, the sides of the boundary: what a mesh keeps while it is
+/// smoothed. A piece has the same labels on both sides and on its faces.
+template <class = void>
+std::vector<kept_facet> kept_facets(const volume_file& file, bool boundary)
+{
+    const auto numbers = detail::region_numbers(file);
+    const auto key_of = [](std::span<const idx> corners)
+    {
+        std::array<idx, 4> key{-1, -1, -1, -1};
+        std::copy(corners.begin(), corners.end(), key.begin());
+        std::sort(key.begin(), key.end());
+        return key;
+    };
+    std::vector<idx> regions;
+    std::map<std::array<idx, 4>, idx> faces;
+    std::size_t number = 0;
+    for (const auto& block : file.cells)
+        for (std::size_t c = 0; c < block.size(); ++c, ++number)
+            if (shape_of(block.kind).dimension == file.dimension)
+                regions.push_back(numbers[number]);
+            else if (shape_of(block.kind).dimension == file.dimension - 1)
+                faces.try_emplace(key_of(block.cell(c)), numbers[number]);
+
+    const auto sides = cell_faces_of(file);
+    std::vector<kept_facet> kept;
+    std::map<std::array<idx, 3>, idx> pieces;
+    for (std::size_t s = 0; s < sides.faces.size(); ++s)
+    {
+        const auto& side = sides.faces[s];
+        const idx twin = sides.twin[s];
+        if (twin < 0 ? !boundary || twin == cell_faces::crowded : twin < static_cast<idx>(s)) continue;
+        const auto face = faces.find(key_of(side.corners()));
+        const idx label = face != faces.end() ? face->second : 0;
+        const idx here = regions[static_cast<std::size_t>(side.cell)];
+        const idx there =
+            twin < 0 ? -1 : regions[static_cast<std::size_t>(sides.faces[static_cast<std::size_t>(twin)].cell)];
+        if (here == there && label == 0) continue;
+        const auto piece =
+            pieces.try_emplace({label, std::min(here, there), std::max(here, there)}, static_cast<idx>(pieces.size()));
+        kept.push_back({side.vertices, piece.first->second});
+    }
+    return kept;
+}
+
+/// What keeps the cells of a file from being a mesh whose cells can all be positive and not overlap: pairs with the
+/// same corners (duplicate_cell), neighbours oriented differently (inconsistent_orientation), and sides that three
+/// cells or more share (non_manifold_facet), each with all of its kind. Cells count as for_each_cell() does.
+template <class = void>
+std::vector<mesh_finding> check_sides(const volume_file& file)
+{
+    const auto sides = cell_faces_of(file);
+    const auto twin_cell = [&](std::size_t s) { return sides.faces[static_cast<std::size_t>(sides.twin[s])].cell; };
+    std::vector<idx> copies, clashing, crowded;
+    std::vector<std::array<idx, 4>> told;
+    for (std::size_t first = 0, last = 0; first < sides.faces.size(); first = last)
+    {
+        const idx cell = sides.faces[first].cell;
+        bool copy = true;
+        for (; last < sides.faces.size() && sides.faces[last].cell == cell; ++last)
+            copy = copy && sides.twin[last] >= 0 && twin_cell(last) == twin_cell(first);
+        if (copy && cell < twin_cell(first)) copies.insert(copies.end(), {cell, twin_cell(first)});
+        for (std::size_t s = first; s < last; ++s)
+        {
+            if (!copy && sides.twin[s] > static_cast<idx>(s) && sides.clashes(s))
+                clashing.insert(clashing.end(), {cell, twin_cell(s)});
+            if (sides.twin[s] != cell_faces::crowded) continue;
+            told.push_back(sides.faces[s].vertices);
+            const auto corners = sides.faces[s].corners().size();
+            std::sort(told.back().begin(), told.back().begin() + static_cast<std::ptrdiff_t>(corners));
+        }
+    }
+    std::sort(told.begin(), told.end());
+    told.erase(std::unique(told.begin(), told.end()), told.end());
+    const std::size_t named = file.dimension == 2 ? 2 : 3; // three corners of a quad say which one it is
+    for (const auto& face : told)
+        crowded.insert(crowded.end(), face.begin(), face.begin() + static_cast<std::ptrdiff_t>(named));
+
+    const auto pairs = [](const std::vector<idx>& ids) { return taut::detail::list_ids("pair", "pairs", ids, 2); };
+    std::vector<mesh_finding> found;
+    if (!copies.empty())
+        found.push_back({mesh_fault::duplicate_cell, copies,
+                         pairs(copies) + " of cells with the same corners; remove one of each"});
+    if (!clashing.empty())
+        found.push_back({mesh_fault::inconsistent_orientation, clashing,
+                         pairs(clashing) + " of cells oriented differently; swap two corners of one of each, so that "
+                                           "all agree"});
+    if (!crowded.empty())
+        found.push_back({mesh_fault::non_manifold_facet, crowded,
+                         (named == 2 ? taut::detail::list_ids("edge", "edges", crowded, named)
+                                     : taut::detail::list_ids("face", "faces", crowded, named)) +
+                             " with three or more cells; remove the extra ones or separate them"});
+    return found;
 }
 
 } // namespace taut::io

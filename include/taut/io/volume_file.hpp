@@ -90,7 +90,7 @@ struct volume_group
 };
 
 /// Integers that a file gives its points, or its cells of all kinds in their order: references of MEDIT, tags of gmsh,
-/// arrays of VTK.
+/// arrays of VTK, attributes and markers of TetGen, markers of SU2.
 struct volume_label
 {
     std::string name;
@@ -117,6 +117,9 @@ struct coordinate_places
     std::endian order = std::endian::native; ///< of binary coordinates
     int per_point = 3;                       ///< 3, or 2 in a planar file
     std::vector<std::size_t> offsets;        ///< the first byte of each, one point after the other, ascending
+
+    /// Whether coordinates are rounded when they are written. A text holds all digits, which readers may round.
+    bool rounds() const { return single && !text; }
 };
 
 /// A part of a mesh that has a file of its own beside the main one: TetGen's .ele and .face.
@@ -136,12 +139,16 @@ struct volume_file
     std::vector<vec3> points;
     std::vector<vec3> rest; ///< problems: the rest shape, of which the points are a map; else empty: points at rest
     std::vector<cell_block> cells;
+    std::vector<idx> turned; ///< cells whose corners the file has in the other order, as for_each_cell() counts
     std::vector<volume_group> groups;
-    std::vector<volume_label> labels; ///< MEDIT, gmsh, VTK and VTU; what groups were made of
+    std::vector<volume_label> labels; ///< what groups were made of
     std::vector<std::string> notes;   ///< what groups were not read from, in sentences
     std::string bytes;                ///< all of the file
     std::vector<companion_file> companions;
     coordinate_places places;
+
+    /// The shape that its cells have at rest.
+    const std::vector<vec3>& at_rest() const { return rest.empty() ? points : rest; }
 
     /// The group of a name. A number alone finds the one group whose name ends in ":" and it. Throws group_error.
     const volume_group& find_group(std::string_view name) const;
@@ -158,13 +165,18 @@ void for_each_cell(const volume_file& file, int dimension, const F& f)
             for (std::size_t c = 0; c < block.size(); ++c) f(block.kind, number++, block.cell(c));
 }
 
-/// The tetrahedra at rest, cells in the order of the file. A few may be inverted: which, validate() tells.
-/// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty), or if nine of ten or
-/// more are inverted (inverted_cell): then they are turned, and what() states the convention of the format.
+/// Puts the corners of cells of the file's dimension, ascending, in the other order, and says so in `turned`.
+TAUT_ON_USE void turn_cells(volume_file& file, std::span<const idx> cells);
+
+/// "12 cells (3, 5, ...) have their corners in the other order than ...": of `turned`; empty: there are none.
+TAUT_ON_USE std::string describe_turned(const volume_file& file);
+
+/// The tetrahedra at rest, cells in the order of the file. Some may be inverted: which, validate() tells.
+/// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty).
 TAUT_ON_USE mesh<tetrahedron> tetrahedra_of(const volume_file& file);
 
 /// The triangles of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
-/// are no triangles, or the file is of dimension 3; inverted_cell as tetrahedra_of does.
+/// are no triangles, or the file is of dimension 3.
 TAUT_ON_USE mesh<triangle> triangles_of(const volume_file& file);
 
 /// The cells of a file as simplices: tetrahedra, or triangles of a planar file, for themselves; others as the simplices
@@ -182,8 +194,7 @@ struct corner_simplices
 /// A simplex a corner with `dimension` edges, which these edges span: 4 a quad, 4 a pyramid (at the corners of its
 /// base), 6 a wedge, 8 a hexahedron; cells of lower dimension have none. That all are positive is necessary for a
 /// wedge, pyramid or hexahedron to be valid, not sufficient (exact/cell_validity.hpp decides it); for a quad it is
-/// both. Throws mesh_error as tetrahedra_of does, for each kind by itself; triangles: also where the file has
-/// dimension 3.
+/// both. Throws mesh_error (empty) as tetrahedra_of does; triangles: also where the file has dimension 3.
 ///
 /// edged: wedges and hexahedra, ascending, that have the tetrahedra at their edges, too, after those at the corners, 6
 /// and 24 (exact/cell_tetrahedra.hpp). Where all are positive a wedge is valid; of a hexahedron that is not proved, but

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -46,8 +48,13 @@ struct smooth_params
     /// mean. Range 1 to 8.
     int worst_exponent = 2;
 
-    /// Vertices that stay where they are whatever the boundary does: interfaces, for instance.
+    /// Vertices that stay where they are whatever the boundary does.
     std::vector<idx> fixed = {};
+
+    /// Facets, inside or on the boundary, of surfaces that keep their shape whatever the boundary does: interfaces
+    /// between materials, named pieces of the boundary (io::kept_facets() finds them). Flat pieces slide in their
+    /// planes, straight lines where pieces meet or end along themselves; what is curved stays.
+    std::vector<kept_facet> kept = {};
 
     /// Sine of the angle up to which a boundary is flat or straight.
     double flat = 1e-4;
@@ -82,26 +89,62 @@ struct smooth_result
 /// inverting one; what is inverted is untangled first. Connectivity stays.
 /// Throws mesh_error, parameter_error, constraint_error for wrong ids, device_error.
 template <class Element>
-smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_params<Element>& params = {})
+smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth_params<Element>& params = {})
 {
     params.validate();
-    if (!params.owners.empty() && params.targets.size() != m.cells().size())
+    if (!params.owners.empty() && params.targets.size() != given.cells().size())
         throw parameter_error("targets", "one matrix a cell where there are owners");
     using point = vec<Element::dimension>;
+    // Shapes have no size, so a mesh of any size is one of about 1, by a power of two.
+    double most = 0;
+    for (const vec3& p : given.points())
+        for (int k = 0; k < 3; ++k) most = std::max(most, std::abs(p[k]));
+    const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
+    const auto scaled = [](std::vector<vec3> points, int by)
+    {
+        for (vec3& p : points)
+            for (int k = 0; k < 3; ++k) p[k] = std::ldexp(p[k], by);
+        return points;
+    };
+    const mesh<Element> m(scaled(given.points(), -exponent), given.cells());
+    const auto restored = [exponent](std::vector<point> x)
+    {
+        for (point& p : x)
+            for (int k = 0; k < Element::dimension; ++k) p[k] = std::ldexp(p[k], exponent);
+        return x;
+    };
     deform_params<Element> how;
     how.energy = energy::shape_power{params.worst_exponent};
     how.weights = energy::weighting::uniform;
     how.shapes = params.shapes;
-    how.rest = params.rest;
+    how.rest = scaled(params.rest, -exponent);
     how.targets = params.targets;
+    if (params.shapes == wanted_shapes::rest)
+        for (auto& edges : how.targets)
+            for (int k = 0; k < Element::dimension; ++k)
+                for (int r = 0; r < Element::dimension; ++r) edges[k][r] = std::ldexp(edges[k][r], -exponent);
     how.owners = params.owners;
     how.precision = params.precision;
     how.untangling = params.untangling;
     how.solve = params.solve;
     how.time_limit = params.time_limit;
-    how.observer = params.observer;
-    boundary_motion<Element> motion{taut::constraints<Element>(m), {}};
-    if (params.boundary == smooth_boundary::sliding) motion = sliding_boundary(m, params.flat, params.owners);
+    if (params.observer)
+        how.observer = [&ask = params.observer, restored](progress p)
+        {
+            const auto restore = [&](auto& seen)
+            {
+                if (seen) seen = [inner = seen, restored] { return restored(inner()); };
+            };
+            if constexpr (Element::dimension == 2)
+                restore(p.coordinates);
+            else
+                restore(p.positions);
+            return ask(p);
+        };
+    detail::kept_directions<Element> directions(m, params.flat);
+    if (params.boundary == smooth_boundary::sliding) directions.add(boundary_facets(m, params.owners));
+    directions.add(params.kept);
+    auto motion = directions.motion();
     std::vector<char> still(m.points().size(), 0);
     for (const idx v : params.fixed)
         if (v >= 0 && v < m.vertex_count())
@@ -128,9 +171,10 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& m, const smooth_par
     };
     result.before = measured(start);
     auto found = deform(q, m, how);
-    result.x = std::move(found.x);
+    if (!found.x.empty()) result.after = measured(found.x);
+    result.x = restored(std::move(found.x));
     result.report = std::move(found.report);
-    if (!result.x.empty()) result.after = measured(result.x);
+    result.report.distance = std::ldexp(result.report.distance, exponent);
     return result;
 }
 

@@ -46,10 +46,25 @@ inline double share(double a, double b)
     return b > 0 ? a / b : 0;
 }
 
+/// The corners times a power of two, so that edges are about 1 long: shapes have no size, products of lengths have.
+template <class Point, std::size_t N>
+std::array<Point, N> of_unit_size(std::array<Point, N> x)
+{
+    double most = 0;
+    for (const Point& p : x)
+        for (int k = 0; k < Point::length(); ++k) most = std::max(most, std::abs(p[k] - x[0][k]));
+    if (!(most > 0) || !std::isfinite(most)) return x;
+    const int exponent = -std::ilogb(most);
+    for (Point& p : x)
+        for (int k = 0; k < Point::length(); ++k) p[k] = std::ldexp(p[k], exponent);
+    return x;
+}
+
 } // namespace detail
 
-inline element_shape shape_of(const std::array<vec2, 3>& x)
+inline element_shape shape_of(const std::array<vec2, 3>& corners)
 {
+    const auto x = detail::of_unit_size(corners);
     const std::array<vec2, 3> edge = {x[2] - x[1], x[0] - x[2], x[1] - x[0]}; // opposite of each corner
     std::array<double, 3> length;
     for (std::size_t k = 0; k < 3; ++k) length[k] = glm::length(edge[k]);
@@ -70,8 +85,9 @@ inline element_shape shape_of(const std::array<vec2, 3>& x)
     return s;
 }
 
-inline element_shape shape_of(const std::array<vec3, 4>& x)
+inline element_shape shape_of(const std::array<vec3, 4>& corners)
 {
+    const auto x = detail::of_unit_size(corners);
     const double det = tetrahedron::determinant(x);
     std::array<std::array<double, 4>, 4> length{};
     double squares = 0;
@@ -109,8 +125,9 @@ inline element_shape shape_of(const std::array<vec3, 4>& x)
 
 /// The corner of a cell of another kind, by the simplex that its edges span. W: its edge matrix where the cell is
 /// regular. The mean ratio is D det S^(2/D) / |S|^2 with S = A W^-1, the angles are those of the cell at this corner.
-inline element_shape corner_shape(const std::array<vec2, 3>& x, const mat2& W)
+inline element_shape corner_shape(const std::array<vec2, 3>& corners, const mat2& W)
 {
+    const auto x = detail::of_unit_size(corners);
     const vec2 a = x[1] - x[0], b = x[2] - x[0];
     const double det = a.x * b.y - a.y * b.x, edges = glm::length(a) * glm::length(b);
     const mat2 S = mat2(a, b) * glm::inverse(W);
@@ -119,8 +136,9 @@ inline element_shape corner_shape(const std::array<vec2, 3>& x, const mat2& W)
             detail::share(det, edges * glm::determinant(W) / (glm::length(W[0]) * glm::length(W[1]))), angle, angle};
 }
 
-inline element_shape corner_shape(const std::array<vec3, 4>& x, const mat3& W)
+inline element_shape corner_shape(const std::array<vec3, 4>& corners, const mat3& W)
 {
+    const auto x = detail::of_unit_size(corners);
     const std::array<vec3, 3> edge = {x[1] - x[0], x[2] - x[0], x[3] - x[0]};
     const mat3 S = mat3(edge[0], edge[1], edge[2]) * glm::inverse(W);
     double squares = 0, edges = 1, wanted = glm::determinant(W);

@@ -8,7 +8,11 @@
 #include <span>
 #include <vector>
 
+#include <taut/exact/cell_tetrahedra.hpp>
+#include <taut/exact/simplex_role.hpp>
 #include <taut/mesh/boundary.hpp>
+#include <taut/mesh/tetrahedron.hpp>
+#include <taut/mesh/triangle.hpp>
 
 namespace taut
 {
@@ -34,7 +38,7 @@ std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Elem
     for (std::size_t first = 0, last = 0; first < owners.size(); first = last)
     {
         while (last < owners.size() && owners[last] == owners[first]) ++last;
-        const std::size_t count = last - first, corners = count == 32 ? 8 : count == 12 ? 6 : count;
+        const std::size_t count = last - first, corners = corner_simplex_count(count);
         for (std::size_t c = first; c < first + corners; ++c)
             for (idx k = count == 1 ? 0 : 1; k < Element::corners;
                  ++k) // what is opposite of a cell's corner lies inside
@@ -60,6 +64,25 @@ std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Elem
     }
     return result;
 }
+
+namespace detail
+{
+
+/// The simplices at the corners of a cell of the element's dimension and so many corners, in VTK's order.
+inline std::span<const std::array<std::size_t, 3>> corner_simplices(std::size_t count, triangle)
+{
+    using corners = std::array<std::size_t, 3>;
+    static constexpr std::array<corners, 1> itself = {{{0, 1, 2}}};
+    static constexpr std::array<corners, 4> quad = {{{0, 1, 3}, {1, 2, 0}, {2, 3, 1}, {3, 0, 2}}};
+    if (count == 3) return itself;
+    return quad;
+}
+inline std::span<const std::array<std::size_t, 4>> corner_simplices(std::size_t count, tetrahedron)
+{
+    return corner_tetrahedra(count);
+}
+
+} // namespace detail
 
 /// A flag a triangle: lone ones, and of the four at the corners of a quad those at two opposite ones, which do not
 /// overlap, so that these are the surface, once.

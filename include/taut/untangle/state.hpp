@@ -186,7 +186,7 @@ private:
 
     certificate certified(const map& x) const
     {
-        return certify<D>(problem_.rest.cells(), std::span<const vec<D>>(x), {}, 0);
+        return certify<D>(problem_.rest.cells(), std::span<const vec<D>>(x), {}, 0, problem_.owners);
     }
 
     const untangle_problem<Element>& problem_;

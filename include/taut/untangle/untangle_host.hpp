@@ -95,8 +95,9 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
             }
     }
     result.map = state.best_map();
-    result.flips = certify<Element::dimension>(
-        problem.rest.cells(), std::span<const vec<Element::dimension>>(result.map), {}, problem.rest.cells().size());
+    result.flips =
+        certify<Element::dimension>(problem.rest.cells(), std::span<const vec<Element::dimension>>(result.map), {},
+                                    problem.rest.cells().size(), problem.owners);
     if (result.outcome == untangle_outcome::gave_up)
     {
         result.ids = result.flips.flipped > 0 ? result.flips.ids : result.flips.branch_ids;

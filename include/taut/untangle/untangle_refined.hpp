@@ -244,7 +244,7 @@ refined_untangling<Element> untangle_refined(const queue& q, const untangle_prob
         how.rounds = std::min(2, params.rounds);
     }
     auto found = untangle(q, now.problem, how);
-    if (found.outcome == untangle_outcome::infeasible) found.reason = now.obstacle;
+    if (found.outcome == untangle_outcome::infeasible && !now.obstacle.empty()) found.reason = now.obstacle;
     if (found.outcome != untangle_outcome::gave_up || !splits) return {std::move(found), std::move(now)};
 
     if (Element::dimension == 3 && params.stages.empty() && left(found))

@@ -33,17 +33,43 @@ TEST_CASE("groups: found by name, or by a number that one name ends in; else wha
                          io::group_error);
 }
 
-TEST_CASE("tetrahedra: all turned is the order of the file, a few are inverted cells")
+TEST_CASE("tetrahedra: the order of corners is mended, by what neighbours have")
 {
     auto s = test::small_volume(false);
-    CHECK(io::tetrahedra_of(medit_file(s)).cell_count() == 2);
-    std::swap(s.cells[1].corners[0], s.cells[1].corners[1]);
-    CHECK(io::tetrahedra_of(medit_file(s)).cell_count() == 2); // one of two
-    std::swap(s.cells[2].corners[0], s.cells[2].corners[1]);
-    CHECK_THROWS_WITH_AS(io::tetrahedra_of(medit_file(s)),
-                         "a.mesh: all 2 tetrahedra are turned: in MEDIT files corner 3 sees 0, 1, 2 turn "
-                         "counter-clockwise; write them in this order",
-                         mesh_error);
+    const auto tetrahedra = io::tetrahedra_of(medit_file(s));
+    CHECK(tetrahedra.cell_count() == 2);
+    const auto all_positive = [](const mesh<tetrahedron>& m)
+    {
+        for (idx c = 0; c < m.cell_count(); ++c)
+            if (!(tetrahedron::determinant(m.rest(c)) > 0)) return false;
+        return true;
+    };
+    const auto turned = [&](std::vector<idx> cells)
+    {
+        auto other = s;
+        for (const idx c : cells)
+        {
+            auto& corners = other.cells[static_cast<std::size_t>(c) + 1].corners;
+            std::swap(corners[0], corners[1]);
+        }
+        return medit_file(other);
+    };
+    CHECK(medit_file(s).turned.empty());
+    CHECK(io::describe_turned(medit_file(s)).empty());
+    for (const auto& cells : {std::vector<idx>{0}, std::vector<idx>{1}, std::vector<idx>{0, 1}})
+    {
+        auto file = turned(cells);
+        CHECK(file.turned == cells);
+        CHECK(all_positive(io::tetrahedra_of(file)));
+        CHECK(io::check_sides(file).empty());
+        CHECK(io::with_points(file, file.points) == file.bytes);
+        io::turn_cells(file, cells);
+        CHECK(file.turned.empty());
+        CHECK_FALSE(all_positive(io::tetrahedra_of(file)));
+        CHECK(io::check_sides(file).size() == (cells.size() == 1 ? 1 : 0)); // where both are, they agree
+    }
+    CHECK(io::describe_turned(turned({1})) ==
+          "1 cell (1) has its corners in the other order than MEDIT files or neighbours have it");
     CHECK_THROWS_WITH_AS(io::tetrahedra_of(medit_file(test::small_volume(true))),
                          "a.mesh: cell 2 is a pyramid; this takes tetrahedra alone, split it into such", io::io_error);
 }
@@ -66,20 +92,27 @@ TEST_CASE("corner simplices: each corner of each kind, all positive, with the ce
     CHECK_THROWS_AS(io::corner_simplices_of(medit_file(test::small_square())), mesh_error);
 }
 
-TEST_CASE("corner simplices: a kind that is turned is named with the convention of the format")
+TEST_CASE("corner simplices: cells of any kind in the other order are read turned over")
 {
-    auto s = test::small_volume(true);
-    auto& wedge = s.cells[4].corners;
-    wedge = {wedge[0], wedge[2], wedge[1], wedge[3], wedge[5], wedge[4]};
-    const auto refuses = [](const io::volume_file& file, const char* message)
-    { CHECK_THROWS_WITH_AS(io::corner_simplices_of(file), doctest::Contains(message), mesh_error); };
-    refuses(medit_file(s), "all 1 wedges are turned: in MEDIT files the normal of corners 0, 1, 2 points to 3, 4, 5 "
-                           "(these have it as VTK does)");
-    refuses(io::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk), "as gmsh and MEDIT do");
-    s = test::small_volume(true);
-    auto& hexahedron = s.cells[3].corners;
-    std::rotate(hexahedron.begin(), hexahedron.begin() + 4, hexahedron.end());
-    refuses(medit_file(s), "all 1 hexahedra are turned: in MEDIT files corners 4, 5, 6, 7 see 0, 1, 2, 3 turn");
+    for (const std::size_t cell : {1, 2, 3, 4, 5})
+    {
+        auto s = test::small_volume(true);
+        auto& corners = s.cells[cell].corners;
+        if (corners.size() == 6)
+            corners = {corners[0], corners[2], corners[1], corners[3], corners[5], corners[4]};
+        else if (corners.size() == 8)
+            std::rotate(corners.begin(), corners.begin() + 4, corners.end());
+        else if (corners.size() == 5)
+            std::swap(corners[1], corners[3]);
+        else
+            std::swap(corners[1], corners[2]);
+        for (const auto& file : {medit_file(s), io::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk)})
+        {
+            CHECK(file.turned.size() == 1); // whose number MEDIT, which sorts by kind, has otherwise
+            const auto simplices = io::corner_simplices_of(file).simplices;
+            for (idx c = 0; c < simplices.cell_count(); ++c) CHECK(tetrahedron::determinant(simplices.rest(c)) > 0);
+        }
+    }
 }
 
 TEST_CASE("writing: coordinates that stay keep their text, others are the shortest that read back")

@@ -38,7 +38,8 @@ public:
     {
         const auto& problem = state.problem();
         map x = start(problem);
-        if (!certify<D>(state.cells(), std::span<const vec<D>>(x))) return false; // there is no such shape
+        if (!certify<D>(state.cells(), std::span<const vec<D>>(x), {}, 0, problem.owners))
+            return false; // there is no such shape
         struct
         {
             any_energy energy = energy::isometric{};

@@ -171,7 +171,7 @@ private:
 
     certificate exact(const std::vector<vec<D>>& x) const
     {
-        return certify<D>(problem_.rest.cells(), std::span<const vec<D>>(x));
+        return certify<D>(problem_.rest.cells(), std::span<const vec<D>>(x), {}, 16, problem_.owners);
     }
 
     std::vector<vec<D>> with_held(std::vector<vec<D>> x) const

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include <taut/io/detail/turned_cells.hpp>
 #include <taut/io/detail/volume/groups.hpp>
 #include <taut/io/detail/volume/numbering.hpp>
 #include <taut/io/detail/volume/numbers.hpp>
@@ -114,6 +115,7 @@ public:
         if (file_.places.per_point == 2 && volume)
             throw io_error(file_.path, "volume cells, but two coordinates a point; give three");
         file_.dimension = file_.places.per_point == 2 || (!volume && flat && !file_.points.empty()) ? 2 : 3;
+        if (file_.rest.empty()) turn_cells(file_, cells_to_turn(file_)); // a problem has the order that it states
     }
 
 private:

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <taut/io/detail/volume/vtk_cells.hpp>
@@ -33,6 +34,7 @@ public:
                 read_cells(k, nullptr);
             else if (k.name == "MARKER_TAG")
                 read_marker(k);
+        to_.file().labels.push_back(std::move(markers_));
         to_.finish();
     }
 
@@ -109,6 +111,7 @@ private:
             for (idx& v : cell) v = to_.point_at(from_.integer(number_type::int32, "a point"), 0, from_);
             in_.next_line();
             to_.add_vtk_cell(kind, cell);
+            markers_.values.push_back(marker != nullptr ? markers_read_ : 0);
             if (marker != nullptr) marker->add(0, shape_of(kind).dimension, cell);
         }
     }
@@ -123,6 +126,7 @@ private:
         if (elements == nullptr || elements->name != "MARKER_ELEMS") in_.fail("no MARKER_ELEMS= behind MARKER_TAG=");
         if (name == "SEND_RECEIVE") return; // of a partition
         tagged_vertices<> marker;
+        ++markers_read_;
         read_cells(*elements, &marker);
         marker.move_to(to_.file(), [&](long long) { return std::string(name); });
     }
@@ -131,6 +135,8 @@ private:
     scanner& in_;
     number_source<> from_;
     std::vector<key> keys_;
+    volume_label markers_{"marker", true, {}}; ///< of cells: 0 or the number of their marker, from 1
+    long long markers_read_ = 0;
 };
 
 } // namespace taut::io::detail

@@ -378,6 +378,7 @@ TAUT_ON_USE_BODY volume_file subdivided(const volume_file& file, const subdivisi
         {
             auto mesh = detail::plain_subdivided(file, how);
             auto result = parse_volume(text(mesh), format, file.path);
+            turn_cells(result, std::vector<idx>(result.turned)); // the order of a cell is that of its parts
             if (result.rest.empty()) result.rest = std::move(mesh.rest);
             result.notes.push_back(
                 "cells were split: the file is written anew, without comments and without data other "

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <taut/io/detail/volume/builder.hpp>
 
@@ -31,6 +32,7 @@ public:
             if (companion.extension == ".ele") read_elements(from);
             if (companion.extension == ".face") read_faces(from);
         }
+        to_.file().labels.push_back(std::move(labels_));
         to_.finish();
     }
 
@@ -101,12 +103,15 @@ private:
         {
             read_cell(from, cell, used.size());
             to_.add_cell(kind, used);
+            long long label = 0;
             for (long long k = 0; k < attributes; ++k)
             {
                 const double a = from.real(number_type::float64);
-                if (k == 0 && a == std::floor(a) && std::abs(a) < 1e15)
-                    groups.add(static_cast<long long>(a), shape_of(kind).dimension, used);
+                if (k > 0 || a != std::floor(a) || std::abs(a) >= 1e15) continue;
+                label = static_cast<long long>(a);
+                groups.add(label, shape_of(kind).dimension, used);
             }
+            labels_.values.push_back(label);
         }
         groups.move_to_prefixed(to_.file(), shape_of(kind).names);
     }
@@ -121,12 +126,14 @@ private:
         {
             read_cell(from, face, 3);
             to_.add_cell(cell_kind::triangle, face);
-            if (marked) groups.add(from.integer(integer, "a boundary marker"), 2, face);
+            labels_.values.push_back(marked ? from.integer(integer, "a boundary marker") : 0);
+            if (marked) groups.add(labels_.values.back(), 2, face);
             from.in().next_line(); // TetGen -nn adds neighbours
         }
         groups.move_to_prefixed(to_.file(), "faces");
     }
 
+    volume_label labels_{"attribute", true, {}}; ///< of elements the first attribute, of faces the marker
     volume_builder<> to_;
     number_source<> nodes_;
 };

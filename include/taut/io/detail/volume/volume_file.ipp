@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <span>
 #include <string>
@@ -14,6 +15,8 @@
 #include <taut/exact/cell_validity.hpp>
 #include <taut/io/io_error.hpp>
 #include <taut/io/volume_file.hpp>
+#include <taut/mesh/cell_corners.hpp>
+#include <taut/mesh/describe.hpp>
 #include <taut/mesh/ideal.hpp>
 
 namespace taut::io
@@ -21,24 +24,6 @@ namespace taut::io
 
 namespace detail
 {
-
-/// The corners of the triangles at the corners of a planar cell, counter-clockwise.
-inline std::span<const std::array<std::size_t, 3>> corner_table(cell_kind kind, triangle)
-{
-    using corners = std::array<std::size_t, 3>;
-    static constexpr std::array<corners, 1> itself = {{{0, 1, 2}}};
-    static constexpr std::array<corners, 4> quad = {{{0, 1, 3}, {1, 2, 0}, {2, 3, 1}, {3, 0, 2}}};
-    if (kind == cell_kind::triangle) return itself;
-    if (kind == cell_kind::quad) return quad;
-    return {};
-}
-
-/// The corners of the tetrahedra at the corners of a volume cell, positive.
-inline std::span<const std::array<std::size_t, 4>> corner_table(cell_kind kind, tetrahedron)
-{
-    if (shape_of(kind).dimension < 3) return {};
-    return taut::detail::corner_tetrahedra(static_cast<std::size_t>(shape_of(kind).corners));
-}
 
 /// Edge matrix at the corners of a cell whose edges all have length 1, and how much of the simplex there counts so that
 /// the cell does as its own measure: 6 volumes of a hexahedron are those of 8 corners, for instance.
@@ -78,83 +63,6 @@ inline mat3 regular_edges(cell_kind kind, const std::array<std::size_t, 4>& corn
     return {place(corners[1]) - origin, place(corners[2]) - origin, place(corners[3]) - origin};
 }
 
-/// How the format of a file has the corners of a cell, in words.
-inline std::string convention_of(cell_kind kind, const std::string& format)
-{
-    switch (kind)
-    {
-    case cell_kind::pyramid:
-        return "corner 4 sees 0, 1, 2, 3 turn counter-clockwise";
-    case cell_kind::wedge:
-        return format == "VTK" || format == "VTU" || format == "SU2"
-                   ? "the normal of corners 0, 1, 2 points away from 3, 4, 5 (these have it as gmsh and MEDIT do)"
-                   : "the normal of corners 0, 1, 2 points to 3, 4, 5 (these have it as VTK does)";
-    case cell_kind::hexahedron:
-        return "corners 4, 5, 6, 7 see 0, 1, 2, 3 turn counter-clockwise";
-    case cell_kind::triangle:
-    case cell_kind::quad:
-        return "corners run counter-clockwise";
-    default:
-        return "corner 3 sees 0, 1, 2 turn counter-clockwise";
-    }
-}
-
-/// The shape that the cells of a file have at rest.
-inline const std::vector<vec3>& rest_of(const volume_file& file)
-{
-    return file.rest.empty() ? file.points : file.rest;
-}
-
-/// Throws mesh_error if nine of ten cells of a kind, or more, are inverted: then it is the order of their corners.
-class orientation_check
-{
-public:
-    explicit orientation_check(const volume_file& file) : file_(file) {}
-
-    /// Of a cell of the element's dimension.
-    template <class Element>
-    void add(cell_kind kind, idx cell, std::span<const idx> corners)
-    {
-        const auto& x = rest_of(file_);
-        double sum = 0;
-        for (const auto& t : corner_table(kind, Element{}))
-        {
-            typename Element::mapped_corners simplex;
-            for (std::size_t k = 0; k < t.size(); ++k)
-                simplex[k] = vec<Element::dimension>(x[static_cast<std::size_t>(corners[t[k]])]);
-            sum += Element::determinant(simplex);
-        }
-        auto& of = kinds_[static_cast<std::size_t>(kind)];
-        ++of.count;
-        if (sum < 0) of.inverted.push_back(cell);
-    }
-
-    void finish() const
-    {
-        for (std::size_t k = 0; k < kinds_.size(); ++k)
-        {
-            const auto& of = kinds_[k];
-            if (of.count == 0 || 10 * of.inverted.size() < 9 * of.count) continue;
-            const auto kind = static_cast<cell_kind>(k);
-            const bool all = of.inverted.size() == of.count;
-            throw mesh_error(mesh_fault::inverted_cell, of.inverted,
-                             file_.path + ": " + (all ? "all " : std::to_string(of.inverted.size()) + " of ") +
-                                 std::to_string(of.count) + ' ' + shape_of(kind).names + " are turned: in " +
-                                 file_.format + " files " + convention_of(kind, file_.format) +
-                                 "; write them in this order");
-        }
-    }
-
-private:
-    struct tally
-    {
-        std::size_t count = 0;
-        std::vector<idx> inverted;
-    };
-    const volume_file& file_;
-    std::array<tally, 8> kinds_;
-};
-
 /// Throws io_error unless all cells of the element's dimension are of its kind, mesh_error if there are none.
 template <class Element>
 mesh<Element> cells_as(const volume_file& file, cell_kind wanted, const std::string& remedy)
@@ -171,11 +79,30 @@ mesh<Element> cells_as(const volume_file& file, cell_kind wanted, const std::str
                   });
     if (cells.empty())
         throw mesh_error(mesh_fault::empty, {}, file.path + ": no " + shape_of(wanted).names + "; give a mesh of them");
-    orientation_check orientation(file);
-    for (std::size_t c = 0; c < cells.size(); ++c) orientation.add<Element>(wanted, static_cast<idx>(c), cells[c]);
-    mesh<Element> result(rest_of(file), std::move(cells));
-    orientation.finish();
-    return result;
+    return {file.at_rest(), std::move(cells)};
+}
+
+/// Puts the corners of a cell in the other order: it is mirrored. Twice is nothing.
+inline void turn_cell(cell_kind kind, std::span<idx> corners)
+{
+    switch (kind)
+    {
+    case cell_kind::triangle:
+    case cell_kind::tetrahedron:
+        return std::swap(corners[1], corners[2]);
+    case cell_kind::wedge:
+        std::swap(corners[4], corners[5]);
+        return std::swap(corners[1], corners[2]);
+    case cell_kind::hexahedron:
+        std::swap(corners[5], corners[7]);
+        return std::swap(corners[1], corners[3]);
+    case cell_kind::quad:
+    case cell_kind::pyramid:
+        return std::swap(corners[1], corners[3]);
+    case cell_kind::vertex:
+    case cell_kind::line:
+        return;
+    }
 }
 
 inline void require_planar(const volume_file& file)
@@ -207,6 +134,36 @@ TAUT_INLINE const volume_group& volume_file::find_group(std::string_view name) c
                                              (known.empty() ? "'; the file has no groups" : "'; there are " + known));
 }
 
+TAUT_ON_USE_BODY void turn_cells(volume_file& file, std::span<const idx> cells)
+{
+    idx number = 0;
+    auto next = cells.begin();
+    for (auto& block : file.cells)
+    {
+        const auto shape = shape_of(block.kind);
+        if (shape.dimension != file.dimension) continue;
+        const auto n = static_cast<std::size_t>(shape.corners);
+        for (std::size_t c = 0; c < block.size(); ++c, ++number)
+            if (next != cells.end() && *next == number)
+            {
+                detail::turn_cell(block.kind, std::span(block.corners).subspan(n * c, n));
+                ++next;
+            }
+    }
+    std::vector<idx> turned;
+    std::set_symmetric_difference(file.turned.begin(), file.turned.end(), cells.begin(), cells.end(),
+                                  std::back_inserter(turned));
+    file.turned = std::move(turned);
+}
+
+TAUT_ON_USE_BODY std::string describe_turned(const volume_file& file)
+{
+    if (file.turned.empty()) return {};
+    const auto ids = taut::detail::list_ids("cell", "cells", file.turned);
+    return ids + (file.turned.size() == 1 ? " has its" : " have their") + " corners in the other order than " +
+           file.format + " files or neighbours have it";
+}
+
 TAUT_ON_USE_BODY mesh<tetrahedron> tetrahedra_of(const volume_file& file)
 {
     return detail::cells_as<tetrahedron>(file, cell_kind::tetrahedron,
@@ -228,12 +185,11 @@ corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span
     std::vector<mat<Element::dimension>> regular;
     std::vector<double> weights;
     bool overlapping = false;
-    detail::orientation_check orientation(file);
     for_each_cell(file, Element::dimension,
                   [&](cell_kind kind, idx number, std::span<const idx> corners)
                   {
                       const auto regular_one = detail::regular_corner(kind, Element{});
-                      const auto table = detail::corner_table(kind, Element{});
+                      const auto table = taut::detail::corner_simplices(corners.size(), Element{});
                       overlapping = overlapping || table.size() > 1;
                       const std::size_t more = std::binary_search(edged.begin(), edged.end(), number)
                                                    ? taut::detail::edge_tetrahedra(corners.size()).size()
@@ -251,14 +207,12 @@ corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span
                       if constexpr (Element::dimension == 3)
                           for (const auto& t : taut::detail::edge_tetrahedra(corners.size()).first(more))
                               add(t, detail::regular_edges(kind, t));
-                      orientation.add<Element>(kind, number, corners);
                   });
     if (simplices.empty())
         throw mesh_error(mesh_fault::empty, {},
                          file.path + (Element::dimension == 2 ? ": no triangles or quads" : ": no volume cells") +
                              "; give a mesh of them");
-    mesh<Element> result(detail::rest_of(file), std::move(simplices));
-    orientation.finish();
+    mesh<Element> result(file.at_rest(), std::move(simplices));
     return {std::move(result), std::move(cells), overlapping, std::move(regular), std::move(weights)};
 }
 

@@ -38,7 +38,7 @@ inline bool same_bits(double a, double b)
 /// The coordinate as the file will hold it.
 inline double stored(const coordinate_places& places, double x)
 {
-    return places.single && !places.text ? in_single(x) : x;
+    return places.rounds() ? in_single(x) : x;
 }
 
 inline void require_storable(const volume_file& file, std::span<const vec3> points)

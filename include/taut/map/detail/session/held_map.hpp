@@ -76,7 +76,7 @@ protected:
     /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.
     virtual certificate certified(const map& x) const
     {
-        auto flips = certify<D>(rest().cells(), std::span<const vec<D>>(x), rest_measure());
+        auto flips = certify<D>(rest().cells(), std::span<const vec<D>>(x), rest_measure(), 16, owners());
         for (double* det : {&flips.min_det, &flips.max_det}) *det *= std::pow(lengths_, D);
         return flips;
     }

@@ -84,7 +84,7 @@ std::optional<std::vector<vec<Element::dimension>>> repaired(const queue& q, con
         for (std::size_t k = 0; k < part->vertices.size(); ++k)
             map[static_cast<std::size_t>(part->vertices[k])] = found.map[k];
         // The rim is of the whole: the map may wind around it twice.
-        if (certify<D>(problem.rest.cells(), std::span<const vec<D>>(map))) return map;
+        if (certify<D>(problem.rest.cells(), std::span<const vec<D>>(map), {}, 0, problem.owners)) return map;
     }
     if (!limits.whole || !clock.in_time()) return std::nullopt;
     how.rounds = 1;

@@ -145,9 +145,9 @@ private:
         return found;
     }
 
-    static bool certified(const mesh<tetrahedron>& m, const std::vector<vec3>& x)
+    static bool certified(const problem& p, const std::vector<vec3>& x)
     {
-        return bool(certify<3>(m.cells(), std::span<const vec3>(x)));
+        return bool(certify<3>(p.rest.cells(), std::span<const vec3>(x), {}, 0, p.owners));
     }
 
     /// The minimum on a coarser volume, carried up: there limbs decide which way they buckle, which takes many steps,
@@ -179,7 +179,7 @@ private:
             found.vertices = part->vertices.size();
             mended_draft mended;
             mended.x = part->problem.initial;
-            if (!certified(part->problem.rest, mended.x)) mended.x = untangled(part->problem, found);
+            if (!certified(part->problem, mended.x)) mended.x = untangled(part->problem, found);
             if (mended.x.empty() || !clock_.in_time()) return false;
             minimise(part->problem, 1e-3, 30, mended);
             found.steps += mended.steps;
@@ -191,7 +191,7 @@ private:
         constexpr double flat = 0.03; // such elements would cut the steps of all for long
         for (std::size_t c = 0; c < here.cells().size(); ++c)
             if (shrinks(poisson.gradient(c, found.x), flat)) return false;
-        return certified(here, found.x);
+        return certified(p, found.x);
     }
 
     /// An injective map, or none.
