@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -58,6 +59,24 @@ void keep_freed_memory()
 #endif
 }
 
+/// What glTF makes of a coordinate in the plane of the atlas, whose v is -v there.
+template <io::gltf_numbers Numbers>
+vec2 in_gltf(vec2 x)
+{
+    const vec2 y = io::texcoord_in_gltf({x.x, -x.y}, Numbers);
+    return {y.x, -y.y};
+}
+
+/// Whether pinned corners stay as they are.
+bool holds_pinned(const atlas_params& params)
+{
+    for (std::size_t c = 0; c < params.pinned.size(); ++c)
+        if (params.pinned[c] != 0)
+            for (const vec2& x : params.initial[c])
+                if (params.stored(x) != x) return false;
+    return true;
+}
+
 /// One run of `taut atlas`, phase by phase.
 class atlas_run
 {
@@ -76,6 +95,7 @@ public:
         try
         {
             report_.read = clock_.timed([&] { read(); });
+            keep_companions(outputs);
             make();
         }
         catch (const mesh_error& e)
@@ -109,6 +129,44 @@ private:
         joined_.emplace(join(sources_));
     }
 
+    /// What is written beside outputs must not replace what was read beside inputs, unless that belongs to the surface
+    /// which is replaced as a whole. Throws usage_error.
+    void keep_companions(const outputs& files) const
+    {
+        for (std::size_t i = 0; i < sources_.size(); ++i)
+            for (const auto& companion : sources_[i]->companions)
+                files.protect("the data of " + options_.inputs[i], companion);
+        if (options_.outputs.size() < sources_.size()) return;
+        std::set<std::filesystem::path> data;
+        std::error_code unknown;
+        const auto same = [&](const auto& a, const auto& b) { return std::filesystem::equivalent(a, b, unknown); };
+        for (std::size_t i = 0; i < sources_.size(); ++i)
+        {
+            const std::string& output = options_.outputs[i];
+            const auto own = data_file(i);
+            if (own && !data.insert(*own).second)
+                throw usage_error("-o " + output + ": " + own->string() + " is also written beside another output");
+            for (std::size_t j = 0; j < sources_.size(); ++j)
+                for (const auto& companion : sources_[j]->companions)
+                    if (own && same(*own, companion) && !same(output, options_.inputs[j]))
+                        throw usage_error("-o " + output + ": " + own->string() + " would overwrite the data of " +
+                                          options_.inputs[j] + "; choose another name");
+        }
+    }
+
+    /// The file that is written beside an output.
+    std::optional<std::filesystem::path> data_file(std::size_t i) const
+    {
+        try
+        {
+            return sources_[i]->data_file(options_.outputs[i]);
+        }
+        catch (const io::io_error& e)
+        {
+            throw usage_error(std::string("-o: ") + e.what());
+        }
+    }
+
     /// As make_atlas() does for all surfaces together, with the numbers of one file.
     static void require_valid(const mesh<triangle>& m, const std::string& path)
     {
@@ -138,8 +196,7 @@ private:
             params.initial = sources_[0]->known_texcoords();
         }
         // The certificate is of what the files will have.
-        if (std::any_of(options_.outputs.begin(), options_.outputs.end(), io::is_gltf))
-            params.stored = io::texcoord_in_gltf;
+        if (params.origin.y < 0) store_in_gltf(params);
         params.observer = [this](const atlas_progress& p)
         {
             keep(p.usable);
@@ -168,6 +225,23 @@ private:
         if (!*atlas_) throw no_valid_map(atlas_->report.reason);
     }
 
+    /// Texture coordinates are floats, or fractions where these hold what is pinned as it is and floats do not.
+    void store_in_gltf(atlas_params& params)
+    {
+        params.stored = in_gltf<io::gltf_numbers::floats>;
+        if (holds_pinned(params)) return;
+        params.stored = in_gltf<io::gltf_numbers::fractions>;
+        numbers_ = io::gltf_numbers::fractions;
+        if (params.packing.tiles == 1 && holds_pinned(params)) // they end at 1
+        {
+            params.packing.rounding = std::max(params.packing.rounding, 0.5 / 65535);
+            return;
+        }
+        params.stored = in_gltf<io::gltf_numbers::floats>;
+        numbers_ = io::gltf_numbers::floats;
+        report_.notes.push_back("coordinates of pinned charts are rounded to single precision, as glTF has no other");
+    }
+
     void write()
     {
         tell("write");
@@ -185,7 +259,8 @@ private:
                              [&](io::atomic_file& file) { write_joined(file, options_.inputs, *joined_, maps); }});
         else
             for (std::size_t i = 0; i < sources_.size(); ++i)
-                for (auto& file : sources_[i]->files(options_.outputs[i], maps.of(i))) files.push_back(std::move(file));
+                for (auto& file : sources_[i]->files(options_.outputs[i], maps.of(i), numbers_, report_.notes))
+                    files.push_back(std::move(file));
         const auto draw = [&](std::string& path, auto image)
         { add_picture(files, path, report_.notes, clock_, report_.draw, image); };
         draw(options_.picture, [this] { return picture(); });
@@ -202,10 +277,19 @@ private:
         return names;
     }
 
+    /// The atlas in the squares from 0.
+    std::vector<vec2> shown() const
+    {
+        std::vector<vec2> uv = atlas_->uv;
+        for (vec2& x : uv) x -= origin_of(options_);
+        return uv;
+    }
+
     std::string picture() const
     {
         const auto& cut = atlas_->charts.surface;
-        std::vector<vec2> sized = atlas_->uv;
+        const auto uv = shown();
+        std::vector<vec2> sized = uv;
         for (vec2& p : sized) p /= atlas_->layout.scale;
         const auto distortion = io::symmetric_distortion(cut.points(), cut.cells(), sized);
         const auto loops = boundary_loops(cut);
@@ -214,22 +298,23 @@ private:
                                      .note = std::to_string(report_.atlas.charts.size()) + " charts, " +
                                              std::to_string(static_cast<int>(100 * report_.atlas.utilization)) +
                                              " % of the square used"};
-        return layout_file(options_.picture, atlas_->uv, cut.cells(), distortion, loops, style, {});
+        return layout_file(options_.picture, uv, cut.cells(), distortion, loops, style, {});
     }
 
     std::string render() const
     {
         const auto& cut = atlas_->charts.surface;
-        return encode_png(io::render_picture(cut.points(), cut.cells(), atlas_->uv, {.title = title()}));
+        return encode_png(io::render_picture(cut.points(), cut.cells(), shown(), {.title = title()}));
     }
 
     std::string page() const
     {
         const auto& m = joined_->surface;
         const auto corners = atlas_->corners();
+        const auto places = shown();
         std::vector<std::array<vec2, 3>> uv(corners.size());
         for (std::size_t c = 0; c < uv.size(); ++c)
-            for (std::size_t k = 0; k < 3; ++k) uv[c][k] = atlas_->uv[static_cast<std::size_t>(corners[c][k])];
+            for (std::size_t k = 0; k < 3; ++k) uv[c][k] = places[static_cast<std::size_t>(corners[c][k])];
         std::vector<idx> chart(corners.size());
         for (std::size_t k = 0; k + 1 < atlas_->charts.first_cell.size(); ++k)
             for (idx c = atlas_->charts.first_cell[k]; c < atlas_->charts.first_cell[k + 1]; ++c)
@@ -258,6 +343,7 @@ private:
     std::vector<std::unique_ptr<atlas_source>> sources_;
     std::optional<joined_surfaces> joined_;
     std::optional<atlas> atlas_;
+    io::gltf_numbers numbers_ = io::gltf_numbers::floats;
     atlas_run_report report_;
     const char* place_of_report_ = nullptr; ///< null: there is none
 };

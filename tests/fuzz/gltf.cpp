@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <sanitizer/allocator_interface.h>
 #include <taut/gltf/gltf.hpp>
 
 #include "../support/gltf_models.hpp"
@@ -19,9 +20,40 @@ namespace
 using namespace taut;
 using fuzz::dice;
 
+/// Many more of what a document has a few of: small files that ask for much.
+void multiply(test::gltf_json& d, dice& random)
+{
+    auto& primitives = d["meshes"][0]["primitives"];
+    auto& list = random.one_in(4)   ? primitives
+                 : random.one_in(3) ? d["meshes"]
+                 : random.one_in(2) ? d["bufferViews"]
+                                    : d["accessors"];
+    const test::gltf_json item = list[random.below(list.size())];
+    const std::size_t first = d["accessors"].size();
+    for (std::size_t n = random.between(1, 40000 / (item.dump().size() + 40)); n > 0; --n)
+    {
+        list.push_back(item);
+        // What is new is used, by primitives of its own or as attributes of one.
+        if (d["accessors"].size() == first) continue;
+        auto& p = primitives[0];
+        const std::size_t number = d["accessors"].size() - 1;
+        if (random.one_in(3))
+            p["attributes"]["_A" + std::to_string(number)] = number;
+        else
+        {
+            auto copy = p;
+            if (random.one_in(2) || !copy.contains("indices"))
+                copy["attributes"]["POSITION"] = number;
+            else
+                copy["indices"] = number;
+            primitives.push_back(std::move(copy));
+        }
+    }
+}
+
 std::string generate(dice& random)
 {
-    const auto n = static_cast<std::uint32_t>(random.between(3, 4));
+    const auto n = static_cast<std::uint32_t>(random.one_in(60) ? random.between(5, 40) : random.between(3, 4));
     auto builder = random.one_in(3)   ? test::textured_model(n)
                    : random.one_in(2) ? test::skinned_model(n)
                                       : test::morphing_model(n);
@@ -43,6 +75,9 @@ std::string generate(dice& random)
         else
             *member = random.pick({"SCALAR", "VEC2", "VEC3", "MAT2"});
     }
+    if (random.one_in(24)) multiply(d, random);
+    if (random.one_in(20)) // an accessor that is nowhere
+        d["accessors"].push_back({{"componentType", 5126}, {"count", random.between(1, 70000)}, {"type", "VEC3"}});
     for (std::size_t changes = random.one_in(2) ? 3 : 0; changes > 0; --changes)
         builder.bytes[random.below(builder.bytes.size())] = static_cast<char>(random.between(0, 255));
     return random.one_in(2) ? builder.glb() : builder.with_data_uri();
@@ -57,7 +92,21 @@ std::vector<std::array<vec2, 3>> corner_uv(const io::gltf_model& model)
     return uv;
 }
 
+/// What is allocated for an input altogether, which says without a clock how much is done with it.
+std::size_t allocated = 0;
+
+void count_allocation(const volatile void*, std::size_t size)
+{
+    allocated += size;
+}
+
 } // namespace
+
+extern "C" int LLVMFuzzerInitialize(int*, char***)
+{
+    __sanitizer_install_malloc_and_free_hooks(count_allocation, [](const volatile void*) {});
+    return 0;
+}
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed)
 {
@@ -65,9 +114,10 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 }
 
 /// Whatever the bytes, they are a model that is written with other texture coordinates and read back, or an error of
-/// the library.
+/// the library; and what that takes is bounded by their number.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    allocated = 0;
     try
     {
         const auto model = io::parse_gltf({reinterpret_cast<const char*>(data), size}, "/dev/null/a.gltf");
@@ -75,7 +125,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const auto& t : model.triangles)
             for (const idx v : t) fuzz::require(v >= 0 && v < n, "triangles name points");
         const auto uv = corner_uv(model);
-        auto [document, bytes] = io::detail::gltf_writer(model, uv, 0).write();
+        auto [document, bytes] = io::detail::gltf_writer(model, uv, 0, io::gltf_numbers::floats).write();
         const auto again = io::detail::join_glb(document.dump(), bytes, {}, "again");
         try
         {
@@ -96,5 +146,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     catch (const error&)
     {
     }
+    fuzz::require(allocated <= (std::size_t(256) << 20) + 4096 * size, "memory is bounded by the bytes of the file");
     return 0;
 }

@@ -19,7 +19,7 @@
 namespace taut::test
 {
 
-using gltf_json = nlohmann::ordered_json;
+using gltf_json = io::gltf_json;
 
 /// How a model keeps its data.
 enum class gltf_form

@@ -198,9 +198,14 @@ std::string command_line(const atlas_options& o)
     return line;
 }
 
+vec2 origin_of(const atlas_options& o)
+{
+    return {0, std::any_of(o.outputs.begin(), o.outputs.end(), io::is_gltf) ? -1 : 0};
+}
+
 source_options to_source_options(const atlas_options& o)
 {
-    return {.format = o.format, .repair = o.repair, .texcoord_set = o.texcoord_set};
+    return {.format = o.format, .repair = o.repair, .texcoord_set = o.texcoord_set, .origin = origin_of(o)};
 }
 
 atlas_params to_params(const atlas_options& o)
@@ -215,6 +220,7 @@ atlas_params to_params(const atlas_options& o)
     params.packing.resolution = o.resolution;
     params.packing.tiles = o.tiles;
     params.packing.rotate = !o.upright;
+    params.origin = origin_of(o);
     return params;
 }
 

@@ -39,6 +39,9 @@ outputs check(const atlas_options& options);
 /// What to type to have the same again.
 std::string command_line(const atlas_options& options);
 
+/// atlas_params::origin for these outputs.
+vec2 origin_of(const atlas_options& options);
+
 source_options to_source_options(const atlas_options& options);
 
 /// What the library is to do, all but seams, the map to begin with and the observer.

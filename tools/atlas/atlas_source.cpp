@@ -6,7 +6,6 @@
 #include <map>
 #include <string_view>
 
-#include <taut/gltf/gltf.hpp>
 #include <taut/io/detail/obj_statements.hpp>
 #include <taut/io/write_obj.hpp>
 
@@ -41,13 +40,14 @@ std::vector<idx> face_materials(std::string_view text)
 class surface_source : public atlas_source
 {
 public:
-    surface_source(io::surface_soup file, bool repair) : file_(std::move(file))
+    surface_source(io::surface_soup file, const source_options& options)
+        : atlas_source(options.origin), file_(std::move(file))
     {
         file_vertices = static_cast<idx>(file_.points.size());
         file_triangles = static_cast<idx>(file_.triangles.size());
         notes = file_.notes;
-        if (file_.fault && !repair) throw mesh_error(*file_.fault);
-        if (repair)
+        if (file_.fault && !options.repair) throw mesh_error(*file_.fault);
+        if (options.repair)
             take(tools::repair(file_));
         else
             take(mesh<triangle>(file_.points, file_.triangles));
@@ -68,10 +68,15 @@ public:
         return result;
     }
 
-    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map) const override
+    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map, io::gltf_numbers numbers,
+                                         std::vector<std::string>& changes) const override
     {
         if (io::is_gltf(path))
-            return io::gltf_files(path, io::gltf_of(file_.points, file_.triangles), by_file_corner(map));
+        {
+            const auto model = io::gltf_of(file_.points, file_.triangles);
+            changes.insert(changes.end(), model.notes.begin(), model.notes.end());
+            return gltf_files(path, model, map, 0, numbers, changes);
+        }
         std::vector<idx> texcoords(file_.faces.corners.size(), -1);
         for (std::size_t c = 0; c < map.cells.size(); ++c)
             for (std::size_t k = 0; k < 3; ++k)
@@ -83,8 +88,10 @@ public:
                                        " is bent too far to be in one chart; write the surface as triangles");
                 t = map.cells[c][k];
             }
-        return {{path, [this, texcoords = std::move(texcoords), map](io::atomic_file& out)
-                 { io::write_obj(out, file_, texcoords, map.uv); }}};
+        std::vector<vec2> uv(map.uv.begin(), map.uv.end());
+        for (vec2& x : uv) x = to_obj(x);
+        return {{path, [this, texcoords = std::move(texcoords), uv = std::move(uv)](io::atomic_file& out)
+                 { io::write_obj(out, file_, texcoords, uv); }}};
     }
 
 private:
@@ -104,7 +111,7 @@ private:
     {
         const idx t = file_.texcoord_cells.empty() ? -1 : file_.texcoord_cells[cell][corner];
         if (t < 0) return std::nullopt;
-        return file_.texcoords[static_cast<std::size_t>(t)];
+        return from_obj(file_.texcoords[static_cast<std::size_t>(t)]);
     }
 
     io::surface_soup file_;
@@ -114,13 +121,18 @@ private:
 class gltf_source : public atlas_source
 {
 public:
-    gltf_source(io::gltf_model model, bool repair, int set) : model_(std::move(model)), set_(set)
+    gltf_source(io::gltf_model model, const source_options& options)
+        : atlas_source(options.origin), model_(std::move(model)), set_(options.texcoord_set)
     {
         file_vertices = static_cast<idx>(model_.points.size());
         file_triangles = static_cast<idx>(model_.triangles.size());
         notes = model_.notes;
-        if (repair)
-            take(repair_surface(model_.points, model_.triangles));
+        companions = model_.source.files;
+        if (options.repair)
+        {
+            const auto bodies = point_meshes();
+            take(repair_surface(model_.points, model_.triangles, {.bodies = bodies}));
+        }
         else
             take(mesh<triangle>(model_.points, model_.triangles));
     }
@@ -132,17 +144,32 @@ public:
         return result;
     }
 
-    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map) const override
+    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map, io::gltf_numbers numbers,
+                                         std::vector<std::string>& changes) const override
     {
-        return io::gltf_files(path, model_, by_file_corner(map), set_);
+        return gltf_files(path, model_, map, set_, numbers, changes);
+    }
+
+    std::optional<std::filesystem::path> data_file(const std::string& path) const override
+    {
+        return io::gltf_data_file(path, model_.source);
     }
 
 private:
+    /// The mesh that each point is of.
+    std::vector<idx> point_meshes() const
+    {
+        std::vector<idx> result(model_.points.size(), 0);
+        for (std::size_t t = 0; t < model_.triangles.size(); ++t)
+            for (const idx v : model_.triangles[t]) result[static_cast<std::size_t>(v)] = model_.meshes[t];
+        return result;
+    }
+
     std::optional<vec2> texcoord(std::size_t cell, std::size_t corner) const override
     {
         const idx t = model_.texcoord_cells.empty() ? -1 : model_.texcoord_cells[cell][corner];
         if (t < 0) return std::nullopt;
-        return model_.texcoords[static_cast<std::size_t>(t)];
+        return from_gltf(model_.texcoords[static_cast<std::size_t>(t)]);
     }
 
     io::gltf_model model_;
@@ -182,7 +209,9 @@ std::vector<idx> atlas_source::file_faces() const
     return faces;
 }
 
-std::vector<std::array<vec2, 3>> atlas_source::by_file_corner(const corner_map& map) const
+std::vector<io::file_to_write> atlas_source::gltf_files(const std::string& path, const io::gltf_model& model,
+                                                        const corner_map& map, int set, io::gltf_numbers numbers,
+                                                        std::vector<std::string>& changes) const
 {
     const vec2 none(std::numeric_limits<double>::quiet_NaN());
     std::vector<std::array<vec2, 3>> result(static_cast<std::size_t>(file_triangles), {none, none, none});
@@ -190,17 +219,19 @@ std::vector<std::array<vec2, 3>> atlas_source::by_file_corner(const corner_map& 
         for (std::size_t k = 0; k < 3; ++k)
         {
             const auto [cell, corner] = origin(c, k);
-            result[cell][corner] = map.uv[static_cast<std::size_t>(map.cells[c][k])];
+            result[cell][corner] = to_gltf(map.uv[static_cast<std::size_t>(map.cells[c][k])]);
         }
-    return result;
+    if (const std::size_t out = result.size() - map.cells.size())
+        changes.push_back(
+            taut::detail::counted(out, "triangle", "triangles") +
+            " left out: all corners in one point of the map, as glTF has no triangle without coordinates");
+    return io::gltf_files(path, model, result, set, numbers);
 }
 
 std::unique_ptr<atlas_source> open_atlas_source(const std::string& path, const source_options& options)
 {
-    if (io::is_gltf(path))
-        return std::make_unique<gltf_source>(io::read_gltf(path, options.texcoord_set), options.repair,
-                                             options.texcoord_set);
-    return std::make_unique<surface_source>(io::read_surface_soup(path, options.format), options.repair);
+    if (io::is_gltf(path)) return std::make_unique<gltf_source>(io::read_gltf(path, options.texcoord_set), options);
+    return std::make_unique<surface_source>(io::read_surface_soup(path, options.format), options);
 }
 
 } // namespace taut::tools

@@ -3,13 +3,16 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <taut/gltf/gltf.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_files.hpp>
 #include <taut/repair/repair_surface.hpp>
@@ -17,7 +20,7 @@
 namespace taut::tools
 {
 
-/// Texture coordinates by corner of triangles.
+/// Texture coordinates by corner of triangles, in the plane of the atlas.
 struct corner_map
 {
     std::span<const vec2> uv;
@@ -42,7 +45,8 @@ public:
         return repaired_ ? std::span<const repair_finding>(repaired_->findings) : std::span<const repair_finding>();
     }
 
-    /// The texture coordinates that the file has, one a corner of the surface; empty if one is missing.
+    /// The texture coordinates that the file has, in the plane of the atlas, one a corner of the surface; empty if one
+    /// is missing.
     std::vector<std::array<vec2, 3>> texcoords() const;
 
     /// The same with what is no number where one is missing.
@@ -57,14 +61,33 @@ public:
     /// The number of the polygon that each triangle is of; or empty, if all faces are triangles.
     virtual std::vector<idx> polygons() const { return {}; }
 
-    /// The files to be written for this map of the surface. What was left out of the surface gets no coordinates.
-    /// Throws no_valid_map if a polygon is in several charts.
-    virtual std::vector<io::file_to_write> files(const std::string& path, const corner_map& map) const = 0;
+    /// The files to be written for this map of the surface. What was left out of the surface gets no coordinates, or in
+    /// glTF one point. Throws no_valid_map if a polygon is in several charts.
+    /// changes: gets what the files do not have as it was, in sentences
+    virtual std::vector<io::file_to_write> files(const std::string& path, const corner_map& map,
+                                                 io::gltf_numbers numbers, std::vector<std::string>& changes) const = 0;
+
+    /// The file that is written beside `path`. Throws as io::gltf_data_file() does.
+    virtual std::optional<std::filesystem::path> data_file(const std::string& path) const
+    {
+        return io::is_gltf(path) ? io::gltf_data_file(path, {}) : std::nullopt;
+    }
 
     idx file_vertices = 0, file_triangles = 0;
-    std::vector<std::string> notes; ///< what was changed in reading, in sentences
+    std::vector<std::string> notes;             ///< what was changed in reading, in sentences
+    std::set<std::filesystem::path> companions; ///< files that were read beside it
 
 protected:
+    /// origin: atlas_params::origin
+    explicit atlas_source(vec2 origin) : origin_(origin) {}
+
+    /// The plane of the atlas is that of OBJ, or {0, -1} below it, where v is -v of glTF: so nothing is rounded on the
+    /// way from glTF to glTF.
+    vec2 from_obj(vec2 x) const { return x + origin_; }
+    vec2 to_obj(vec2 x) const { return x - origin_; }
+    vec2 from_gltf(vec2 x) const { return {x.x, origin_.y + 1 - x.y}; }
+    vec2 to_gltf(vec2 x) const { return {x.x, origin_.y + 1 - x.y}; }
+
     void take(mesh<triangle> whole) { whole_.emplace(std::move(whole)); }
     void take(repaired_surface repaired) { repaired_.emplace(std::move(repaired)); }
 
@@ -75,13 +98,16 @@ protected:
         return {static_cast<std::size_t>(repaired_->cell_origins[c]), repaired_->corner_origin(c, k)};
     }
 
-    /// The texture coordinate of a corner of a triangle of the file; nothing if it has none.
+    /// The texture coordinate of a corner of a triangle of the file, in the plane of the atlas; nothing if it has none.
     virtual std::optional<vec2> texcoord(std::size_t cell, std::size_t corner) const = 0;
 
-    /// The map by the triangles of the file; not a number where there is none.
-    std::vector<std::array<vec2, 3>> by_file_corner(const corner_map& map) const;
+    /// The files of a model of glTF with this map of the surface. What has no place in it lies in one point.
+    std::vector<io::file_to_write> gltf_files(const std::string& path, const io::gltf_model& model,
+                                              const corner_map& map, int set, io::gltf_numbers numbers,
+                                              std::vector<std::string>& changes) const;
 
 private:
+    vec2 origin_;
     std::optional<mesh<triangle>> whole_;      // of the file as it is,
     std::optional<repaired_surface> repaired_; // or this
 };
@@ -90,7 +116,8 @@ struct source_options
 {
     io::surface_format format{};
     bool repair = false;
-    int texcoord_set = 0; ///< of glTF
+    int texcoord_set = 0;    ///< of glTF
+    vec2 origin = vec2(0.0); ///< atlas_params::origin
 };
 
 /// Throws io_error, mesh_error; repair_error if no triangle is left.

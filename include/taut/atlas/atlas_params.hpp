@@ -48,6 +48,10 @@ struct atlas_params
     flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
     pack_params packing = {};       ///< the same
 
+    /// The lower left corner of the first tile, whole numbers. {0, -1} is for files whose v runs downwards: their
+    /// coordinates are (u, -v), which is exact where 1 - v is not.
+    vec2 origin = vec2(0.0);
+
     /// What a file makes of a coordinate, as by rounding to floats: the certificate is of these. Null: nothing.
     vec2 (*stored)(vec2) = nullptr;
 

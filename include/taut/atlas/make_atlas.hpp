@@ -16,9 +16,11 @@ namespace taut
 /// A surface as a set of charts that lie side by side in squares.
 struct atlas
 {
-    chart_mesh charts;    ///< the surface cut apart
-    std::vector<vec2> uv; ///< one a vertex of charts.surface; tile t is the unit square at (t % 10, t / 10), as in UDIM
-    packing layout;       ///< how charts were turned, scaled and shifted
+    chart_mesh charts; ///< the surface cut apart
+    /// One a vertex of charts.surface; tile t is the unit square at atlas_params::origin + (t % 10, t / 10), as in
+    /// UDIM.
+    std::vector<vec2> uv;
+    packing layout; ///< how charts were turned, scaled and shifted
     atlas_report report;
 
     /// Texture coordinates by corner: numbers into uv, a triple for each triangle of the surface, in its order.

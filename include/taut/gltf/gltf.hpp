@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,9 +33,9 @@ struct gltf_model
                                                ///< numbered one after the other
     std::vector<idx> meshes;                   ///< of each triangle
     std::vector<idx> materials;                ///< of each triangle; -1: none
-    std::vector<vec2> texcoords;               ///< of the set that was asked for, v upwards (texcoord_in_gltf)
+    std::vector<vec2> texcoords;               ///< of the set that was asked for, as in the file: v runs downwards
     std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: none
-    std::vector<std::string> notes;                 ///< what was changed in reading, in sentences
+    std::vector<std::string> notes;                 ///< what was changed in reading or making it, in sentences
     gltf_source source;                             ///< the file
 };
 
@@ -41,9 +43,10 @@ struct gltf_model
 bool is_gltf(const std::filesystem::path& path);
 
 /// Reads a .gltf file with its buffers, or a .glb file; the bytes tell which. Coordinates may be quantized
-/// (KHR_mesh_quantization) and sparse. Images are not looked at.
-/// texcoord_set: the N of TEXCOORD_N that texcoords are read from
-/// Throws io_error: unreadable, malformed, or compressed with Draco or meshopt; mesh_error (empty) without triangles.
+/// (KHR_mesh_quantization) and sparse. No file is read but the document and the buffers that its bufferViews name,
+/// which lie in its folder. Memory and time are bounded by the bytes of these. texcoord_set: the N of TEXCOORD_N that
+/// texcoords are read from Throws io_error: unreadable, malformed, buffers that lie elsewhere, or compressed with Draco
+/// or meshopt; mesh_error (empty) without triangles.
 gltf_model read_gltf(const std::filesystem::path& path, int texcoord_set = 0);
 
 /// The same from memory; path: named in errors, and where external buffers are looked for.
@@ -52,12 +55,32 @@ gltf_model parse_gltf(std::string_view bytes, const std::string& path = "glTF fi
 /// A surface as a new glTF document, to be written with texture coordinates: one mesh, points as floats in their order,
 /// normals weighted by area, and an attribute _SOURCE_VERTEX that tells the point of each vertex: two unsigned shorts,
 /// the lower and the upper 16 bits of its number. Triangles keep their numbers; one that names a point that is not
-/// there or not finite draws nothing. Throws mesh_error (empty).
+/// there or not finite draws nothing.
+///
+/// Points farther from 0 than the surface is large, or where floats end, are relative to a node with a translation, and
+/// a scale if need be, which are doubles: rounding moves nothing by more than 2e-7 of its size. A note counts triangles
+/// that have no area in floats all the same. Throws mesh_error (empty).
 gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
 
-/// Texture coordinates as a glTF file can hold them, and as they are read back bit for bit. glTF has floats, and v runs
-/// downwards from the top left of the image: v there is 1 - v. Certify these if the file is to be certain.
-vec2 texcoord_in_gltf(vec2 uv);
+/// How texture coordinates are written.
+enum class gltf_numbers
+{
+    floats,
+    fractions ///< of 65535, from 0 to 1: unsigned shorts, normalized
+};
+
+/// Texture coordinates as a glTF file holds them, and as they are read back bit for bit: the nearest such number.
+/// Certify these if the file is to be certain.
+vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers = gltf_numbers::floats);
+
+/// The files that hold the buffers of the document at a path; none of a .glb, or where they cannot be told.
+std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& path);
+
+/// The file for the buffer that is written beside a .gltf: OUT.bin beside OUT.gltf; none where it is in the document,
+/// as in .glb. source: of the model that is written
+/// Throws io_error if a file of that name is there that is no buffer of the document which OUT.gltf replaces;
+/// parameter_error for another ending.
+std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path& path, const gltf_source& source);
 
 /// The files to be written for a model with other texture coordinates: one, or a .gltf and the .bin beside it. Their
 /// bytes are made here.
@@ -67,17 +90,21 @@ vec2 texcoord_in_gltf(vec2 uv);
 /// for bit. All else is as it was: every member of the JSON, the bytes of every bufferView that needs no change, and
 /// images, whose URIs are made relative to the new file. All buffers become one.
 ///
-/// corner_uv:    one a corner of model.triangles; a corner with one that is not finite takes that of its vertex at
-///               another triangle, or else 0
+/// corner_uv:    one a corner of model.triangles, v downwards; a triangle with a corner that is not finite has no
+/// place:
+///               it lies in one point, (0, 0)
 /// texcoord_set: the N of TEXCOORD_N
 /// path:         ends in .glb or .gltf
-/// Throws io_error; parameter_error for a wrong number of corner_uv, a set without those before it, another ending.
+/// Throws io_error, also as gltf_data_file() does; parameter_error for a wrong number of corner_uv, a set without those
+/// before it, another ending.
 std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
-                                      std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0);
+                                      std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
+                                      gltf_numbers numbers = gltf_numbers::floats);
 
 /// Writes them; they appear together or not at all.
 void write_gltf(const std::filesystem::path& path, const gltf_model& model,
-                std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0);
+                std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
+                gltf_numbers numbers = gltf_numbers::floats);
 
 } // namespace taut::io
 

@@ -25,6 +25,10 @@ struct repair_params
     /// The normals of the corners of each triangle, -1: none; empty: there is one normal a vertex.
     std::span<const std::array<idx, 3>> normal_cells = {};
 
+    /// The body that each vertex is of, or none: vertices of two bodies are at two places, whatever their coordinates,
+    /// so that nothing of one body is sewn to another one or a copy of it.
+    std::span<const idx> bodies = {};
+
     /// Throws parameter_error. points, triangles: how many the input has
     void validate(std::size_t points, std::size_t triangles) const;
 };

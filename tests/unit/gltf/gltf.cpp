@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -147,6 +149,7 @@ void round_trip(const gltf_builder& builder, int set = 0)
                 CAPTURE(size);
                 const auto model = io::read_gltf(folder / in, set);
                 const auto uv = chart_uv(model, size);
+                std::filesystem::remove(folder / "out.bin"); // of another form
                 io::write_gltf(folder / out, model, uv, set);
                 const auto back = io::read_gltf(folder / out, set);
                 CHECK(require_kept(model, uv, back, set) == vertices_wanted(model, uv));
@@ -168,12 +171,12 @@ TEST_CASE("gltf: the program of the document")
     folder.write(in, test::textured_model().glb());
     // [model]
     const auto model = io::read_gltf(in);
-    std::vector<std::array<vec2, 3>> uv(model.triangles.size()); // v upwards, one a corner
+    std::vector<std::array<vec2, 3>> uv(model.triangles.size()); // v downwards, one a corner
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
         {
             const vec3& p = model.points[static_cast<std::size_t>(model.triangles[t][k])];
-            uv[t][k] = io::texcoord_in_gltf({0.5 + 0.1 * p.x, 0.5 + 0.1 * p.y}); // what the file will hold
+            uv[t][k] = io::texcoord_in_gltf({0.5 + 0.1 * p.x, 0.5 - 0.1 * p.y}); // what the file will hold
         }
     io::write_gltf(out, model, uv);
     // [model]
@@ -206,7 +209,7 @@ TEST_CASE("gltf: vertices that are split for normals or materials are one point 
     CHECK(facets(surface).oriented());
     CHECK(model.materials.front() == 0);
     CHECK(model.materials.back() == 1);
-    CHECK(model.texcoords[9] == vec2(0.125, 0.875)); // v upwards
+    CHECK(model.texcoords[9] == vec2(0.125, 0.125)); // as in the file
     CHECK(model.texcoord_cells == model.vertices);
 
     // A vertex for each corner.
@@ -288,7 +291,7 @@ TEST_CASE("gltf: the largest number of a type is no index, as it would end a str
     CHECK(type_with(31) == io::detail::gltf_u16);
 }
 
-TEST_CASE("gltf: the v of glTF runs downwards, and what is read back is what was said")
+TEST_CASE("gltf: what is read back is what was said")
 {
     const auto model = io::parse_gltf(test::textured_model(4).glb());
     std::mt19937 random(3);
@@ -305,26 +308,147 @@ TEST_CASE("gltf: the v of glTF runs downwards, and what is read back is what was
         {
             const vec2 y = io::texcoord_in_gltf(x);
             CHECK(io::texcoord_in_gltf(y) == y);
-            CHECK(std::abs(x.y - y.y) <= 0x1p-24);
+            CHECK(std::abs(x.y - y.y) <= 0x1p-24 * x.y);
         }
     // The numbers in the file.
     const auto p = io::detail::primitives_of(back.source).all[0];
     const auto a = io::detail::accessor_of(back.source, *p.attribute("TEXCOORD_0"));
     const auto bytes = io::detail::all_elements(back.source, a, "");
     const auto v = io::detail::drawn_vertices(back.source, p)[0];
-    CHECK(io::detail::load_number(bytes, a, 2 * v + 1) == doctest::Approx(1 - uv[0][0].y));
+    CHECK(io::detail::load_number(bytes, a, 2 * v + 1) == io::texcoord_in_gltf(uv[0][0]).y);
 }
 
-TEST_CASE("gltf: corners without a texture coordinate take that of their vertex and split nothing")
+TEST_CASE("gltf: triangles without texture coordinates lie in one point, and take none of their neighbours along")
 {
     const auto model = io::parse_gltf(test::skinned_model(5).glb());
     auto uv = chart_uv(model, 1000);
-    const auto whole = uv;
+    auto wanted = uv;
     const double nan = std::nan("");
     uv[3] = {vec2(nan, 0), vec2(0, nan), vec2(nan, nan)};
+    uv[7][2].y = std::numeric_limits<double>::infinity();
+    wanted[3] = wanted[7] = {vec2(0), vec2(0), vec2(0)};
     const test::temporary_folder folder;
     io::write_gltf(folder / "out.glb", model, uv);
-    CHECK(require_kept(model, whole, io::read_gltf(folder / "out.glb"), 0) == 0);
+    CHECK(require_kept(model, wanted, io::read_gltf(folder / "out.glb"), 0) == vertices_wanted(model, wanted));
+}
+
+TEST_CASE("gltf: fractions of unsigned shorts come back as they were")
+{
+    const auto model = io::parse_gltf(test::textured_model(5).glb());
+    auto uv = chart_uv(model, 1000);
+    uv[0][0] = {6554 / 65535.0, 1 / 65535.0};
+    uv[0][1] = {0, 1};
+    uv[0][2] = {13 / 255.0, 2}; // of bytes; beyond the square
+    const test::temporary_folder folder;
+    io::write_gltf(folder / "out.glb", model, uv, 0, io::gltf_numbers::fractions);
+    const auto back = io::read_gltf(folder / "out.glb");
+    const auto at = [&](std::size_t k) { return back.texcoords[static_cast<std::size_t>(back.texcoord_cells[0][k])]; };
+    CHECK(at(0) == uv[0][0]);
+    CHECK(at(1) == uv[0][1]);
+    CHECK(at(2) == vec2(13 / 255.0, 1));
+    for (std::size_t t = 0; t < uv.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK(back.texcoords[static_cast<std::size_t>(back.texcoord_cells[t][k])] ==
+                  io::texcoord_in_gltf(uv[t][k], io::gltf_numbers::fractions));
+    const auto a =
+        back.source.document["accessors"][*io::detail::primitives_of(back.source).all[0].attribute("TEXCOORD_0")];
+    CHECK(a["componentType"] == 5123);
+    CHECK(a["normalized"] == true);
+    io::write_gltf(folder / "floats.glb", back, uv); // and back to floats
+    CHECK(require_kept(back, uv, io::read_gltf(folder / "floats.glb"), 0) == 0);
+}
+
+TEST_CASE("gltf: a vertex of ten thousand texture coordinates becomes ten thousand")
+{
+    gltf_builder b;
+    const std::uint32_t n = 10000; // triangles around vertex 0
+    std::vector<float> positions{0, 0, 0};
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < n; ++i)
+    {
+        const float x = static_cast<float>(i);
+        positions.insert(positions.end(), {x, 1, 0, x, 1, 1});
+        indices.insert(indices.end(), {0, 2 * i + 1, 2 * i + 2});
+    }
+    b.document["meshes"] = gltf_json::array(
+        {{{"primitives", gltf_json::array({{{"attributes", {{"POSITION", b.array(positions, 5126, "VEC3")}}},
+                                            {"indices", b.array(indices, 5125, "SCALAR")}}})}}});
+    const auto model = io::parse_gltf(b.glb());
+    const auto uv = chart_uv(model, 1);
+    const test::temporary_folder folder;
+    io::write_gltf(folder / "out.glb", model, uv);
+    CHECK(require_kept(model, uv, io::read_gltf(folder / "out.glb"), 0) == n - 1);
+}
+
+TEST_CASE("gltf: members keep their order and are found, however many there are")
+{
+    auto builder = test::morphing_model(4);
+    auto& extras = builder.document["extras"];
+    for (int i = 0; i < 3000; ++i) extras["key " + std::to_string(i * 7919 % 3001)] = i;
+    const auto model = io::parse_gltf(builder.glb());
+    const test::temporary_folder folder;
+    io::write_gltf(folder / "out.glb", model, chart_uv(model, 1));
+    const auto back = io::read_gltf(folder / "out.glb");
+    CHECK(back.source.document["extras"].dump() == extras.dump());
+    CHECK(back.source.document["extras"] == extras);
+    auto some = back.source.document["extras"];
+    for (int i = 0; i < 3000; ++i)
+        if (i % 3 != 0) CHECK(some.erase("key " + std::to_string(i * 7919 % 3001)) == 1);
+    CHECK(some.size() == 1000);
+    CHECK(some.erase("key 7919") == 0);
+    CHECK(some["key " + std::to_string(300 * 7919 % 3001)] == 300);
+    for (auto at = some.begin(); some.size() > 5;) at = some.erase(at);
+    CHECK(some.dump() ==
+          "{\"key " + std::to_string(2985 * 7919 % 3001) + "\":2985,\"key " + std::to_string(2988 * 7919 % 3001) +
+              "\":2988,\"key " + std::to_string(2991 * 7919 % 3001) + "\":2991,\"key " +
+              std::to_string(2994 * 7919 % 3001) + "\":2994,\"key " + std::to_string(2997 * 7919 % 3001) + "\":2997}");
+    CHECK(gltf_json::parse(R"({"a": 1, "b": 2, "a": 3})").dump() == R"({"a":3,"b":2})");
+}
+
+TEST_CASE("gltf: further chunks of GLB are kept behind the binary one, and counted in its length")
+{
+    const auto builder = test::textured_model(4);
+    const std::vector<std::string> more{std::string("\4\0\0\0TESTabcd", 12), std::string("\0\0\0\0NULL", 8)};
+    const auto model = io::parse_gltf(io::detail::join_glb(builder.gltf(""), builder.bytes, more, "a test"));
+    CHECK(model.source.more_chunks == more);
+    const test::temporary_folder folder;
+    io::write_gltf(folder / "out.glb", model, chart_uv(model, 3));
+    const std::string bytes = io::read_file(folder / "out.glb");
+    CHECK(io::detail::load_u32(bytes, 8) == bytes.size());
+    CHECK(bytes.ends_with(more[0] + more[1]));
+    CHECK(io::read_gltf(folder / "out.glb").source.more_chunks == more);
+}
+
+TEST_CASE("gltf: an accessor without a bufferView is zeros, and may be longer than the file")
+{
+    auto builder = test::morphing_model(4);
+    const std::size_t n = 60000;
+    builder.document["accessors"].push_back({{"componentType", 5126}, {"count", n}, {"type", "VEC3"}});
+    const std::size_t zeros = builder.document["accessors"].size() - 1;
+    builder.document["meshes"].push_back(
+        {{"primitives", gltf_json::array({{{"attributes", {{"POSITION", zeros}}}, {"mode", 0}}})}});
+    const auto model = io::parse_gltf(builder.glb());
+    const auto all = io::detail::primitives_of(model.source).all;
+    CHECK(all[1].vertices == n);
+    const auto a = io::detail::accessor_of(model.source, zeros);
+    CHECK(io::detail::all_elements(model.source, a, "") == std::string(12 * n, '\0'));
+}
+
+TEST_CASE("gltf: a primitive without attributes has no vertices and is left as it is")
+{
+    auto builder = test::morphing_model(4);
+    builder.document["meshes"][0]["primitives"].push_back({{"mode", 4}, {"extras", 7}});
+    const auto model = io::parse_gltf(builder.glb());
+    const auto p = io::detail::primitives_of(model.source).all[1];
+    CHECK(p.vertices == 0);
+    CHECK(p.drawn == 0);
+    CHECK(model.notes.back() == "1 primitive without triangles was left as it is");
+    const auto uv = chart_uv(model, 2);
+    const test::temporary_folder folder;
+    io::write_gltf(folder / "out.glb", model, uv);
+    const auto back = io::read_gltf(folder / "out.glb");
+    CHECK(require_kept(model, uv, back, 0) == vertices_wanted(model, uv));
+    CHECK(back.source.document["meshes"][0]["primitives"][1] == builder.document["meshes"][0]["primitives"][1]);
 }
 
 TEST_CASE("gltf: strips, fans, copies, and lines on the same vertices keep what they draw")
@@ -389,7 +513,7 @@ TEST_CASE("gltf: quantized coordinates are read, and copied as they are")
                                             {"indices", indices}}})}}});
     const auto model = io::parse_gltf(b.glb());
     CHECK(model.points[0].x == doctest::Approx(32000.0 / 32767));
-    CHECK(model.texcoords[0] == vec2(1, 0));
+    CHECK(model.texcoords[0] == vec2(1, 1));
     round_trip(b);
 }
 
@@ -480,20 +604,41 @@ TEST_CASE("gltf: names of images are those from the folder of the new file; othe
     CHECK(images("out/b.glb") == moved);
 }
 
-TEST_CASE("gltf: a document does not overwrite the data of another one")
+TEST_CASE("gltf: a file beside a document is replaced only as its buffer")
 {
     const auto builder = test::textured_model(4);
     const test::temporary_folder folder;
     folder.write(folder / "a.gltf", builder.gltf("data.bin"));
     folder.write(folder / "data.bin", builder.bytes);
     const auto model = io::read_gltf(folder / "a.gltf");
+    CHECK(model.source.files == io::gltf_companions(folder / "a.gltf"));
+    CHECK(model.source.files.size() == 1);
     const auto uv = chart_uv(model, 1);
-    CHECK_THROWS_WITH_AS(io::write_gltf(folder / "data.gltf", model, uv), doctest::Contains("data.bin"),
-                         parameter_error);
-    CHECK(folder.entries() == 2);
-    io::write_gltf(folder / "a.gltf", model, uv); // its own
+    const auto refuses = [&](const char* name)
+    {
+        const auto before = folder.entries();
+        CHECK_THROWS_WITH_AS(io::write_gltf(folder / name, model, uv), doctest::Contains("is there already"),
+                             io::io_error);
+        CHECK(folder.entries() == before);
+    };
+    refuses("data.gltf"); // the data of the input
+    io::write_gltf(folder / "a.gltf", model, uv);
     CHECK(require_kept(model, uv, io::read_gltf(folder / "a.gltf"), 0) > 0);
     CHECK(io::read_file(folder / "data.bin") == builder.bytes);
+    io::write_gltf(folder / "a.gltf", model, uv); // a.bin is its own now
+    folder.write(folder / "b.bin", "of somebody");
+    refuses("b.gltf");
+    folder.write(folder / "b.gltf", "no document");
+    refuses("b.gltf");
+    folder.write(folder / "b.gltf", builder.gltf("a.bin")); // another one's
+    refuses("b.gltf");
+    std::filesystem::create_symlink("nowhere", folder / "c.bin");
+    refuses("c.gltf");
+    io::write_gltf(folder / "b.glb", model, uv); // has its data in it
+    CHECK(io::read_file(folder / "b.bin") == "of somebody");
+    CHECK(io::gltf_companions(folder / "b.glb").empty());
+    CHECK(io::gltf_companions(folder / "none.gltf").empty());
+    CHECK(io::gltf_companions(folder / ".").empty());
 }
 
 TEST_CASE("gltf: a surface becomes a new model that names the vertices it came from")
@@ -544,4 +689,68 @@ TEST_CASE("gltf: a surface becomes a new model that names the vertices it came f
             CHECK(along > 0.9);
         }
     CHECK_THROWS_AS(io::gltf_of({}, {}), mesh_error);
+}
+
+TEST_CASE("gltf: a new model lies about its middle where floats do not hold it, with doubles in the node")
+{
+    const test::torus_arrays torus(9);
+    const std::vector<std::array<taut::idx, 3>> triangles = [&]
+    {
+        std::vector<std::array<taut::idx, 3>> list;
+        for (std::size_t i = 0; i < torus.indices.size(); i += 3)
+            list.push_back({static_cast<taut::idx>(torus.indices[i]), static_cast<taut::idx>(torus.indices[i + 1]),
+                            static_cast<taut::idx>(torus.indices[i + 2])});
+        return list;
+    }();
+    const auto grown = [&](const vec3& shift, double size)
+    {
+        std::vector<vec3> points;
+        for (std::size_t i = 0; i < torus.positions.size(); i += 3)
+            points.push_back(shift + size * vec3(torus.positions[i], torus.positions[i + 1], torus.positions[i + 2]));
+        return points;
+    };
+    const auto node_of = [](const io::gltf_model& model) { return model.source.document["nodes"][0]; };
+    CHECK(node_of(io::gltf_of(grown(vec3(0), 1), triangles)) == gltf_json{{"mesh", 0}});
+    CHECK(node_of(io::gltf_of(grown(vec3(7, 0, 0), 1), triangles)) == gltf_json{{"mesh", 0}});
+    for (const auto& [shift, size] : {std::pair(vec3(500000.1, 5400000.3, 12), 1.0),
+                                      {vec3(0), 1e60},
+                                      {vec3(0), 1e-80},
+                                      {vec3(1e9, 0, -1e9), 1e-3},
+                                      {vec3(3e307), 2e307},
+                                      {vec3(0), 1e-307}})
+    {
+        CAPTURE(size);
+        const auto points = grown(shift, size);
+        const auto model = io::gltf_of(points, triangles);
+        CHECK(model.notes.empty());
+        const auto node = node_of(model);
+        const auto a = io::detail::accessor_of(model.source, 0);
+        const auto bytes = io::detail::all_elements(model.source, a, "");
+        for (std::size_t v = 0; v < points.size(); ++v)
+            for (int k = 0; k < 3; ++k)
+            {
+                const auto i = static_cast<std::size_t>(k);
+                const double t = node.contains("translation") ? node["translation"][i].get<double>() : 0,
+                             s = node.contains("scale") ? node["scale"][i].get<double>() : 1,
+                             x = io::detail::load_number(bytes, a, 3 * v + i);
+                CHECK(std::abs(x) <= 0x1p62);
+                CHECK(std::abs((t - points[v][k]) / size + s / size * x) <
+                      1e-6 + 1e-15 * std::abs(points[v][k] / size));
+            }
+    }
+}
+
+TEST_CASE("gltf: triangles that floats flatten are told, where no middle saves them")
+{
+    // A speck at each end of a long strip; one of the two can have the floats about 0.
+    const std::vector<vec3> points{{0, 0, 0},     {1e6, 0, 0},          {1e6, 1e6, 0},
+                                   {5e5, 5e5, 0}, {5e5 + 1e-4, 5e5, 0}, {5e5, 5e5 + 1e-4, 0},
+                                   {8e5, 3e5, 0}, {8e5 + 1e-4, 3e5, 0}, {8e5, 3e5 + 1e-4, 0}};
+    const std::vector<std::array<taut::idx, 3>> one{{0, 1, 2}, {3, 4, 5}}, two{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+    const auto saved = io::gltf_of(points, one);
+    CHECK(saved.notes.empty());
+    CHECK(saved.source.document["nodes"][0]["translation"] == gltf_json{5e5, 5e5, 0.0});
+    const auto lost = io::gltf_of(points, two);
+    REQUIRE(lost.notes.size() == 1);
+    CHECK(lost.notes[0].starts_with("1 triangle with an area that single precision"));
 }

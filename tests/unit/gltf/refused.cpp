@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <filesystem>
 #include <functional>
 #include <random>
 #include <string>
@@ -14,7 +15,12 @@ namespace
 {
 
 using namespace taut;
-using document = nlohmann::ordered_json;
+using document = io::gltf_json;
+
+document document_of(const std::string& text)
+{
+    return document::parse(text);
+}
 
 /// Reads and writes whatever the bytes are: that works, or throws an error of ours.
 void feed_gltf(const std::string& bytes)
@@ -67,8 +73,16 @@ TEST_CASE("gltf: what cannot be read is refused by name, with the reason")
     refuses([](document& d) { d["accessors"][0]["byteOffset"] = 1e15; }, "no whole number");
     refuses([](document& d) { d["accessors"][0]["byteOffset"] = 9007199254740992; },
             "goes beyond the end of bufferView");
-    refuses([](document& d) { d["accessors"][2]["count"] = 9007199254740992; },
-            "more elements than the file has bytes");
+    refuses([](document& d) { d["accessors"][2]["count"] = 9007199254740992; }, "attributes of different counts");
+    refuses(
+        [&](document& d)
+        {
+            d["accessors"][2]["count"] = 9007199254740992;
+            primitive(d).erase("targets");
+            primitive(d)["attributes"] = {{"POSITION", 2}};
+        },
+        "more vertices than the bytes of its buffers can stand for");
+    refuses([](document& d) { d["accessors"][2]["count"] = 2; }, "accessors 2.sparse has more elements than its");
     refuses([](document& d) { d["accessors"][2]["sparse"]["count"] = 1 << 30; },
             "accessors 2.sparse.indices goes beyond");
     refuses([](document& d) { d["accessors"][0]["sparse"]["indices"]["byteOffset"] = 1; }, "goes beyond");
@@ -86,6 +100,9 @@ TEST_CASE("gltf: what cannot be read is refused by name, with the reason")
                          doctest::Contains("x.gltf: no JSON of glTF: parse error"), io::io_error);
     CHECK_THROWS_WITH_AS(io::parse_gltf(std::string(100000, '['), "x.gltf"), doctest::Contains("nested too deep"),
                          io::io_error);
+    auto quoted = test::morphing_model(4);
+    quoted.document["extras"] = {std::string(300, '['), "\\\"" + std::string(300, '{')};
+    CHECK(!io::parse_gltf(quoted.glb()).triangles.empty());
     CHECK_THROWS_AS(io::parse_gltf(""), io::io_error);
 }
 
@@ -109,6 +126,7 @@ TEST_CASE("gltf: buffers that are missing, too short, far away or no base64 are 
     };
     refuses("", "buffers 0 has no uri");
     refuses("a.bin", "a.bin, which is no file");
+    refuses("a%20b.bin", "a b.bin, which is no file");
     refuses(".", "which is no file");
     refuses("https://example.org/a.bin", "fetch it to a file beside the document");
     refuses("data:,abc", "a data URI that is no base64");
@@ -116,6 +134,149 @@ TEST_CASE("gltf: buffers that are missing, too short, far away or no base64 are 
     refuses("data:application/octet-stream;base64,AAAA", "buffers 0 has 3 bytes, not the ");
     folder.write(folder / "a.bin", builder.bytes.substr(1));
     refuses("a.bin", "that the document says");
+}
+
+TEST_CASE("gltf: no buffer is read from outside of the folder of the document")
+{
+    namespace fs = std::filesystem;
+    const auto builder = test::textured_model(4);
+    const test::temporary_folder folder;
+    fs::create_directories(folder / "model/sub");
+    for (const char* const name : {"secret.bin", "model/t.bin", "model/sub/t.bin"})
+        folder.write(folder / name, builder.bytes);
+    fs::create_symlink("../secret.bin", folder / "model/link.bin");
+    fs::create_directory_symlink("..", folder / "model/up");
+    fs::create_symlink("t.bin", folder / "model/inside.bin");
+    const auto document = folder / "model/x.gltf";
+    const auto refuses = [&](const std::string& uri, const char* what)
+    {
+        folder.write(document, builder.gltf(uri));
+        CHECK_THROWS_WITH_AS(io::read_gltf(document), doctest::Contains(what), io::io_error);
+        CHECK(io::gltf_companions(document).empty());
+    };
+    const std::string secret = fs::absolute(folder / "secret.bin").string();
+    for (const std::string& uri :
+         {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"), std::string("sub/../../secret.bin"),
+          std::string("sub/..%2Ft.bin"), secret, "%2F" + secret.substr(1), std::string("//secret.bin")})
+        refuses(uri, "outside of the folder of the document; put the file itself beside the document");
+    for (const char* const uri : {"link.bin", "up/secret.bin"}) refuses(uri, "a link out of the folder");
+    for (const char* const uri : {"..\\secret.bin", "..%5csecret.bin", "t.bin%00"}) refuses(uri, "no path of a URI");
+    refuses("file:///etc/passwd", "fetch it");
+    for (const char* const uri : {"t.bin", "sub/t.bin", "./t.bin", "inside.bin"})
+    {
+        folder.write(document, builder.gltf(uri));
+        CHECK(io::read_gltf(document).source.files.size() == 1);
+        CHECK(io::gltf_companions(document).size() == 1);
+    }
+    // Buffers that no bufferView names are not read; nor is a file twice.
+    auto d = document_of(builder.gltf("t.bin"));
+    d["buffers"].push_back({{"uri", "../secret.bin"}, {"byteLength", 8}});
+    folder.write(document, d.dump());
+    const auto model = io::read_gltf(document);
+    CHECK(model.source.files.size() == 1);
+    const std::vector<std::array<vec2, 3>> uv(model.triangles.size());
+    io::write_gltf(folder / "out.gltf", model, uv);
+    CHECK(io::read_gltf(folder / "out.gltf").source.buffers.size() == 1);
+    d["buffers"][1]["uri"] = "inside.bin";
+    d["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 8}});
+    folder.write(document, d.dump());
+    CHECK_THROWS_WITH_AS(io::read_gltf(document), doctest::Contains("join the two"), io::io_error);
+}
+
+TEST_CASE("gltf: what a file asks for is bounded by its bytes")
+{
+    const test::torus_arrays torus(40);
+    const auto refuses = [](test::gltf_builder& b, const char* what)
+    { CHECK_THROWS_WITH_AS(io::parse_gltf(b.glb(), "x.glb"), doctest::Contains(what), io::io_error); };
+    const auto primitive = [](std::size_t positions, std::size_t indices) {
+        return document{{"attributes", {{"POSITION", positions}}}, {"indices", indices}};
+    };
+    const auto base = [&]
+    {
+        test::gltf_builder b;
+        b.array(torus.positions, 5126, "VEC3", torus.bounds());
+        b.array(torus.indices, 5125, "SCALAR");
+        return b;
+    };
+    SUBCASE("elements that are nowhere")
+    {
+        test::gltf_builder b = base();
+        b.document["meshes"] = document::array({{{"primitives", document::array()}}});
+        for (std::size_t i = 0; i < 100; ++i)
+        {
+            b.document["accessors"].push_back({{"componentType", 5126}, {"count", 65535}, {"type", "VEC3"}});
+            b.document["meshes"][0]["primitives"].push_back(primitive(2 + i, 1));
+        }
+        refuses(b, "more vertices than the bytes");
+    }
+    SUBCASE("accessors of the same positions")
+    {
+        test::gltf_builder b = base();
+        b.document["meshes"] = document::array({{{"primitives", document::array()}}});
+        for (std::size_t i = 0; i < 1000; ++i)
+        {
+            b.document["accessors"].push_back(document(b.document["accessors"][0]));
+            b.document["meshes"][0]["primitives"].push_back(primitive(2 + i, 1));
+        }
+        refuses(b, "than the bytes");
+    }
+    SUBCASE("accessors of the same indices, and texture coordinates")
+    {
+        for (const char* const list : {"indices", "TEXCOORD_0", "points"})
+        {
+            test::gltf_builder b = base();
+            b.array(std::vector<float>(2 * torus.vertices), 5126, "VEC2");
+            b.array(std::vector<std::uint8_t>{0, 1, 2}, 5121, "SCALAR");
+            b.document["meshes"] = document::array({{{"primitives", document::array()}}});
+            const std::string name = list;
+            for (std::size_t i = 0; i < 1000; ++i)
+            {
+                b.document["accessors"].push_back(document(b.document["accessors"][name == "TEXCOORD_0" ? 2
+                                                                                   : name == "points"   ? 1
+                                                                                                        : 1]));
+                auto p = primitive(0, name == "TEXCOORD_0" ? 3 : 4 + i);
+                if (name == "TEXCOORD_0") b.document["accessors"].push_back(document(b.document["accessors"][3]));
+                if (name == "TEXCOORD_0") p["indices"] = 5 + 2 * i;
+                if (name == "TEXCOORD_0") p["attributes"][name] = 4 + 2 * i;
+                if (name == "points") p["mode"] = 0;
+                b.document["meshes"][0]["primitives"].push_back(p);
+            }
+            refuses(b, "than the bytes");
+        }
+    }
+    SUBCASE("attributes that are split")
+    {
+        test::gltf_builder b = base();
+        auto p = primitive(0, 1);
+        for (std::size_t i = 0; i < 500; ++i)
+        {
+            b.document["accessors"].push_back(document(b.document["accessors"][0]));
+            p["attributes"]["_A" + std::to_string(i)] = 2 + i;
+        }
+        b.document["meshes"] = document::array({{{"primitives", document::array({p})}}});
+        const auto model = io::parse_gltf(b.glb());
+        std::vector<std::array<vec2, 3>> uv(model.triangles.size());
+        io::gltf_files("out.glb", model, uv);
+        for (std::size_t t = 0; t < uv.size(); ++t) uv[t][0].x = static_cast<double>(t);
+        CHECK_THROWS_WITH_AS(io::gltf_files("out.glb", model, uv), doctest::Contains("more new bytes than"),
+                             io::io_error);
+    }
+}
+
+TEST_CASE("gltf: many buffers, bufferViews and members take as long as they are many")
+{
+    auto builder = test::morphing_model(5);
+    auto d = document_of(builder.with_data_uri());
+    for (int i = 0; i < 20000; ++i)
+    {
+        d["buffers"].push_back({{"byteLength", 0}, {"uri", "data:;base64,"}});
+        d["bufferViews"].push_back({{"buffer", i + 1}, {"byteLength", 0}});
+        d["member " + std::to_string(i)] = i;
+    }
+    for (int i = 0; i < 200000; ++i) d["nodes"].push_back({{"mesh", 0}});
+    const auto model = io::parse_gltf(d.dump());
+    const std::vector<std::array<vec2, 3>> uv(model.triangles.size());
+    CHECK(!io::gltf_files("out.glb", model, uv).empty());
 }
 
 TEST_CASE("gltf: GLB whose lengths lie is refused with the byte")

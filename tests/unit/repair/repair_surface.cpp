@@ -118,6 +118,32 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
 
+TEST_CASE("repair: nothing of one body is a copy of another one's, or sewn to it")
+{
+    raw_surface three;
+    for (const double shift : {0.0, 0.0, 1.0}) // the second at the place of the first, the third beside it
+    {
+        const auto first = static_cast<idx>(three.points.size());
+        for (const auto& p : {vec3(0, 0, 0), vec3(1, 0, 0), vec3(1, 1, 0), vec3(0, 1, 0)})
+            three.points.push_back(p + vec3(shift, 0, 0));
+        three.cells.push_back({first, first + 1, first + 2});
+        three.cells.push_back({first, first + 2, first + 3});
+    }
+    const auto joined = repair(three);
+    CHECK(joined.surface.cell_count() == 4);
+    CHECK(joined.surface.vertex_count() == 6);
+    const ids apart{0, 0, 0, 0, 7, 7, 7, 7, -1, -1, -1, -1}, pair{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0};
+    for (const double tolerance : {0.0, 1e-3})
+    {
+        const auto r = repair(three, {.weld_tolerance = tolerance, .bodies = apart});
+        CHECK(r.findings.empty());
+        CHECK(r.surface.cells() == three.cells);
+        CHECK(repair(three, {.weld_tolerance = tolerance, .bodies = pair}).surface.vertex_count() == 10);
+    }
+    CHECK_THROWS_WITH_AS(repair(three, {.bodies = std::span(pair).first(5)}), doctest::Contains("bodies: 5 for 12"),
+                         parameter_error);
+}
+
 TEST_CASE("repair: a surface without faults stays as it is")
 {
     for (const auto& m : {test::grid(4, 3), test::torus(8, false), test::sphere(2), test::annulus(5)})

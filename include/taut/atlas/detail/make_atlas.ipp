@@ -57,8 +57,6 @@ public:
         report_.worst = 0;
         charts_.emplace(std::move(made.charts));
         uv_ = std::move(made.uv);
-        if (params_.stored != nullptr)
-            for (vec2& x : uv_) x = params_.stored(x);
         layout_ = std::move(made.layout);
         layout_.utilization += pins.area() / params_.packing.tiles;
         seam_ = seams_of(*charts_, facets_);
@@ -87,9 +85,8 @@ private:
         for (std::size_t k = 0; k < layout_.places.size(); ++k) // rows of ten tiles
         {
             const idx tile = layout_.places[k].tile, row = tile / 10;
-            if (row == 0) continue;
             for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
-                uv_[v] += vec2(-10 * row, row);
+                uv_[v] += params_.origin + vec2(-10 * row, row);
         }
         if (params_.stored != nullptr)
             for (vec2& x : uv_) x = params_.stored(x);

@@ -145,7 +145,7 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    static vec2 corner(idx tile) { return {tile % 10, tile / 10}; }
+    vec2 corner(idx tile) const { return params_.origin + vec2(tile % 10, tile / 10); }
 
     surface_part part(bool pinned, std::span<const char> seam) const
     {
@@ -160,7 +160,10 @@ private:
         uv_.resize(pinned_.charts.surface.points().size());
         for (std::size_t i = 0; i < pinned_.triangles.size(); ++i)
             for (std::size_t k = 0; k < 3; ++k)
-                uv_[u(pinned_.charts.surface.cells()[i][k])] = params_.initial[u(pinned_.triangles[i])][k];
+            {
+                const vec2& x = params_.initial[u(pinned_.triangles[i])][k];
+                uv_[u(pinned_.charts.surface.cells()[i][k])] = params_.stored != nullptr ? params_.stored(x) : x;
+            }
         for (idx k = 0; k < pinned_.charts.charts(); ++k)
         {
             vec2 low(std::numeric_limits<double>::infinity()), high = -low;
@@ -170,10 +173,10 @@ private:
                 low = glm::min(low, uv_[v]);
                 high = glm::max(high, uv_[v]);
             }
-            const vec2 tile = glm::floor(low / 2.0 + high / 2.0);
+            const vec2 square = glm::floor(low / 2.0 + high / 2.0), tile = square - params_.origin;
             const bool inside = tile.x >= 0 && tile.x < 10 && tile.y >= 0 && tile.y < 100 &&
-                                10 * tile.y + tile.x < params_.packing.tiles && low.x >= tile.x && low.y >= tile.y &&
-                                high.x <= tile.x + 1 && high.y <= tile.y + 1;
+                                10 * tile.y + tile.x < params_.packing.tiles && low.x >= square.x &&
+                                low.y >= square.y && high.x <= square.x + 1 && high.y <= square.y + 1;
             if (!inside) refuse(k, "leaves the square");
             tiles_.push_back(static_cast<idx>(10 * tile.y + tile.x));
         }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,6 +30,16 @@ std::string bytes_of(const Values& values)
     for (std::size_t i = 0; i < values.size(); ++i)
         store(bytes.data() + i * sizeof(T), static_cast<T>(values[i]), std::endian::little);
     return bytes;
+}
+
+/// type: floats, or unsigned shorts as fractions
+inline std::string texcoord_bytes(const std::vector<gltf_texcoord>& uv, gltf_component type)
+{
+    std::vector<double> numbers;
+    numbers.reserve(2 * uv.size());
+    for (const gltf_texcoord& x : uv)
+        for (const double t : x) numbers.push_back(type == gltf_f32 ? t : std::round(t * 65535));
+    return type == gltf_f32 ? bytes_of<float>(numbers) : bytes_of<std::uint16_t>(numbers);
 }
 
 template <class Values>
@@ -74,17 +86,18 @@ inline void grow_sparse(gltf_edit& edit, const gltf_source& source, gltf_json& a
 {
     const std::string old_indices = packed(source, old.sparse->indices, old.sparse->count);
     std::string values = packed(source, old.sparse->values, old.sparse->count);
-    std::vector<std::size_t> indices, slot(old.count, gltf_edit::nothing);
+    std::vector<std::size_t> indices;
+    std::map<std::size_t, std::size_t> slot; // of each index, the last where it stands twice
     for (std::size_t k = 0; k < old.sparse->count; ++k)
     {
         indices.push_back(load_index(old_indices, old.sparse->index_type, k));
-        if (indices[k] < slot.size()) slot[indices[k]] = k;
+        slot[indices[k]] = k;
     }
     for (std::size_t i = 0; i < origins.size(); ++i)
-        if (const std::size_t k = slot[origins[i]]; k != gltf_edit::nothing)
+        if (const auto at = slot.find(origins[i]); at != slot.end())
         {
             indices.push_back(old.count + i);
-            values += values.substr(k * old.size, old.size);
+            values += values.substr(at->second * old.size, old.size);
         }
     if (indices.size() == old.sparse->count) return;
     const gltf_component type = type_for(indices.back(), old.sparse->index_type);
@@ -102,6 +115,8 @@ inline gltf_json grown_accessor(gltf_edit& edit, const gltf_source& source, std:
                                 std::span<const std::uint32_t> origins)
 {
     const gltf_accessor old = accessor_of(source, number);
+    edit.spend(sizeof(float) * origins.size() + (old.base ? old.count * old.size : 0) +
+               (old.sparse ? old.sparse->count * (old.size + sizeof(float)) : 0));
     gltf_json a = source.document["accessors"][number];
     if (old.base)
     {
@@ -115,16 +130,14 @@ inline gltf_json grown_accessor(gltf_edit& edit, const gltf_source& source, std:
 
 /// An accessor of texture coordinates. old: one whose place it takes, or nothing
 inline gltf_json texcoord_accessor(gltf_edit& edit, const gltf_source& source, std::size_t old,
-                                   const std::vector<gltf_texcoord>& uv)
+                                   const std::vector<gltf_texcoord>& uv, gltf_component type)
 {
-    std::vector<float> numbers;
-    numbers.reserve(2 * uv.size());
-    for (const gltf_texcoord& x : uv) numbers.insert(numbers.end(), x.begin(), x.end());
     gltf_json a = accessor_like(source, old);
-    a["bufferView"] = edit.add_view(bytes_of<float>(numbers), {{"target", gltf_vertex_target}});
-    a["componentType"] = gltf_f32;
+    a["bufferView"] = edit.add_view(texcoord_bytes(uv, type), {{"target", gltf_vertex_target}});
+    a["componentType"] = type;
     a["count"] = uv.size();
     a["type"] = "VEC2";
+    if (type != gltf_f32) a["normalized"] = true;
     return a;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -109,8 +111,31 @@ inline std::string join_glb(std::string json, std::string_view bin, const std::v
     return bytes;
 }
 
+/// The file of a buffer, which must lie in the folder of the document: a stranger's model must not lay open others.
+/// Throws io_error.
+inline std::filesystem::path file_of_buffer(const gltf_source& source, const gltf_object& buffer,
+                                            const std::string& uri)
+{
+    namespace fs = std::filesystem;
+    const auto refuse = [&](const char* why)
+    { buffer.fail("lies in " + uri.substr(0, 80) + ", " + why + "; put the file itself beside the document"); };
+    if (has_scheme(uri)) buffer.fail("lies at " + uri.substr(0, 80) + "; fetch it to a file beside the document");
+    const std::string name = percent_decoded(uri);
+    const fs::path relative = name, folder = fs::path(source.path).parent_path(), file = folder / relative;
+    if (name.find('\\') != name.npos || name.find('\0') != name.npos) refuse("which is no path of a URI");
+    if (relative.has_root_path() || std::find(relative.begin(), relative.end(), "..") != relative.end())
+        refuse("outside of the folder of the document");
+    std::error_code unknown;
+    if (!fs::is_regular_file(file, unknown)) buffer.fail("lies in " + file.string() + ", which is no file");
+    const fs::path real = fs::canonical(file, unknown), root = fs::canonical(folder.empty() ? "." : folder, unknown);
+    if (real.empty() || root.empty() ||
+        std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
+        refuse("a link out of the folder of the document");
+    return real;
+}
+
 /// The bytes of buffer i, of which the document says what it needs.
-inline std::string load_buffer(const gltf_source& source, std::size_t i, std::optional<std::string_view> bin)
+inline std::string load_buffer(gltf_source& source, std::size_t i, std::optional<std::string_view> bin)
 {
     const gltf_object buffer = item_of(source, "buffers", i);
     const std::size_t length = buffer.whole("byteLength");
@@ -123,22 +148,19 @@ inline std::string load_buffer(const gltf_source& source, std::size_t i, std::op
     else
     {
         const std::string& uri = buffer.text("uri");
-        if (uri.starts_with("data:"))
+        if (is_data_uri(uri))
         {
             const auto comma = uri.find(";base64,");
             auto decoded = comma == uri.npos ? std::nullopt : from_base64(std::string_view(uri).substr(comma + 8));
             if (!decoded) buffer.fail("has a data URI that is no base64");
             bytes = std::move(*decoded);
         }
-        else if (has_scheme(uri))
-            buffer.fail("lies at " + uri.substr(0, 80) + "; fetch it to a file beside the document");
         else
         {
-            const auto file = std::filesystem::path(source.path).parent_path() / percent_decoded(uri);
-            std::error_code unknown;
-            if (!std::filesystem::is_regular_file(file, unknown))
-                buffer.fail("lies in " + file.string() + ", which is no file");
+            auto file = file_of_buffer(source, buffer, uri);
             bytes = read_file(file);
+            if (!source.files.insert(std::move(file)).second)
+                buffer.fail("lies in " + uri.substr(0, 80) + ", as another one does; join the two");
         }
     }
     if (bytes.size() < length)
@@ -170,13 +192,41 @@ inline gltf_source gltf_source_of(std::string_view bytes, const std::string& pat
     require_uncompressed(source);
     const gltf_json& buffers = root_of(source).items("buffers");
     source.data_uris = !buffers.empty();
+    std::vector<char> named(buffers.size(), 0);
+    for (std::size_t i = 0; i < root_of(source).items("bufferViews").size(); ++i)
+        if (const std::size_t buffer = item_of(source, "bufferViews", i).whole("buffer"); buffer < named.size())
+            named[buffer] = 1;
     for (std::size_t i = 0; i < buffers.size(); ++i)
     {
-        source.buffers.push_back(load_buffer(source, i, chunks.bin));
+        source.buffers.push_back(named[i] ? load_buffer(source, i, chunks.bin) : std::string());
         const gltf_json* const uri = item_of(source, "buffers", i).find("uri");
-        source.data_uris = source.data_uris && uri && uri->get_ref<const std::string&>().starts_with("data:");
+        source.data_uris =
+            source.data_uris && uri && uri->is_string() && is_data_uri(uri->get_ref<const std::string&>());
     }
     return source;
+}
+
+/// The files that hold the buffers of a document, which is read but for them; none where they cannot be told.
+inline std::set<std::filesystem::path> files_of_buffers(const std::filesystem::path& path)
+{
+    std::set<std::filesystem::path> files;
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(path, unknown)) return files; // a pipe would be waited for
+    try
+    {
+        const std::string bytes = read_file(path);
+        const glb_chunks chunks = is_glb(bytes) ? split_glb(bytes, path.string()) : glb_chunks{bytes};
+        const gltf_source source{path.string(), parse_gltf_json(chunks.json, path.string())};
+        for (std::size_t i = 0; i < root_of(source).items("buffers").size(); ++i)
+            if (const gltf_object buffer = item_of(source, "buffers", i); buffer.find("uri"))
+                if (const std::string& uri = buffer.text("uri"); !is_data_uri(uri))
+                    files.insert(file_of_buffer(source, buffer, uri));
+    }
+    catch (const io_error&)
+    {
+        // It is no document, or not one that can be read: whatever lies beside it is not known to be its own.
+    }
+    return files;
 }
 
 } // namespace taut::io::detail

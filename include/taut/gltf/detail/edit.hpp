@@ -64,17 +64,22 @@ public:
           document_(source.document),
           old_views_(root_of(source).items("bufferViews").size()),
           uses_(other_uses(source)),
-          named_before_(views_named())
+          named_before_(views_named()),
+          made_(source, 64)
     {
     }
 
     gltf_json& document() { return document_; }
     std::vector<std::size_t>& uses() { return uses_; } ///< of each accessor; primitives are to be counted by the caller
 
+    /// Counts bytes that are looked at or made. Throws io_error where they are too many for the bytes there are.
+    void spend(std::size_t bytes) { made_.take(bytes, "new bytes"); }
+
     /// A new bufferView. like: an old one whose members it takes over, but for those that say where it lies.
     std::size_t add_view(std::string bytes, const gltf_json& members, const std::size_t* like = nullptr)
     {
         gltf_json view = like ? source_.document["bufferViews"][*like] : gltf_json::object();
+        spend(bytes.size() + (like ? view.dump().size() : 0));
         view["buffer"] = 0;
         for (const char* const key : {"byteOffset", "byteStride"}) view.erase(key);
         view["byteLength"] = bytes.size();
@@ -94,6 +99,7 @@ public:
             accessors[old] = std::move(accessor);
         else
         {
+            spend(accessor.dump().size());
             accessors.push_back(std::move(accessor));
             if (old < uses_.size()) uses_[old] -= refs.size();
         }
@@ -161,12 +167,15 @@ private:
     std::string old_bytes(const std::vector<char>& unused)
     {
         std::string bytes;
+        std::vector<std::vector<std::size_t>> views(source_.buffers.size()); // of each
+        for (std::size_t v = 0; v < old_views_; ++v)
+            if (const std::size_t b = view(v).whole("buffer"); b < views.size()) views[b].push_back(v);
         for (std::size_t b = 0; b < source_.buffers.size(); ++b)
         {
             align(bytes);
             const std::size_t base = bytes.size();
             const std::string& old = source_.buffers[b];
-            std::vector<range> gone = unused_ranges(b, unused);
+            std::vector<range> gone = unused_ranges(views[b], unused);
             std::vector<std::size_t> removed{0}; // before each of them
             std::size_t at = 0;
             for (const range& r : gone)
@@ -176,9 +185,9 @@ private:
                 removed.push_back(removed.back() + r.end - r.begin);
             }
             bytes.append(old, at);
-            for (std::size_t v = 0; v < old_views_; ++v)
+            for (const std::size_t v : views[b])
             {
-                if (unused[v] || view(v).whole("buffer") != b) continue;
+                if (unused[v]) continue;
                 const std::size_t offset = view(v).whole("byteOffset", 0);
                 const auto before = std::upper_bound(gone.begin(), gone.end(), offset,
                                                      [](std::size_t x, const range& r) { return x < r.begin; });
@@ -191,8 +200,8 @@ private:
         return bytes;
     }
 
-    /// What of buffer b lies in unused views and in no other, in multiples of 8 bytes.
-    std::vector<range> unused_ranges(std::size_t b, const std::vector<char>& unused) const
+    /// What of a buffer lies in unused ones of its views and in no other, in multiples of 8 bytes.
+    std::vector<range> unused_ranges(const std::vector<std::size_t>& views, const std::vector<char>& unused) const
     {
         struct step
         {
@@ -200,9 +209,8 @@ private:
             int kept, gone; // how many more begin here than end
         };
         std::vector<step> steps;
-        for (std::size_t v = 0; v < old_views_; ++v)
+        for (const std::size_t v : views)
         {
-            if (view(v).whole("buffer") != b) continue;
             const std::size_t begin = view(v).whole("byteOffset", 0), end = begin + view(v).whole("byteLength");
             const int gone = unused[v] ? 1 : 0;
             steps.push_back({begin, 1 - gone, gone});
@@ -244,6 +252,7 @@ private:
     std::vector<std::size_t> uses_;
     std::vector<char> named_before_;
     std::vector<new_view> views_;
+    gltf_allowance made_;
 };
 
 } // namespace taut::io::detail

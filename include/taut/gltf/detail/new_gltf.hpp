@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,16 +16,11 @@
 
 #include <taut/core/types.hpp>
 #include <taut/gltf/detail/arrays.hpp>
+#include <taut/gltf/detail/placement.hpp>
 #include <taut/mesh/mesh_error.hpp>
 
 namespace taut::io::detail
 {
-
-inline bool is_float_point(const vec3& p)
-{
-    constexpr double most = std::numeric_limits<float>::max();
-    return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most; // false for NaN
-}
 
 /// The normals of vertices: those of their triangles weighted by area, of length 1; z where there is none.
 inline std::vector<vec3> area_normals(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
@@ -46,9 +40,10 @@ inline std::vector<vec3> area_normals(std::span<const vec3> points, std::span<co
     return normals;
 }
 
-/// A document of one mesh without texture coordinates.
-/// triangles: whose vertices are all there and finite as floats
-inline gltf_source new_gltf_source(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
+/// A document of one mesh without texture coordinates, and of one node.
+/// triangles: whose vertices are all there and finite
+inline gltf_source new_gltf_source(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
+                                   const gltf_placement& placement)
 {
     gltf_source source{{}, gltf_json::object()};
     gltf_json &document = source.document, views = gltf_json::array(), accessors = gltf_json::array();
@@ -68,10 +63,17 @@ inline gltf_source new_gltf_source(std::span<const vec3> points, std::span<const
         std::vector<float> all;
         all.reserve(3 * list.size());
         for (const vec3& p : list)
-            for (int k = 0; k < 3; ++k) all.push_back(is_float_point(p) ? static_cast<float>(p[k]) : 0.0f);
+            for (int k = 0; k < 3; ++k)
+            {
+                const auto x = static_cast<float>(in_single(p[k]));
+                all.push_back(std::isfinite(x) ? x : 0); // nothing draws what is not finite
+            }
         return all;
     };
-    const auto positions = numbers(points);
+    std::vector<vec3> placed;
+    placed.reserve(points.size());
+    for (const vec3& p : points) placed.push_back(placement.of_mesh(p));
+    const auto positions = numbers(placed);
     add(bytes_of<float>(positions), gltf_f32, "VEC3", points.size(), gltf_vertex_target);
     std::array<float, 3> low, high;
     for (std::size_t k = 0; k < 3; ++k)
@@ -85,7 +87,7 @@ inline gltf_source new_gltf_source(std::span<const vec3> points, std::span<const
     }
     accessors[0]["min"] = low;
     accessors[0]["max"] = high;
-    add(bytes_of<float>(numbers(area_normals(points, triangles))), gltf_f32, "VEC3", points.size(), gltf_vertex_target);
+    add(bytes_of<float>(numbers(area_normals(placed, triangles))), gltf_f32, "VEC3", points.size(), gltf_vertex_target);
     std::vector<std::uint32_t> drawn, sources(points.size());
     for (std::size_t v = 0; v < sources.size(); ++v) sources[v] = static_cast<std::uint32_t>(v);
     for (const auto& t : triangles) drawn.insert(drawn.end(), t.begin(), t.end());
@@ -96,7 +98,11 @@ inline gltf_source new_gltf_source(std::span<const vec3> points, std::span<const
     document["asset"] = {{"version", "2.0"}, {"generator", "taut"}};
     document["scene"] = 0;
     document["scenes"] = gltf_json::array({{{"nodes", {0}}}});
-    document["nodes"] = gltf_json::array({{{"mesh", 0}}});
+    gltf_json node = {{"mesh", 0}};
+    const auto three = [](const vec3& x) { return std::array<double, 3>{x.x, x.y, x.z}; };
+    if (placement.translation != vec3(0.0)) node["translation"] = three(placement.translation);
+    if (placement.scale != 1) node["scale"] = three(vec3(placement.scale));
+    document["nodes"] = gltf_json::array({std::move(node)});
     document["meshes"] = gltf_json::array(
         {{{"primitives", gltf_json::array({{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"_SOURCE_VERTEX", 2}}},
                                             {"indices", 3}}})}}});

@@ -111,6 +111,7 @@ inline gltf_primitive primitive_of(const gltf_source& source, std::size_t mesh, 
     const gltf_accessor a = accessor_of(source, *p.indices);
     if (a.type != "SCALAR" || (a.component != gltf_u8 && a.component != gltf_u16 && a.component != gltf_u32))
         object.fail("has indices that are no unsigned whole numbers");
+    if (!a.base) object.fail("has indices without a bufferView");
     p.drawn = a.count;
     return p;
 }
@@ -125,9 +126,11 @@ void for_each_attribute(Primitive& p, F f)
 }
 
 /// Joins the primitives that have accessors in common, and numbers what they make in the order of their first ones.
-inline void make_pools(gltf_primitives& primitives)
+/// Throws io_error.
+inline void make_pools(const gltf_source& source, gltf_primitives& primitives)
 {
     auto& all = primitives.all;
+    gltf_allowance vertices(source, 1);
     disjoint_sets sets(static_cast<idx>(all.size()));
     std::map<std::size_t, std::size_t> first_use; // of an accessor
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -142,7 +145,9 @@ inline void make_pools(gltf_primitives& primitives)
     {
         const auto root = static_cast<std::size_t>(sets.find(static_cast<idx>(i)));
         all[i].pool = root == i ? primitives.first_vertex.size() - 1 : all[root].pool;
-        if (root == i) primitives.first_vertex.push_back(primitives.first_vertex.back() + all[i].vertices);
+        if (root != i) continue;
+        vertices.take(all[i].vertices, "vertices");
+        primitives.first_vertex.push_back(primitives.first_vertex.back() + all[i].vertices);
     }
 }
 
@@ -154,22 +159,27 @@ inline gltf_primitives primitives_of(const gltf_source& source)
     for (std::size_t m = 0; m < meshes.size(); ++m)
         for (std::size_t p = 0; p < item_of(source, "meshes", m).items("primitives").size(); ++p)
             result.all.push_back(primitive_of(source, m, p));
-    make_pools(result);
+    make_pools(source, result);
 
     using key = std::tuple<std::size_t, std::size_t, std::size_t>;
     std::map<key, std::size_t> known; // by positions, indices and mode
     constexpr std::size_t limit = std::numeric_limits<idx>::max();
+    gltf_allowance corners(source, 4); // strips have three an index, which may be a byte
     for (std::size_t i = 0; i < result.all.size(); ++i)
     {
         gltf_primitive& p = result.all[i];
         const std::size_t* const position = p.attribute("POSITION");
-        if (!p.has_triangles() || !position) continue;
-        const auto [same, is_new] = known.emplace(key{*position, p.indices.value_or(SIZE_MAX), p.mode}, i);
-        if (!is_new)
-            p.copy_of = same->second;
-        else
-            p.count = p.mode == gltf_primitive::triangles ? p.drawn / 3 : p.drawn < 3 ? 0 : p.drawn - 2;
+        const bool is_mapped = p.has_triangles() && position;
+        if (is_mapped)
+            if (const auto [same, is_new] = known.emplace(key{*position, p.indices.value_or(SIZE_MAX), p.mode}, i);
+                !is_new)
+                p.copy_of = same->second;
         p.first = result.triangles;
+        if (p.copy_of) continue;
+        corners.take(p.drawn, "corners");
+        if (!is_mapped) continue;
+        p.count = p.mode == gltf_primitive::triangles ? p.drawn / 3 : p.drawn < 3 ? 0 : p.drawn - 2;
+        if (p.mode != gltf_primitive::triangles) corners.take(2 * p.count, "corners");
         result.triangles += p.count;
         if (result.triangles > limit / 3) break;
     }
@@ -188,7 +198,6 @@ inline std::vector<std::uint32_t> drawn_vertices(const gltf_source& source, cons
         return drawn;
     }
     const gltf_accessor a = accessor_of(source, *p.indices);
-    if (!a.base) throw io_error(source.path, p.name + " has indices without a bufferView");
     const std::string bytes = all_elements(source, a, "accessor " + std::to_string(*p.indices));
     for (std::size_t i = 0; i < drawn.size(); ++i)
     {

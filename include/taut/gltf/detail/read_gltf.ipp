@@ -28,7 +28,9 @@ namespace detail
 class gltf_reader
 {
 public:
-    gltf_reader(gltf_model& model, std::string set) : model_(model), set_(std::move(set)) {}
+    gltf_reader(gltf_model& model, std::string set) : model_(model), set_(std::move(set)), allowance_(model.source, 2)
+    {
+    }
 
     void read()
     {
@@ -63,6 +65,7 @@ private:
         if (is_new)
         {
             at->second.accessor = accessor_of(model_.source, i);
+            allowance_.take(at->second.accessor.count, "vertices");
             at->second.bytes = all_elements(model_.source, at->second.accessor, "accessor " + std::to_string(i));
         }
         return at->second;
@@ -118,7 +121,7 @@ private:
             throw io_error(model_.source.path, p.name + " has a " + set_ + " that is no VEC2");
         for (std::size_t v = 0; v < list.accessor.count; ++v)
             model_.texcoords.emplace_back(load_number(list.bytes, list.accessor, 2 * v),
-                                          1 - load_number(list.bytes, list.accessor, 2 * v + 1));
+                                          load_number(list.bytes, list.accessor, 2 * v + 1));
         return at->second;
     }
 
@@ -156,6 +159,7 @@ private:
     std::map<std::size_t, element_list> elements_; // of accessors
     std::map<std::size_t, idx> first_texcoord_;    // of accessors
     point_numbers welded_;                         // points of the mesh
+    gltf_allowance allowance_;                     // of elements
     std::size_t corners_ = 0, strips_ = 0, others_ = 0, copies_ = 0, incomplete_ = 0;
 };
 

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include <taut/gltf/detail/json.hpp>
 #include <taut/io/io_error.hpp>
 
 namespace taut::io
@@ -19,17 +20,16 @@ namespace taut::io
 /// A glTF file as it is, for those who write it again.
 struct gltf_source
 {
-    std::string path;                          ///< of the file, named in errors; URIs are relative to its folder
-    nlohmann::ordered_json document;           ///< all of the JSON, members in their order
-    std::vector<std::string> buffers = {};     ///< the bytes of each
-    std::vector<std::string> more_chunks = {}; ///< of GLB behind JSON and BIN, with their heads
-    bool data_uris = false;                    ///< whether all buffers are data URIs
+    std::string path;                           ///< of the file, named in errors; URIs are relative to its folder
+    gltf_json document;                         ///< all of the JSON, members in their order
+    std::vector<std::string> buffers = {};      ///< the bytes of each; none of those that no bufferView names
+    std::vector<std::string> more_chunks = {};  ///< of GLB behind JSON and BIN, with their heads
+    bool data_uris = false;                     ///< whether all buffers are data URIs
+    std::set<std::filesystem::path> files = {}; ///< that buffers were read from
 };
 
 namespace detail
 {
-
-using gltf_json = nlohmann::ordered_json;
 
 /// An object of a document, and what messages call it.
 class gltf_object
@@ -117,18 +117,64 @@ inline gltf_object item_of(const gltf_source& source, const char* list, std::siz
     return {items[i], std::string(list) + ' ' + std::to_string(i), source.path};
 }
 
-/// Throws io_error for what is no JSON, or is nested so deep that no glTF is.
-inline gltf_json parse_gltf_json(std::string_view text, const std::string& path)
+/// How much is made of a file: a small one may name the same bytes again and again, and elements that are nowhere.
+class gltf_allowance
+{
+public:
+    /// times: what a byte of the buffers allows
+    gltf_allowance(const gltf_source& source, std::size_t times) : path_(source.path), left_(std::size_t(1) << 16)
+    {
+        for (const std::string& buffer : source.buffers) left_ += buffer.size();
+        left_ *= times;
+    }
+
+    /// Throws io_error where it is used up. what: "vertices"
+    void take(std::size_t n, const char* what)
+    {
+        if (n > left_)
+            throw io_error(path_, "more " + std::string(what) + " than the bytes of its buffers can stand for: " +
+                                      "accessors share bytes, or have none; give each its own");
+        left_ -= n;
+    }
+
+private:
+    const std::string& path_;
+    std::size_t left_;
+};
+
+/// Whether brackets are nested deeper than in any glTF.
+inline bool is_deep(std::string_view text)
 {
     constexpr int deepest = 256; // a document is walked through recursively
+    int depth = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (quoted)
+        {
+            if (text[i] == '\\')
+                ++i;
+            else
+                quoted = text[i] != '"';
+        }
+        else if (text[i] == '"')
+            quoted = true;
+        else if (text[i] == '[' || text[i] == '{')
+        {
+            if (++depth > deepest) return true;
+        }
+        else if (text[i] == ']' || text[i] == '}')
+            --depth;
+    return false;
+}
+
+/// Throws io_error for what is no JSON, or is nested too deep.
+inline gltf_json parse_gltf_json(std::string_view text, const std::string& path)
+{
+    if (is_deep(text)) throw io_error(path, "JSON that is nested too deep");
     try
     {
-        return gltf_json::parse(text.begin(), text.end(),
-                                [&](int depth, gltf_json::parse_event_t, gltf_json&)
-                                {
-                                    if (depth > deepest) throw io_error(path, "JSON that is nested too deep");
-                                    return true;
-                                });
+        // With a callback it would look through lists again and again.
+        return gltf_json::parse(text.begin(), text.end());
     }
     catch (const gltf_json::exception& e)
     {

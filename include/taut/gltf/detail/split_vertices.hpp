@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <taut/core/types.hpp>
@@ -14,7 +18,8 @@
 namespace taut::io::detail
 {
 
-using gltf_texcoord = std::array<float, 2>;
+/// As a file holds it.
+using gltf_texcoord = std::array<double, 2>;
 
 /// A vertex for each texture coordinate that the corners at a vertex of glTF have.
 struct gltf_split
@@ -28,49 +33,65 @@ struct gltf_split
     std::vector<std::array<std::uint32_t, 3>> corners; ///< the vertex in its pool at each corner of the triangles
 };
 
-inline gltf_texcoord to_gltf(const vec2& uv)
+/// The vertices of a pool, to which others are added.
+class gltf_vertices
 {
-    const auto narrow = [](double x) { return x == 0 ? 0.0f : static_cast<float>(x); }; // 0 and -0 are one
-    return {narrow(uv.x), narrow(1 - uv.y)};
-}
+public:
+    explicit gltf_vertices(std::size_t count) : pool_{std::vector<gltf_texcoord>(count), {}}, used_(count, 0) {}
 
-/// vertices: of glTF, at each corner of the triangles; new ones are numbered in the order of the triangles
+    /// The vertex with the attributes of an old one and this texture coordinate.
+    std::uint32_t with(std::uint32_t old, const gltf_texcoord& x)
+    {
+        if (used_[old] != 0 && bits(pool_.uv[old]) != bits(x))
+        {
+            const auto [at, is_new] =
+                more_.emplace(std::pair(old, bits(x)), static_cast<std::uint32_t>(pool_.uv.size()));
+            if (is_new)
+            {
+                pool_.origins.push_back(old);
+                pool_.uv.push_back(x);
+            }
+            return at->second;
+        }
+        pool_.uv[old] = x;
+        used_[old] = 1;
+        return old;
+    }
+
+    gltf_split::pool take() && { return std::move(pool_); }
+
+private:
+    using key = std::array<std::uint64_t, 2>;
+    static key bits(const gltf_texcoord& x) { return std::bit_cast<key>(x); }
+
+    gltf_split::pool pool_;
+    std::vector<char> used_;
+    std::map<std::pair<std::uint32_t, key>, std::uint32_t> more_; // than the first of each old one
+};
+
+/// vertices:  of glTF, at each corner of the triangles; new ones are numbered in the order of the triangles
+/// corner_uv: as the file holds them. A triangle without, whose corners are not all finite, lies in one point, the
+///            corner of the square, where it covers nothing
 inline gltf_split split_vertices(const gltf_primitives& primitives, std::span<const std::array<idx, 3>> vertices,
-                                 std::span<const std::array<vec2, 3>> corner_uv)
+                                 std::span<const std::array<gltf_texcoord, 3>> corner_uv)
 {
-    constexpr std::uint32_t none = UINT32_MAX;
     gltf_split result;
     result.corners.resize(vertices.size());
-    std::vector<std::vector<std::uint32_t>> next; // of a vertex that is there for another texture coordinate
-    std::vector<std::vector<char>> used;
-    for (std::size_t p = 0; p + 1 < primitives.first_vertex.size(); ++p)
-    {
-        result.pools.push_back({std::vector<gltf_texcoord>(primitives.vertices_of(p)), {}});
-        next.emplace_back(primitives.vertices_of(p), none);
-        used.emplace_back(primitives.vertices_of(p), char(0));
-    }
+    std::vector<gltf_vertices> pools;
+    for (std::size_t p = 0; p + 1 < primitives.first_vertex.size(); ++p) pools.emplace_back(primitives.vertices_of(p));
+    const auto is_finite = [](const gltf_texcoord& x) { return std::isfinite(x[0]) && std::isfinite(x[1]); };
     for (const gltf_primitive& p : primitives.all)
         for (std::size_t c = p.first; c < p.first + p.count; ++c)
+        {
+            const bool placed = std::all_of(corner_uv[c].begin(), corner_uv[c].end(), is_finite);
             for (std::size_t k = 0; k < 3; ++k)
             {
-                auto& [uv, origins] = result.pools[p.pool];
                 const auto old = static_cast<std::uint32_t>(static_cast<std::size_t>(vertices[c][k]) -
                                                             primitives.first_vertex[p.pool]);
-                std::uint32_t& v = result.corners[c][k] = old;
-                const gltf_texcoord x = to_gltf(corner_uv[c][k]);
-                if (!std::isfinite(x[0]) || !std::isfinite(x[1])) continue;
-                while (used[p.pool][v] && uv[v] != x && next[p.pool][v] != none) v = next[p.pool][v];
-                if (used[p.pool][v] && uv[v] != x)
-                {
-                    v = next[p.pool][v] = static_cast<std::uint32_t>(uv.size());
-                    origins.push_back(old);
-                    uv.push_back(x);
-                    next[p.pool].push_back(none);
-                    used[p.pool].push_back(1);
-                }
-                uv[v] = x;
-                used[p.pool][v] = 1;
+                result.corners[c][k] = pools[p.pool].with(old, placed ? corner_uv[c][k] : gltf_texcoord{0, 0});
             }
+        }
+    for (gltf_vertices& pool : pools) result.pools.push_back(std::move(pool).take());
     return result;
 }
 

@@ -57,6 +57,11 @@ inline std::optional<std::string> from_base64(std::string_view text)
     return bytes;
 }
 
+inline bool is_data_uri(std::string_view uri)
+{
+    return uri.starts_with("data:");
+}
+
 /// Whether a URI begins with a scheme such as data: or https:, and thus names no file beside the document.
 inline bool has_scheme(std::string_view uri)
 {

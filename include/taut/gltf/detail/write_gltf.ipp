@@ -3,19 +3,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <map>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <system_error>
 #include <taut/core/error.hpp>
+#include <taut/core/single.hpp>
 #include <taut/gltf/detail/arrays.hpp>
 #include <taut/gltf/detail/container.hpp>
 #include <taut/gltf/detail/new_gltf.hpp>
 #include <taut/gltf/detail/split_vertices.hpp>
 #include <taut/gltf/gltf.hpp>
+#include <taut/mesh/describe.hpp>
 #include <utility>
 #include <vector>
 
@@ -29,11 +35,12 @@ namespace detail
 class gltf_writer
 {
 public:
-    gltf_writer(const gltf_model& model, std::span<const std::array<vec2, 3>> corner_uv, int set)
+    gltf_writer(const gltf_model& model, std::span<const std::array<vec2, 3>> corner_uv, int set, gltf_numbers numbers)
         : source_(model.source),
           primitives_(primitives_of(model.source)),
           edit_(model.source),
-          set_("TEXCOORD_" + std::to_string(set))
+          set_("TEXCOORD_" + std::to_string(set)),
+          type_(numbers == gltf_numbers::floats ? gltf_f32 : gltf_u16)
     {
         if (corner_uv.size() != model.triangles.size() || corner_uv.size() != primitives_.triangles)
             throw parameter_error("corner_uv", std::to_string(corner_uv.size()) + " for " +
@@ -41,7 +48,14 @@ public:
                                                    " triangles; give three texture coordinates a triangle");
         for (const gltf_primitive& p : primitives_.all)
             if (is_mapped(p)) require_sets_before(p, set);
-        split_ = split_vertices(primitives_, model.vertices, corner_uv);
+        std::vector<std::array<gltf_texcoord, 3>> stored(corner_uv.size());
+        for (std::size_t t = 0; t < stored.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+                const vec2 x = texcoord_in_gltf(corner_uv[t][k], numbers);
+                stored[t][k] = {x.x, x.y};
+            }
+        split_ = split_vertices(primitives_, model.vertices, stored);
     }
 
     /// The document with its one buffer.
@@ -99,7 +113,7 @@ private:
         const bool one = std::all_of(mapped.begin(), mapped.end(), [&](auto* ref) { return *ref == *mapped[0]; });
         const std::size_t old = one ? *mapped[0] : gltf_edit::nothing;
         for (std::size_t* const ref : mapped) *ref = old;
-        edit_.put(mapped, texcoord_accessor(edit_, source_, old, pool.uv));
+        edit_.put(mapped, texcoord_accessor(edit_, source_, old, pool.uv, type_));
     }
 
     /// Primitives draw the new vertices at corners that have them, and none that they did not draw.
@@ -158,6 +172,7 @@ private:
     gltf_primitives primitives_;
     gltf_edit edit_;
     std::string set_;
+    gltf_component type_;
     gltf_split split_;
 };
 
@@ -177,22 +192,6 @@ inline void move_uris(gltf_json& document, const std::filesystem::path& from, co
     }
 }
 
-/// Whether a file holds a buffer of a document that is not the one to be written.
-inline bool is_data_of_another(const std::filesystem::path& data, const gltf_source& source,
-                               const std::filesystem::path& path)
-{
-    std::error_code unknown;
-    if (std::filesystem::equivalent(path, source.path, unknown)) return false;
-    for (const gltf_json& buffer : root_of(source).items("buffers"))
-    {
-        if (!buffer.contains("uri") || has_scheme(buffer["uri"].get_ref<const std::string&>())) continue;
-        const auto file = std::filesystem::path(source.path).parent_path() /
-                          percent_decoded(buffer["uri"].get_ref<const std::string&>());
-        if (std::filesystem::equivalent(data, file, unknown)) return true;
-    }
-    return false;
-}
-
 inline file_to_write file_of(const std::filesystem::path& path, std::string bytes)
 {
     return {path, [bytes = std::move(bytes)](atomic_file& file) { file.write(bytes); }};
@@ -200,42 +199,62 @@ inline file_to_write file_of(const std::filesystem::path& path, std::string byte
 
 } // namespace detail
 
-inline vec2 texcoord_in_gltf(vec2 uv)
+inline vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers)
 {
-    const auto x = detail::to_gltf(uv);
-    return {static_cast<double>(x[0]), 1 - static_cast<double>(x[1])};
+    if (numbers == gltf_numbers::floats) return {in_single(uv.x), in_single(uv.y)};
+    const auto fraction = [](double x) { return std::round(std::clamp(x, 0.0, 1.0) * 65535) / 65535; };
+    return {fraction(uv.x), fraction(uv.y)};
+}
+
+inline std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path& path, const gltf_source& source)
+{
+    if (!is_gltf(path)) throw parameter_error("path", path.string() + ": glTF is written to .glb and .gltf");
+    if (path.extension().string().size() == 4 || source.data_uris) return {}; // .glb
+    const auto data = std::filesystem::path(path).replace_extension(".bin");
+    std::error_code unknown;
+    const auto is_there = std::filesystem::symlink_status(data, unknown);
+    if (!std::filesystem::exists(is_there)) return data;
+    const auto own = gltf_companions(path);
+    if (std::none_of(own.begin(), own.end(),
+                     [&](const auto& file) { return std::filesystem::equivalent(file, data, unknown); }))
+        throw io_error(data.string(), "would be written beside " + path.string() +
+                                          ", and is there already, but as no buffer of that; remove it, or choose "
+                                          "another name or .glb, which has its data in it");
+    return data;
+}
+
+inline std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& path)
+{
+    return detail::files_of_buffers(path);
 }
 
 inline std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
-                                             std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set)
+                                             std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set,
+                                             gltf_numbers numbers)
 {
-    if (!is_gltf(path)) throw parameter_error("path", path.string() + ": glTF is written to .glb and .gltf");
-    auto [document, bytes] = detail::gltf_writer(model, corner_uv, texcoord_set).write();
+    const auto data = gltf_data_file(path, model.source);
+    auto [document, bytes] = detail::gltf_writer(model, corner_uv, texcoord_set, numbers).write();
     detail::move_uris(document, model.source.path, path);
     const std::string extension = path.extension().string();
     if (extension.size() == 4) // .glb
         return {
             detail::file_of(path, detail::join_glb(document.dump(), bytes, model.source.more_chunks, path.string()))};
     std::vector<file_to_write> files;
-    if (model.source.data_uris)
+    if (!data)
         document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + detail::to_base64(bytes);
     else
     {
-        const auto data = std::filesystem::path(path).replace_extension(".bin");
-        if (detail::is_data_of_another(data, model.source, path))
-            throw parameter_error("path", data.string() + " would be written beside it, and has data of " +
-                                              model.source.path + "; choose another name");
-        document["buffers"][0]["uri"] = detail::percent_encoded(data.filename().string());
-        files.push_back(detail::file_of(data, std::move(bytes)));
+        document["buffers"][0]["uri"] = detail::percent_encoded(data->filename().string());
+        files.push_back(detail::file_of(*data, std::move(bytes)));
     }
     files.push_back(detail::file_of(path, document.dump(2) + '\n'));
     return files;
 }
 
 inline void write_gltf(const std::filesystem::path& path, const gltf_model& model,
-                       std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set)
+                       std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set, gltf_numbers numbers)
 {
-    write_files(gltf_files(path, model, corner_uv, texcoord_set));
+    write_files(gltf_files(path, model, corner_uv, texcoord_set, numbers));
 }
 
 inline gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
@@ -246,14 +265,22 @@ inline gltf_model gltf_of(std::span<const vec3> points, std::span<const std::arr
     const auto is_drawn = [&](idx v)
     {
         return v >= 0 && static_cast<std::size_t>(v) < points.size() &&
-               detail::is_float_point(points[static_cast<std::size_t>(v)]);
+               taut::detail::finite(points[static_cast<std::size_t>(v)]);
     };
     for (const auto& t : triangles)
         model.triangles.push_back(std::all_of(t.begin(), t.end(), is_drawn) ? t : std::array<idx, 3>{});
     model.vertices = model.triangles;
     model.meshes.assign(triangles.size(), 0);
     model.materials.assign(triangles.size(), -1);
-    model.source = detail::new_gltf_source(points, model.triangles);
+    std::vector<std::array<idx, 3>> drawn;
+    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(drawn),
+                 [&](const auto& t) { return std::all_of(t.begin(), t.end(), is_drawn); });
+    const detail::gltf_placing placing(points, drawn);
+    model.source = detail::new_gltf_source(points, model.triangles, placing.best());
+    if (const std::size_t n = placing.collapsed())
+        model.notes.push_back(taut::detail::counted(n, "triangle", "triangles") +
+                              " with an area that single precision, which is all that glTF has, does not hold; "
+                              "write .obj, or split the surface");
     return model;
 }
 

@@ -27,6 +27,9 @@ TAUT_INLINE void repair_params::validate(std::size_t points, std::size_t triangl
 {
     if (!(weld_tolerance >= 0) || !std::isfinite(weld_tolerance))
         throw parameter_error("weld_tolerance", "must be a length, 0 or more");
+    if (!bodies.empty() && bodies.size() != points)
+        throw parameter_error("bodies", std::to_string(bodies.size()) + " for " + std::to_string(points) +
+                                            " vertices; give one a vertex");
     if (!normal_cells.empty() && normal_cells.size() != triangles)
         throw parameter_error("normal_cells", std::to_string(normal_cells.size()) + " for " +
                                                   std::to_string(triangles) + " triangles; give one a triangle");
@@ -122,12 +125,12 @@ private:
         std::vector<char> used(points_.size(), 0);
         for (const idx c : cells_)
             for (const idx v : input(c)) used[u(v)] = 1;
-        place_ = equal_places(points_, ones_of(used));
+        place_ = equal_places(points_, params_.bodies, ones_of(used));
         auto flat = place_triangles();
         if (params_.weld_tolerance > 0 && !cells_.empty())
         {
             const auto open = open_places(); // before place_ is moved away
-            place_ = near_places(points_, std::move(place_), open, params_.weld_tolerance);
+            place_ = near_places(points_, params_.bodies, std::move(place_), open, params_.weld_tolerance);
             const auto more = place_triangles();
             flat.insert(flat.end(), more.begin(), more.end());
             std::sort(flat.begin(), flat.end());
