@@ -20,9 +20,8 @@ namespace taut::detail
 {
 
 /// Puts in a report what charts are like, each by itself and all of them at one common scale.
-/// uv: one a vertex of charts.surface, in the tiles; energy: one a chart; layout: without places where there is none
-inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv,
-                      std::span<const double> energy, const packing& layout)
+/// uv: one a vertex of charts.surface, in the tiles; layout: without places where there is none
+inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv, const packing& layout)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const auto& cells = charts.surface.cells();
@@ -43,10 +42,18 @@ inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<
     for (idx k = 0; k < charts.charts(); ++k)
     {
         chart_summary chart{.triangles = charts.first_cell[u(k) + 1] - charts.first_cell[u(k)],
-                            .tile = layout.places.empty() ? 0 : layout.places[u(k)].tile,
-                            .energy = energy[u(k)]};
+                            .tile = layout.places.empty() ? 0 : layout.places[u(k)].tile};
+        double stretch = 0, shrink = 0; // |S|^2 and |S^-1|^2 by area
         for (auto c = u(charts.first_cell[u(k)]); c < u(charts.first_cell[u(k) + 1]); ++c)
+        {
+            const mat2 S = shape_matrix<2>(cells[c], uv, ideal.inverse[c]);
+            const double square = glm::dot(S[0], S[0]) + glm::dot(S[1], S[1]), det = glm::determinant(S);
             chart.area += ideal.measure[c];
+            stretch += ideal.measure[c] * square;
+            shrink += det > 0 ? ideal.measure[c] * (square / det / det) : std::numeric_limits<double>::infinity();
+        }
+        // At the best scale of its own.
+        chart.energy = 2 * std::sqrt(stretch / chart.area) * std::sqrt(shrink / chart.area);
         in_space += chart.area;
         report.worst = std::max(report.worst, chart.energy);
         report.charts.push_back(chart);
