@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -57,7 +58,7 @@ inline double spacing_at(const vec2& p, vec2 (*stored)(vec2))
 class map_settling
 {
 public:
-    /// x: as a file holds it; origin: where vertices were before, one a vertex of the piece
+    /// origin: where vertices of the piece are before
     map_settling(std::span<const std::array<idx, 3>> cells, std::span<const std::array<idx, 3>> corners, idx first,
                  std::span<const vec2> origin, std::span<vec2> x, const settling& how)
         : cells_(cells), corners_(corners), first_(first), origin_(origin), x_(x), how_(how)
@@ -70,10 +71,14 @@ public:
         find_border();
     }
 
-    /// Returns what is left, and the number of vertices that moved.
-    std::pair<map_faults, std::size_t> run()
+    /// Returns what is left.
+    map_faults run()
     {
         constexpr int most_rounds = 64;
+        spread();
+        for (std::size_t v = 0; v < origin_.size(); ++v)
+            if (vec2& p = x_[v + u(first_)]; how_.stored != nullptr && !is_held(static_cast<idx>(v) + first_))
+                p = how_.stored(p);
         map_faults faults = look();
         for (int round = 0; round < most_rounds && !faults.valid(); ++round)
         {
@@ -90,8 +95,7 @@ public:
             if (!any) break;
             faults = look();
         }
-        const auto moved = std::count(moved_.begin(), moved_.end(), char(1));
-        return {faults, static_cast<std::size_t>(moved)};
+        return faults;
     }
 
 private:
@@ -139,10 +143,70 @@ private:
             for (const idx v : border_[e])
                 border_at_.items[u(border_at_.offsets[local(v) + 1]++)] = static_cast<idx>(e);
         border_at_.offsets.pop_back();
-        moved_.assign(origin_.size(), 0);
     }
 
     int turn(const std::array<idx, 3>& t) const { return orient2d(x_[u(t[0])], x_[u(t[1])], x_[u(t[2])]); }
+
+    /// Pushes the vertices of triangles apart that are thinner than two steps and may not survive rounding: a stack of
+    /// needles gets room from one end to the other.
+    void spread()
+    {
+        constexpr int most_sweeps = 256;
+        const double least = 2 * step_, most = 0.9 * how_.reach - step_;
+        std::vector<idx> thin;
+        for (std::size_t c = 0; c < cells_.size(); ++c)
+            if (height(cells_[c]) < least + std::min(64 * step_, 2 * how_.reach)) thin.push_back(static_cast<idx>(c));
+        bool any = true;
+        for (int sweep = 0; sweep < most_sweeps && any; ++sweep)
+        {
+            any = false;
+            for (const idx c : thin)
+            {
+                auto [p, q, r] = cells_[u(c)];
+                std::tie(p, q, r) = across_longest(p, q, r);
+                const vec2 side = x_[u(r)] - x_[u(q)];
+                const double length = glm::length(side);
+                if (!(length > 0)) continue;
+                const vec2 inward = vec2(-side.y, side.x) / length;
+                const double missing = least - glm::dot(x_[u(p)] - x_[u(q)], inward);
+                if (!(missing > 1e-3 * least)) continue;
+                const double share = std::clamp(glm::dot(x_[u(p)] - x_[u(q)], side) / (length * length), 0.0, 1.0);
+                push(p, 0.5 * missing * inward, most);
+                push(q, -0.5 * missing * (1 - share) * inward, most);
+                push(r, -0.5 * missing * share * inward, most);
+                any = true;
+            }
+        }
+    }
+
+    /// The corners of a triangle, beginning with the one across the longest side.
+    std::tuple<idx, idx, idx> across_longest(idx p, idx q, idx r) const
+    {
+        const auto squared = [this](idx a, idx b)
+        {
+            const vec2 d = x_[u(b)] - x_[u(a)];
+            return glm::dot(d, d);
+        };
+        const double qr = squared(q, r), rp = squared(r, p), pq = squared(p, q);
+        if (qr >= rp && qr >= pq) return {p, q, r};
+        return rp >= pq ? std::tuple(q, r, p) : std::tuple(r, p, q);
+    }
+
+    double height(const std::array<idx, 3>& t) const
+    {
+        const auto [p, q, r] = across_longest(t[0], t[1], t[2]);
+        const double length = glm::length(x_[u(r)] - x_[u(q)]);
+        return length > 0 ? orient(x_[u(p)], x_[u(q)], x_[u(r)]).det / length : 0;
+    }
+
+    /// Moves a vertex by so much, but no farther than that from where it was.
+    void push(idx v, const vec2& by, double most)
+    {
+        if (is_held(v)) return;
+        const vec2 way = x_[u(v)] + by - origin_[local(v)];
+        const double length = glm::length(way);
+        x_[u(v)] = origin_[local(v)] + (length > most ? most / length : 1.0) * way;
+    }
 
     /// Counts what is wrong, and finds the vertices where it is.
     map_faults look()
@@ -246,7 +310,6 @@ private:
                     x_[u(v)] = before;
                 }
         x_[u(v)] = best;
-        if (fewest < least) moved_[local(v)] = 1;
         return fewest < least;
     }
 
@@ -273,11 +336,7 @@ private:
                 const auto cells = cells_at_.row(v - first_);
                 const bool upright =
                     std::all_of(cells.begin(), cells.end(), [&](idx c) { return turn(cells_[u(c)]) > 0; });
-                if (upright && turn(corner) > 0 && concave_at(v) < wrong && meetings_at(v) <= meetings)
-                {
-                    moved_[local(v)] = 1;
-                    return true;
-                }
+                if (upright && turn(corner) > 0 && concave_at(v) < wrong && meetings_at(v) <= meetings) return true;
                 x_[u(v)] = before;
             }
         }
@@ -293,7 +352,6 @@ private:
     csr cells_at_, corners_at_, border_at_; // at each vertex of the piece
     std::vector<std::array<idx, 2>> border_;
     std::vector<idx> bad_;
-    std::vector<char> moved_;
 };
 
 } // namespace detail
@@ -304,16 +362,12 @@ private:
 /// cells:   of the piece, whose vertices are numbered from `first`
 /// corners: triples of them that are to turn left, as those of convex_polygons
 /// x:       of the whole map: where vertices are, and then as a file holds them
-/// Returns what is wrong still, and the number of vertices that moved farther than to be rounded.
-inline std::pair<map_faults, std::size_t> settle_piece(std::span<const std::array<idx, 3>> cells,
-                                                       std::span<const std::array<idx, 3>> corners, idx first, idx end,
-                                                       std::span<vec2> x, const settling& how = {})
+/// Returns what is wrong still.
+inline map_faults settle_piece(std::span<const std::array<idx, 3>> cells, std::span<const std::array<idx, 3>> corners,
+                               idx first, idx end, std::span<vec2> x, const settling& how = {})
 {
     const auto own = x.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
     const std::vector<vec2> origin(own.begin(), own.end());
-    if (how.stored != nullptr)
-        for (std::size_t v = 0; v < own.size(); ++v)
-            if (how.held.empty() || how.held[static_cast<std::size_t>(first) + v] == 0) own[v] = how.stored(own[v]);
     return detail::map_settling(cells, corners, first, origin, x, how).run();
 }
 

@@ -38,7 +38,7 @@ triples strip(taut::idx n)
 map_faults settle(const triples& cells, std::vector<vec2>& x, const settling& how, const triples& corners = {})
 {
     const auto before = x;
-    const auto faults = settle_piece(cells, corners, 0, static_cast<taut::idx>(x.size()), x, how).first;
+    const auto faults = settle_piece(cells, corners, 0, static_cast<taut::idx>(x.size()), x, how);
     for (std::size_t v = 0; v < x.size(); ++v) CHECK(glm::length(x[v] - before[v]) <= how.reach);
     for (const vec2& p : x)
         if (how.stored != nullptr) CHECK(how.stored(p) == p);
@@ -59,6 +59,20 @@ TEST_CASE("settle: needles that single precision turns over are positive afterwa
             std::vector<vec2> x = {at(-1, 0), at(1, 0), at(0.1, height), at(0, -1), at(0, 1)};
             const triples cells = {{0, 1, 2}, {0, 3, 1}, {0, 2, 4}, {1, 4, 2}};
             CHECK(settle(cells, x, {.stored = single, .reach = 1e-6}).valid());
+        }
+}
+
+TEST_CASE("settle: a stack of needles gets room")
+{
+    for (const double height : {1e-8, 1e-9, 1e-11})
+        for (int turn = 0; turn < 8; ++turn)
+        {
+            const double angle = std::numbers::pi / 16 * turn;
+            const vec2 along(std::cos(angle), std::sin(angle)), across(-along.y, along.x);
+            std::vector<vec2> x;
+            for (int k = 0; k < 6; ++k)
+                for (int j = 0; j < 2; ++j) x.push_back(vec2(0.4, 0.98) + 0.3 * (1 - j) * along + height * k * across);
+            CHECK(settle(strip(6), x, {.stored = single, .reach = 1e-6}).valid());
         }
 }
 

@@ -100,7 +100,7 @@ private:
             for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
                 uv_[v] += vec2(-10 * row, row);
         }
-        settled_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
+        bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
         report_.seconds.pack += budget_.lap();
     }
 
@@ -108,10 +108,12 @@ private:
     /// for the digits of the file, else in smaller patches.
     void settle()
     {
-        for (const std::size_t largest : {1024U, 128U, 16U, 1U, 1U, 1U, 1U})
+        constexpr int most_rounds = 32; // places change for all charts, and so do the digits of those that were good
+        std::size_t largest = 1024;
+        for (int round = 0; round < most_rounds; ++round, largest = std::max<std::size_t>(1, largest / 8))
         {
-            if (!report_.reason.empty() || std::count(settled_.bad.begin(), settled_.bad.end(), char(1)) == 0) return;
-            auto bad = settled_.bad;
+            if (!report_.reason.empty() || std::count(bad_.begin(), bad_.end(), char(1)) == 0) return;
+            auto bad = bad_;
             std::size_t enlarged = 0;
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k] && enlarge(k))
@@ -218,7 +220,7 @@ private:
         return text.empty() ? text : text + (report_.flips.flipped > report_.flips.ids.size() ? ", ...)" : ")");
     }
 
-    settled_charts settled_;    // of the layout
+    std::vector<char> bad_;     // one a chart: whether it is not valid as it is laid
     convex_polygons polygons_;  // of the charts
     std::vector<double> grown_; // one a triangle of the surface: how much larger its chart is laid; empty if none is
     std::vector<vec2> uv_;      // one a vertex of the charts, in the tiles

@@ -16,13 +16,6 @@
 namespace taut::detail
 {
 
-/// Charts as a file holds them.
-struct settled_charts
-{
-    std::vector<char> bad; ///< one a chart: 1 where triangles are turned over, or the border meets itself
-    std::size_t moved = 0; ///< vertices that were moved farther than to be rounded
-};
-
 /// The triangle of a chart that is turned over, -1 if none is; exact.
 inline idx turned_triangle(const chart_mesh& charts, std::size_t k, std::span<const vec2> uv)
 {
@@ -36,16 +29,15 @@ inline idx turned_triangle(const chart_mesh& charts, std::size_t k, std::span<co
 
 /// Rounds charts to what a file holds, each so that it is valid there, if its vertices need not leave their reach.
 /// polygons: that are to be convex; uv: where vertices are, one a vertex of the charts, and then as the file holds them
-inline settled_charts settle_charts(const chart_mesh& charts, const convex_polygons& polygons, std::span<vec2> uv,
-                                    const settling& how)
+/// Returns one flag a chart: 1 where triangles are turned over still, or the border meets itself.
+inline std::vector<char> settle_charts(const chart_mesh& charts, const convex_polygons& polygons, std::span<vec2> uv,
+                                       const settling& how)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const auto& cells = charts.surface.cells();
-    settled_charts settled;
-    settled.bad.assign(u(charts.charts()), 0);
-    std::vector<std::size_t> moved(settled.bad.size(), 0);
+    std::vector<char> bad(u(charts.charts()), 0);
     parallel_for(
-        settled.bad.size(),
+        bad.size(),
         [&](std::size_t begin, std::size_t end)
         {
             std::vector<vec2> exact;
@@ -63,17 +55,16 @@ inline settled_charts settle_charts(const chart_mesh& charts, const convex_polyg
                 const bool concave =
                     std::any_of(corners.begin(), corners.end(),
                                 [&](const auto& c) { return orient2d(uv[u(c[0])], uv[u(c[1])], uv[u(c[2])]) <= 0; });
-                settled.bad[k] = is_bad();
-                if (!settled.bad[k] && !concave) continue;
+                bad[k] = is_bad();
+                if (!bad[k] && !concave) continue;
                 std::copy(exact.begin(), exact.end(), own.begin());
                 const std::span some(cells.data() + charts.first_cell[k], cells.data() + charts.first_cell[k + 1]);
-                moved[k] = settle_piece(some, corners, low, high, uv, how).second;
-                settled.bad[k] = is_bad();
+                settle_piece(some, corners, low, high, uv, how);
+                bad[k] = is_bad();
             }
         },
         0, 8);
-    for (const std::size_t n : moved) settled.moved += n;
-    return settled;
+    return bad;
 }
 
 } // namespace taut::detail
