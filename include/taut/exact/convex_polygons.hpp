@@ -23,6 +23,7 @@ struct convex_polygons
 {
     std::vector<std::array<idx, 3>> corners; ///< each corner between those before and after it, polygon by polygon
     std::vector<idx> first{0};               ///< of the corners of each polygon, and one more
+    std::vector<idx> numbers;                ///< of the polygons, as they were given
 
     idx size() const { return static_cast<idx>(first.size()) - 1; }
     std::span<const std::array<idx, 3>> corners_of(idx polygon) const
@@ -81,16 +82,18 @@ inline bool is_convex(std::span<const idx> loop, std::span<const vec3> points)
 } // namespace detail
 
 /// Finds the polygons of more than three corners that are convex in space.
-/// cells: triangles; polygon: the label of each, from 0 and below the number of triangles; points: one a vertex
+/// cells: triangles; polygon: a number for each, from 0, that of its polygon; points: one a vertex
 inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon,
                                             std::span<const vec3> points)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    convex_polygons found;
+    if (polygon.empty()) return found;
+    const auto labels = u(*std::max_element(polygon.begin(), polygon.end())) + 1;
     csr members{{}, std::vector<idx>(cells.size())};
     members.offsets = detail::counting_sort(
-        cells.size(), cells.size(), [&](std::size_t c) { return polygon[c]; },
+        cells.size(), labels, [&](std::size_t c) { return polygon[c]; },
         [&](std::size_t c, std::size_t at) { members.items[at] = static_cast<idx>(c); });
-    convex_polygons found;
     for (std::size_t c = 0; c < cells.size(); ++c) // in the order of their first triangles
     {
         const auto own = members.row(polygon[c]);
@@ -99,6 +102,7 @@ inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> 
         if (loop.empty() || !detail::is_convex(loop, points)) continue;
         for (std::size_t k = 0; k < loop.size(); ++k)
             found.corners.push_back({loop[k], loop[(k + 1) % loop.size()], loop[(k + 2) % loop.size()]});
+        found.numbers.push_back(polygon[c]);
         found.first.push_back(static_cast<idx>(found.corners.size()));
     }
     return found;

@@ -121,7 +121,11 @@ private:
                     bad[k] = 0;
                     ++enlarged;
                 }
-            if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad, largest);
+            if (std::count(bad.begin(), bad.end(), char(1)) > 0)
+            {
+                take_apart(bad, largest);
+                join_polygons();
+            }
             if (enlarged > 0)
                 report_.notes.push_back(std::to_string(enlarged) + (enlarged == 1 ? " chart is" : " charts are") +
                                         " laid larger than others, as the numbers of the file are too coarse for " +
@@ -184,6 +188,7 @@ private:
             outlines_ = find_outlines(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex);
         const auto sealed = certify_outlined(uv_, cut.cells(), outlines_, pinned);
         if (!pinned.empty()) polygons_ = convex();
+        report_.polygons = u(polygons_.size());
         report_.concave = find_concave(polygons_, uv_).size();
         const auto crossing = crossing_charts(*charts_, uv_);
         report_.overlaps =
@@ -204,6 +209,11 @@ private:
                              std::to_string(first_triangle(u(sealed.overlaps.first[1])));
         else if (!sealed.holds(params_.packing.padding, params_.packing.resolution))
             report_.reason = "charts are nearer to each other, or to the border, than the padding";
+        if (report_.concave > 0)
+            report_.notes.push_back(std::to_string(report_.concave) +
+                                    (report_.concave == 1 ? " polygon is" : " polygons are") +
+                                    " not convex in the atlas, though in space; cut along other diagonals, triangles "
+                                    "of them turn over");
     }
 
     static constexpr const char* remedy =
