@@ -309,5 +309,19 @@ def polygons_stay_convex(taut):
             assert said["concave_polygons"] == len(found) and said["flipped"] == 0
 
 
+def pinned_charts_hold(taut):
+    """The coordinates of pinned charts are those of the file, text for text."""
+    points, faces = grid(9, 9, lambda i, j: 2 * math.sin(i) * math.cos(0.7 * j))
+    taut.write("in.obj", obj(points, faces))
+    taut("atlas", "in.obj", "-o", "first.obj", "--max-distortion", "4.01")
+    _, _, before = read_obj(taut.read("first.obj").decode())
+    taut.write("pin.txt", "0\n40\n")
+    taut("atlas", "first.obj", "-o", "second.obj", "--pin", "pin.txt")
+    _, _, after = read_obj(taut.read("second.obj").decode())
+    assert all([repr(x) for x in p] == [repr(x) for x in q]
+               for f in (0, 40) for p, q in zip(before[f], after[f]))
+    require_valid([[uv[0], uv[k], uv[k + 1]] for uv in after for k in (1, 2) if min(turns([place(p) for p in uv])) > 0])
+
+
 if __name__ == "__main__":
-    main(rounding_is_settled, doublets, faces_with_holes, polygons_stay_convex)
+    main(rounding_is_settled, doublets, faces_with_holes, polygons_stay_convex, pinned_charts_hold)

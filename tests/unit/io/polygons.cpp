@@ -175,6 +175,15 @@ TEST_CASE("polygons: a chain of quads that take each other's diagonals is parted
     CHECK(is_surface(m));
 }
 
+TEST_CASE("polygons: copies are cut alike, whatever corner they begin with and whichever way they face")
+{
+    const std::vector<vec2> points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+    const auto soup = io::parse_obj_soup(obj_text(points, {{1, 2, 3, 4}, {2, 3, 4, 1}, {4, 3, 2, 1}, {3, 2, 1, 4}}));
+    REQUIRE(soup.triangles.size() == 8);
+    for (const auto& t : soup.triangles)
+        CHECK((std::count(t.begin(), t.end(), 1) == 1 && std::count(t.begin(), t.end(), 3) == 1));
+}
+
 TEST_CASE("polygons: OFF and PLY split the same faces")
 {
     const std::string points = "0 0 0\n4 0 0\n4 4 0\n0 4 0\n1 1 0\n1 3 0\n3 3 0\n3 1 0\n";

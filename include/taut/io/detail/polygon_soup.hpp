@@ -132,9 +132,10 @@ struct polygon_soup
         if (polygons)
         {
             auto split = face_splitting<>(points, corners, sizes).run();
-            result.notes.push_back(std::to_string(split.polygons) +
-                                   (split.polygons == 1 ? " polygon was" : " polygons were") + " split into triangles" +
-                                   (split.fans > 0 ? " (" + std::to_string(split.fans) + " large ones as fans)" : ""));
+            result.notes.push_back(
+                std::to_string(split.polygons) + (split.polygons == 1 ? " polygon was" : " polygons were") +
+                " split into triangles" +
+                (split.fans > 0 ? " (" + std::to_string(split.fans) + " as a fan, too large for more)" : ""));
             result.faces.triangles = std::move(split.corners);
         }
         const auto by_triangle = [&](const std::vector<idx>& items)

@@ -40,8 +40,10 @@ public:
         start();
         std::size_t left = left_without_repeats();
         std::size_t some = first_; // of the corners that are left
-        const auto look = [&](std::size_t i)
-        { ears_.emplace(rank_of(i) + (crowded(before_[i], after_[i]) ? 3 : 0), length(i), i, ++stamp_[i]); };
+        const auto look = [&](std::size_t i) {
+            ears_.emplace(rank_of(i) + (crowded(before_[i], after_[i]) ? 3 : 0), length(i), vertices_[i], i,
+                          ++stamp_[i]);
+        };
         const auto look_at_all = [&]
         {
             ears_ = {};
@@ -50,7 +52,7 @@ public:
         look_at_all();
         for (bool anew = true; left > 3 && steps_ < most_steps;)
         {
-            const auto [rank, length, i, stamp] = ears_.top();
+            const auto [rank, length, vertex, i, stamp] = ears_.top();
             ears_.pop();
             if (stamp != stamp_[i]) continue;
             if (rank >= none && !anew) // what was in the way may have been cut off since
@@ -237,7 +239,8 @@ private:
         return std::min({first, second, third}) < 0 && std::max({first, second, third}) > 0;
     }
 
-    using ear = std::tuple<int, double, std::size_t, std::size_t>; // rank, length of the diagonal, corner, stamp
+    /// Rank, length of the diagonal, vertex (so that copies of a polygon are cut alike), corner, stamp.
+    using ear = std::tuple<int, double, idx, std::size_t, std::size_t>;
 
     std::span<const vec3> p_;
     std::span<const idx> vertices_;
