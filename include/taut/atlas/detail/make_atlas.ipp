@@ -109,8 +109,7 @@ private:
     void settle()
     {
         constexpr int most_rounds = 32; // places change for all charts, and so do the digits of those that were good
-        std::size_t largest = 1024;
-        for (int round = 0; round < most_rounds; ++round, largest = std::max<std::size_t>(1, largest / 8))
+        for (int round = 0; round < most_rounds; ++round)
         {
             if (!report_.reason.empty() || std::count(bad_.begin(), bad_.end(), char(1)) == 0) return;
             auto bad = bad_;
@@ -121,9 +120,12 @@ private:
                     bad[k] = 0;
                     ++enlarged;
                 }
-            if (std::count(bad.begin(), bad.end(), char(1)) > 0)
+            idx largest = 0; // of those that are left
+            for (std::size_t k = 0; k < bad.size(); ++k)
+                if (bad[k]) largest = std::max(largest, charts_->first_cell[k + 1] - charts_->first_cell[k]);
+            if (largest > 0)
             {
-                take_apart(bad, largest);
+                take_apart(bad, std::clamp<std::size_t>(u(largest) / 4, 1, 1024));
                 join_polygons();
             }
             if (enlarged > 0)
