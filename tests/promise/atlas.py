@@ -295,7 +295,7 @@ def faces_with_holes(taut):
 def polygons_stay_convex(taut):
     """Quads that are convex in space are so in the map, in whichever way they are cut; what is not is counted."""
     lot = random.Random(5)
-    for n, rough in ((12, 0.9), (20, 1.6)):
+    for n, rough in ((12, 2.5), (26, 2.1)):
         points, faces = grid(n, n, lambda i, j: rough * lot.random())
         points = [(x + 0.3 * lot.uniform(-1, 1), y + 0.3 * lot.uniform(-1, 1), z) for x, y, z in points]
         taut.write("rough.obj", obj(points, faces))
