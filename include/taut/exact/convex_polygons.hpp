@@ -37,18 +37,22 @@ struct convex_polygons
 namespace detail
 {
 
-/// The outline of triangles that make up a polygon, from one vertex to the next; empty if it is none without holes.
-inline std::vector<idx> outline_of(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon)
+/// The outline of triangles that make up a polygon, from one vertex to the next, until the next call on a thread; empty
+/// if it is none without holes.
+inline std::span<const idx> outline_of(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon)
 {
-    std::vector<std::array<idx, 2>> sides, border;
+    static thread_local std::vector<std::array<idx, 2>> sides, border;
+    static thread_local std::vector<idx> loop;
+    sides.clear();
+    border.clear();
+    loop.clear();
     for (const idx c : polygon)
         for (std::size_t k = 0; k < 3; ++k)
             sides.push_back({cells[static_cast<std::size_t>(c)][k], cells[static_cast<std::size_t>(c)][(k + 1) % 3]});
     std::sort(sides.begin(), sides.end());
     for (const auto& [a, b] : sides)
         if (!std::binary_search(sides.begin(), sides.end(), std::array{b, a})) border.push_back({a, b});
-    std::vector<idx> loop;
-    if (border.size() != polygon.size() + 2) return loop;
+    if (border.size() != polygon.size() + 2) return {};
     for (idx v = border.front()[0]; loop.size() < border.size();)
     {
         const auto next = std::lower_bound(border.begin(), border.end(), std::array{v, idx(0)});
@@ -89,6 +93,7 @@ inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> 
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     convex_polygons found;
     if (polygon.empty()) return found;
+    found.corners.reserve(2 * cells.size());
     const auto labels = u(*std::max_element(polygon.begin(), polygon.end())) + 1;
     csr members{{}, std::vector<idx>(cells.size())};
     members.offsets = detail::counting_sort(

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <queue>
+#include <functional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -40,20 +40,23 @@ public:
         start();
         std::size_t left = left_without_repeats();
         std::size_t some = first_; // of the corners that are left
-        const auto look = [&](std::size_t i) {
-            ears_.emplace(rank_of(i) + (crowded(before_[i], after_[i]) ? 3 : 0), length(i), vertices_[i], i,
-                          ++stamp_[i]);
+        const auto look = [&](std::size_t i)
+        {
+            const int rank = rank_of(i) + (crowded(before_[i], after_[i]) ? 3 : 0);
+            ears_.emplace_back(rank, length(i), vertices_[i], i, ++stamp_[i]);
+            std::push_heap(ears_.begin(), ears_.end(), std::greater<>());
         };
         const auto look_at_all = [&]
         {
-            ears_ = {};
+            ears_.clear();
             for (std::size_t k = 0, i = some; k < left; ++k, i = after_[i]) look(i);
         };
         look_at_all();
         for (bool anew = true; left > 3 && steps_ < most_steps;)
         {
-            const auto [rank, length, vertex, i, stamp] = ears_.top();
-            ears_.pop();
+            const auto [rank, length, vertex, i, stamp] = ears_.front();
+            std::pop_heap(ears_.begin(), ears_.end(), std::greater<>());
+            ears_.pop_back();
             if (stamp != stamp_[i]) continue;
             if (rank >= none && !anew) // what was in the way may have been cut off since
             {
@@ -248,7 +251,7 @@ private:
     std::vector<std::size_t> before_, after_; // neighbours among the corners that are left
     std::vector<std::size_t> stamp_;          // of the last look at each corner
     std::vector<std::size_t> order_, blockers_;
-    std::priority_queue<ear, std::vector<ear>, std::greater<>> ears_; // the best first; outdated where stamps differ
+    std::vector<ear> ears_; // a heap, the best first; outdated where stamps differ
     std::size_t first_ = 0, steps_ = 0;
 };
 
