@@ -37,6 +37,7 @@ public:
         flat_charts::run();
         lay();
         settle();
+        note_enlarged();
         if (mirror_)
         {
             const auto [pairs, own] = count_mirrored(*charts_, *mirror_);
@@ -113,13 +114,8 @@ private:
         {
             if (!report_.reason.empty() || std::count(bad_.begin(), bad_.end(), char(1)) == 0) return;
             auto bad = bad_;
-            std::size_t enlarged = 0;
             for (std::size_t k = 0; k < bad.size(); ++k)
-                if (bad[k] && enlarge(k))
-                {
-                    bad[k] = 0;
-                    ++enlarged;
-                }
+                if (bad[k] && enlarge(k)) bad[k] = 0;
             idx largest = 0; // of those that are left
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k]) largest = std::max(largest, charts_->first_cell[k + 1] - charts_->first_cell[k]);
@@ -128,10 +124,6 @@ private:
                 take_apart(bad, std::clamp<std::size_t>(u(largest) / 4, 1, 1024));
                 join_polygons();
             }
-            if (enlarged > 0)
-                report_.notes.push_back(std::to_string(enlarged) + (enlarged == 1 ? " chart is" : " charts are") +
-                                        " laid larger than others, as the numbers of the file are too coarse for " +
-                                        (enlarged == 1 ? "it" : "them"));
             if (report_.reason.empty()) lay();
         }
     }
@@ -155,6 +147,16 @@ private:
         for (auto i = u(first); i < u(end); ++i)
             grown_[u(charts_->cell_origins[i])] *= std::min(1e9, 2 * wanted / std::max(size, wanted * 1e-9));
         return true;
+    }
+
+    void note_enlarged()
+    {
+        const auto densities = densities_of(*charts_);
+        const auto count = std::count_if(densities.begin(), densities.end(), [](double x) { return x > 1; });
+        if (count > 0)
+            report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart is" : " charts are") +
+                                    " laid larger than others, as the numbers of the file are too coarse for " +
+                                    (count == 1 ? "it" : "them"));
     }
 
     /// How much larger than others each chart is laid; empty if none is.
