@@ -99,6 +99,20 @@ assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv)
     return a;
 }
 
+void take_polygons(assessment& a, const convex_polygons& polygons, std::span<const vec2> uv)
+{
+    a.polygons = static_cast<std::size_t>(polygons.size());
+    for (const idx k : find_concave(polygons, uv)) a.concave.push_back(polygons.numbers[at(k)]);
+}
+
+void add_polygons(nlohmann::ordered_json& json, const assessment& a)
+{
+    json["convex_polygons"] = a.polygons;
+    json["concave_polygons"] = a.concave.size();
+    json["concave_polygon_ids"] = std::vector<idx>(
+        a.concave.begin(), a.concave.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(a.concave.size(), 8)));
+}
+
 nlohmann::ordered_json finite(double x)
 {
     return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
@@ -141,6 +155,11 @@ void describe_validity(labelled_lines& lines, const assessment& a)
                              ? "once around every inner vertex"
                              : "more than once around " + count(flips.branched, "vertex", "vertices") +
                                    first_ids(flips.branch_ids, flips.branched) + ": the map overlaps there");
+    if (a.polygons > 0)
+        lines.add("polygons", count(a.concave.size()) + " of " + count(a.polygons) +
+                                  " that are convex in space are not in the map" +
+                                  first_ids(a.concave, a.concave.size()) +
+                                  (a.concave.empty() ? "" : "; cut along other diagonals, triangles turn over"));
     if (!a.measured) return;
     lines.add("boundary", count(a.boundaries, "loop", "loops") + ", " +
                               (a.crossings ? std::string(a.crossings->all ? "" : "at least ") +

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <taut/exact/convex_polygons.hpp>
 #include <taut/exact/crossings.hpp>
 #include <taut/measure/quality.hpp>
 
@@ -28,6 +29,8 @@ struct assessment
     std::size_t boundaries = 0; ///< boundary loops of the map, seams included
     std::optional<crossing_count>
         crossings;                  ///< pairs of boundary edges that meet; unknown where an edge has 3 triangles
+    std::size_t polygons = 0;       ///< faces of more than three corners that are convex in space
+    std::vector<idx> concave;       ///< those that are not in the map
     std::vector<std::string> notes; ///< what could not be measured, and why
 };
 
@@ -36,6 +39,12 @@ assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv);
 
 /// Counts its flips alone, for those in a hurry.
 assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv);
+
+/// Takes in how many convex polygons there are, and which are not convex in the map.
+void take_polygons(assessment& a, const convex_polygons& polygons, std::span<const vec2> uv);
+
+/// The JSON members of that.
+void add_polygons(nlohmann::ordered_json& json, const assessment& a);
 
 /// The quality columns, null if nothing was measured. What is not a finite number becomes null.
 nlohmann::ordered_json to_json(const assessment& a);

@@ -49,6 +49,9 @@ exit_code evaluate(const eval_options& options)
         throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
     const auto cut = io::cut_seams(file);
     auto a = cut ? assess(cut->surface, cut->uv) : assess(file.surface, file.vertex_texcoords());
+    const auto& surface = cut ? cut->surface : file.surface;
+    take_polygons(a, find_convex_polygons(surface.cells(), file.faces.of_triangles(), surface.points()),
+                  cut ? cut->uv : file.vertex_texcoords());
     const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
     a.vertices = file.surface.vertex_count();
     a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());
@@ -66,6 +69,7 @@ exit_code evaluate(const eval_options& options)
         json["flipped_ids"] = flips.ids;
         json["branch_points"] = flips.branched;
         json["branch_point_ids"] = flips.branch_ids;
+        add_polygons(json, a);
         json["min_det"] = finite(flips.min_det);
         json["max_det"] = finite(flips.max_det);
         json["quality"] = to_json(a);

@@ -8,9 +8,12 @@ namespace taut::tools
 
 repaired_surface repair(const io::surface_soup& soup, double weld_tolerance)
 {
-    return repair_surface(
-        soup.points, soup.triangles,
-        {.weld_tolerance = weld_tolerance, .normals = soup.normals, .normal_cells = soup.normal_cells});
+    const auto polygons = soup.faces.of_triangles();
+    return repair_surface(soup.points, soup.triangles,
+                          {.weld_tolerance = weld_tolerance,
+                           .normals = soup.normals,
+                           .normal_cells = soup.normal_cells,
+                           .polygons = polygons});
 }
 
 nlohmann::ordered_json to_json(std::span<const repair_finding> findings)

@@ -151,6 +151,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
     json["energy"] = finite(r.energy);
     json["flipped"] = flips.flipped;
     json["branch_points"] = flips.branched;
+    add_polygons(json, r.after);
     json["min_det"] = finite(flips.min_det);
     json["max_det"] = finite(flips.max_det);
     json["seconds"] = {{"read", r.seconds.read},       {"device", r.seconds.queue + r.map.seconds.device},

@@ -49,6 +49,8 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     json["flipped"] = a.flips.flipped;
     json["branch_points"] = a.flips.branched;
     json["overlaps"] = a.overlaps;
+    json["convex_polygons"] = a.polygons;
+    json["concave_polygons"] = a.concave;
     json["seam_length"] = a.seam_length;
     if (a.symmetry)
         json["symmetry"] = {{"normal", {a.symmetry->normal.x, a.symmetry->normal.y, a.symmetry->normal.z}},
@@ -136,6 +138,9 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
                            " used, charts " + number(a.least_distance, 3) + " texels apart at " +
                            std::to_string(o.resolution));
     lines.add("certificate", count(a.flips.flipped, "flip", "flips") + ", " + count(a.overlaps, "overlap", "overlaps") +
+                                 (a.polygons > 0 ? ", " + count(a.concave) + " of " + count(a.polygons) +
+                                                       " convex polygons not convex in the map"
+                                                 : "") +
                                  (a.complete ? "" : "; ended early"));
     lines.add("time", duration(r.total) + ": read " + duration(r.read) + ", device " + duration(r.queue) + ", setup " +
                           duration(a.seconds.setup) + ", charts " + duration(a.seconds.charts) + ", flatten " +

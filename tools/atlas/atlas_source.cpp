@@ -98,12 +98,13 @@ private:
     /// The face of the file that each triangle is of.
     std::vector<idx> faces() const
     {
-        std::vector<idx> face(file_.faces.corners.size());
-        std::size_t corner = 0;
-        for (std::size_t f = 0; f < file_.faces.sizes.size(); ++f)
-            for (idx k = 0; k < file_.faces.sizes[f]; ++k) face[corner++] = static_cast<idx>(f);
+        const auto of_file = file_.faces.of_triangles(); // none: triangles are faces
         std::vector<idx> result(surface().cells().size());
-        for (std::size_t c = 0; c < result.size(); ++c) result[c] = face[file_.faces.corner(origin(c, 0).first, 0)];
+        for (std::size_t c = 0; c < result.size(); ++c)
+        {
+            const auto cell = origin(c, 0).first;
+            result[c] = of_file.empty() ? static_cast<idx>(cell) : of_file[cell];
+        }
         return result;
     }
 

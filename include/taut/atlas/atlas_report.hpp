@@ -51,6 +51,8 @@ struct atlas_report
     std::vector<chart_summary> charts; ///< in the order of chart_mesh
     certificate flips;                 ///< of all triangles as they lie in the atlas, exact
     std::size_t overlaps = 0;  ///< pairs of edges of chart borders that meet, and of charts one in the other; exact
+    std::size_t polygons = 0;  ///< of more than three corners that are convex in space
+    std::size_t concave = 0;   ///< those that are not in the atlas; exact
     double distortion = 0;     ///< area mean of the isometric energy at one common scale; 4: none
     double worst = 0;          ///< the largest of a chart
     double utilization = 0;    ///< area of the triangles by the area of the tiles

@@ -37,6 +37,17 @@ struct file_faces
     {
         return triangles.empty() ? 3 * c + k : static_cast<std::size_t>(triangles[c][k]);
     }
+
+    /// The face that each triangle is of; empty if all faces are triangles.
+    std::vector<idx> of_triangles() const
+    {
+        std::vector<idx> face, result;
+        if (triangles.empty()) return result;
+        for (std::size_t f = 0; f < sizes.size(); ++f)
+            face.insert(face.end(), static_cast<std::size_t>(sizes[f]), static_cast<idx>(f));
+        for (const auto& t : triangles) result.push_back(face[static_cast<std::size_t>(t[0])]);
+        return result;
+    }
 };
 
 /// The text of an OBJ file, and what write_obj needs to find its way in it.

@@ -29,6 +29,9 @@ struct repair_params
     /// so that nothing of one body is sewn to another one or a copy of it.
     std::span<const idx> bodies = {};
 
+    /// The polygon that each triangle is of, or none: triangles of one polygon stay together wherever edges are parted.
+    std::span<const idx> polygons = {};
+
     /// Throws parameter_error. points, triangles: how many the input has
     void validate(std::size_t points, std::size_t triangles) const;
 };
@@ -56,7 +59,8 @@ struct repaired_surface
 ///   vertices that face either way.
 /// - Neighbours are turned to agree. A closed part whose triangles disagree ends with its normals outward, another as
 ///   the larger part of its area was. A one-sided part is cut open.
-/// - Where three or more triangles meet in an edge, pairs that face the same way and bend least stay together, the rest
+/// - Where three or more triangles meet in an edge, those of one polygon stay together, then pairs that face the same
+/// way and bend least stay together, the rest
 ///   part.
 ///
 /// Throws parameter_error; mesh_error (empty, too_large); repair_error if no triangle is left.

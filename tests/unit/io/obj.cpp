@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -210,16 +211,27 @@ TEST_CASE("obj: polygons of any shape and plane are covered once, facing as they
 
 TEST_CASE("obj: a very large polygon becomes a fan, with a note")
 {
-    std::string text, face = "f";
-    for (int i = 0; i < 1000; ++i)
+    const auto star = [](int n, double inner) // every other corner is that far from the middle
     {
-        text += "v " + std::to_string(std::cos(i * 0.006)) + ' ' + std::to_string(std::sin(i * 0.006)) + " 0\n";
-        face += ' ' + std::to_string(i + 1);
+        std::string text, face = "f";
+        for (int i = 0; i < n; ++i)
+        {
+            const double radius = i % 2 == 0 ? 1 : inner, angle = 2 * std::numbers::pi * i / n;
+            text += "v " + std::to_string(radius * std::cos(angle)) + ' ' + std::to_string(radius * std::sin(angle)) +
+                    " 0\n";
+            face += ' ' + std::to_string(i + 1);
+        }
+        return text + face;
+    };
+    const auto large = parse_obj(star(4400, 0.5));
+    CHECK(large.surface.cell_count() == 4398);
+    REQUIRE(large.notes.size() == 1);
+    CHECK(contains(large.notes[0], "(1 as a fan, too large for more)"));
+    for (const auto& text : {star(4400, 1), star(600, 0.5)}) // few reflex corners take few steps
+    {
+        const auto ears = parse_obj(text);
+        CHECK_FALSE(contains(ears.notes[0], "fan"));
     }
-    const auto f = parse_obj(text + face);
-    CHECK(f.surface.cell_count() == 998);
-    REQUIRE(f.notes.size() == 1);
-    CHECK(contains(f.notes[0], "1 with more than 256 corners as fans"));
 }
 
 TEST_CASE("obj: texture coordinates of polygons follow their corners")

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <taut/atlas/atlas_report.hpp>
@@ -19,10 +21,26 @@
 namespace taut::detail
 {
 
+/// Area and energy of chart k at the best scale of its own; infinite where a triangle is turned over.
+inline std::pair<double, double> area_and_energy(const chart_mesh& charts, std::size_t k, std::span<const vec2> uv,
+                                                 const ideal_elements<triangle>& ideal)
+{
+    double area = 0, stretch = 0, shrink = 0; // |S|^2 and |S^-1|^2 by area
+    for (auto c = static_cast<std::size_t>(charts.first_cell[k]);
+         c < static_cast<std::size_t>(charts.first_cell[k + 1]); ++c)
+    {
+        const mat2 S = shape_matrix<2>(charts.surface.cells()[c], uv, ideal.inverse[c]);
+        const double square = glm::dot(S[0], S[0]) + glm::dot(S[1], S[1]), det = glm::determinant(S);
+        area += ideal.measure[c];
+        stretch += ideal.measure[c] * square;
+        shrink += det > 0 ? ideal.measure[c] * (square / det / det) : std::numeric_limits<double>::infinity();
+    }
+    return {area, 2 * std::sqrt(stretch / area) * std::sqrt(shrink / area)};
+}
+
 /// Puts in a report what charts are like, each by itself and all of them at one common scale.
-/// uv: one a vertex of charts.surface, in the tiles; energy: one a chart; layout: without places where there is none
-inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv,
-                      std::span<const double> energy, const packing& layout)
+/// uv: one a vertex of charts.surface, in the tiles; layout: without places where there is none
+inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv, const packing& layout)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const auto& cells = charts.surface.cells();
@@ -43,10 +61,8 @@ inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<
     for (idx k = 0; k < charts.charts(); ++k)
     {
         chart_summary chart{.triangles = charts.first_cell[u(k) + 1] - charts.first_cell[u(k)],
-                            .tile = layout.places.empty() ? 0 : layout.places[u(k)].tile,
-                            .energy = energy[u(k)]};
-        for (auto c = u(charts.first_cell[u(k)]); c < u(charts.first_cell[u(k) + 1]); ++c)
-            chart.area += ideal.measure[c];
+                            .tile = layout.places.empty() ? 0 : layout.places[u(k)].tile};
+        std::tie(chart.area, chart.energy) = area_and_energy(charts, u(k), uv, ideal);
         in_space += chart.area;
         report.worst = std::max(report.worst, chart.energy);
         report.charts.push_back(chart);

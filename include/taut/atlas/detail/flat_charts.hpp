@@ -14,7 +14,9 @@
 
 #include <taut/atlas/atlas_params.hpp>
 #include <taut/atlas/atlas_report.hpp>
+#include <taut/atlas/detail/atlas_summary.hpp>
 #include <taut/atlas/detail/crossing_charts.hpp>
+#include <taut/atlas/detail/round_polygon.hpp>
 #include <taut/atlas/detail/seen_patches.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/detail/symmetry/symmetric_half.hpp>
@@ -353,7 +355,16 @@ protected:
         flatten_params few = params_.flattening;
         few.initial = {};
         few.max_iterations = report_.complete ? few.max_iterations : 0; // their starts are made at once
-        const auto maps = flatten_charts(queue_, part.charts, few);
+        auto maps = flatten_charts(queue_, part.charts, few);
+        const ideal_elements<triangle> ideal(part.charts.surface);
+        for (idx k = 0; k < part.charts.charts(); ++k)
+        {
+            double& energy = maps.charts[u(k)].energy;
+            if (energy < std::numeric_limits<double>::infinity() && !overlaps_itself(part.charts, u(k), maps.uv))
+                continue;
+            lay_round(part.charts, u(k), maps.uv);
+            energy = area_and_energy(part.charts, u(k), maps.uv, ideal).second;
+        }
         for (idx k = 0; k < part.charts.charts(); ++k)
             for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
             {

@@ -15,7 +15,6 @@
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/make_atlas.hpp>
 #include <taut/exact/certify.hpp>
-#include <taut/mesh/ideal.hpp>
 #include <taut/packing/certificate.hpp>
 
 namespace taut::detail
@@ -111,27 +110,7 @@ public:
         return made;
     }
 
-    /// One each, at the best scale of each.
-    std::vector<double> energies() const
-    {
-        const auto& surface = pinned_.charts.surface;
-        const ideal_elements<triangle> ideal(surface);
-        std::vector<double> result;
-        for (std::size_t k = 0; k < tiles_.size(); ++k)
-        {
-            double area = 0, stretch = 0, shrink = 0; // |S|^2 and |S^-1|^2 by area
-            for (auto c = u(pinned_.charts.first_cell[k]); c < u(pinned_.charts.first_cell[k + 1]); ++c)
-            {
-                const mat2 S = shape_matrix<2>(surface.cells()[c], std::span<const vec2>(uv_), ideal.inverse[c]);
-                const double square = glm::dot(S[0], S[0]) + glm::dot(S[1], S[1]), det = glm::determinant(S);
-                area += ideal.measure[c];
-                stretch += ideal.measure[c] * square;
-                shrink += ideal.measure[c] * square / (det * det);
-            }
-            result.push_back(2 * std::sqrt(stretch / area) * std::sqrt(shrink / area));
-        }
-        return result;
-    }
+    idx charts() const { return pinned_.charts.charts(); }
 
     /// The area of their triangles where they lie.
     double area() const

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/detail/polygons.hpp>
+#include <taut/io/detail/split_faces.hpp>
 #include <taut/io/io_error.hpp>
 #include <taut/io/surface_file.hpp>
 
@@ -125,54 +125,29 @@ struct polygon_soup
     surface_soup finish() &&
     {
         surface_soup result;
-        const std::size_t expected = corners.size() > 2 * sizes.size() ? corners.size() - 2 * sizes.size() : 0;
         const bool coords = !texcoords.empty() && !corner_coords.empty(), named_normals = !corner_normals.empty();
         corner_coords.resize(corners.size(), -1); // the last faces may have had none
         if (named_normals) corner_normals.resize(corners.size(), -1);
         const bool polygons = std::any_of(sizes.begin(), sizes.end(), [](idx n) { return n != 3; });
-        result.triangles.reserve(expected);
-        if (coords) result.texcoord_cells.reserve(expected);
-        if (polygons) result.faces.triangles.reserve(expected);
-
-        std::size_t split = 0, fans = 0, first = 0;
-        ear_clipper clipper;
-        std::vector<vec3> polygon;
-        for (const idx size : sizes)
+        if (polygons)
         {
-            const auto add = [&](std::size_t a, std::size_t b, std::size_t c)
-            {
-                const auto of = [&](const std::vector<idx>& items) -> std::array<idx, 3> {
-                    return {items[first + a], items[first + b], items[first + c]};
-                };
-                result.triangles.push_back(of(corners));
-                if (coords) result.texcoord_cells.push_back(of(corner_coords));
-                if (named_normals) result.normal_cells.push_back(of(corner_normals));
-                if (polygons)
-                    result.faces.triangles.push_back(
-                        {static_cast<idx>(first + a), static_cast<idx>(first + b), static_cast<idx>(first + c)});
-            };
-            const auto n = static_cast<std::size_t>(size);
-            if (n == 3)
-                add(0, 1, 2);
-            else if (const std::size_t bad = fault ? unusable_corner(first, n) : n; bad < n)
-                for (std::size_t i = 1; i + 1 < n; ++i) add(bad, (bad + i) % n, (bad + i + 1) % n);
-            else
-            {
-                polygon.clear();
-                for (std::size_t i = 0; i < n; ++i)
-                    polygon.push_back(points[static_cast<std::size_t>(corners[first + i])]);
-                clipper.split(polygon, add);
-                ++split;
-                fans += n > ear_clipper::most_corners ? 1 : 0;
-            }
-            first += n;
+            auto split = face_splitting<>(points, corners, sizes).run();
+            result.notes.push_back(
+                std::to_string(split.polygons) + (split.polygons == 1 ? " polygon was" : " polygons were") +
+                " split into triangles" +
+                (split.fans > 0 ? " (" + std::to_string(split.fans) + " as a fan, too large for more)" : ""));
+            result.faces.triangles = std::move(split.corners);
         }
-        if (split > 0)
-            result.notes.push_back(std::to_string(split) + (split == 1 ? " polygon was" : " polygons were") +
-                                   " split into triangles" +
-                                   (fans > 0 ? " (" + std::to_string(fans) + " with more than " +
-                                                   std::to_string(ear_clipper::most_corners) + " corners as fans)"
-                                             : ""));
+        const auto by_triangle = [&](const std::vector<idx>& items)
+        {
+            std::vector<std::array<idx, 3>> triples(polygons ? result.faces.triangles.size() : sizes.size());
+            for (std::size_t c = 0; c < triples.size(); ++c)
+                for (std::size_t k = 0; k < 3; ++k) triples[c][k] = items[result.faces.corner(c, k)];
+            return triples;
+        };
+        result.triangles = by_triangle(corners);
+        if (coords) result.texcoord_cells = by_triangle(corner_coords);
+        if (named_normals) result.normal_cells = by_triangle(corner_normals);
         if (coords) result.texcoords = std::move(texcoords);
         result.points = std::move(points);
         result.normals = named_normals ? std::move(normals) : carried.normals;
@@ -181,21 +156,6 @@ struct polygon_soup
         result.vertices = std::move(carried);
         result.fault = std::move(fault);
         return result;
-    }
-
-private:
-    /// The first corner of a polygon whose vertex is not there or has no place; n if there is none.
-    std::size_t unusable_corner(std::size_t first, std::size_t n) const
-    {
-        std::size_t k = 0;
-        for (; k < n; ++k)
-        {
-            const idx v = corners[first + k];
-            if (v < 0 || static_cast<std::size_t>(v) >= points.size()) break;
-            const vec3& p = points[static_cast<std::size_t>(v)];
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) break;
-        }
-        return k;
     }
 };
 

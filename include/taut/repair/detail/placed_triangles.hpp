@@ -22,6 +22,7 @@ struct placed_triangles
     double unit;                                   ///< unit_scale(places)
     std::vector<idx> origins;                      ///< triangles of the input
     std::span<const std::array<idx, 3>> triangles; ///< all of the input; corners keep their places
+    std::span<const idx> polygons = {};            ///< of all of the input; or empty
 
     /// The corners of a triangle, times unit.
     std::array<vec3, 3> rest(idx cell) const { return scaled_rest(places, cell, unit); }
@@ -42,6 +43,13 @@ struct placed_triangles
     {
         const auto [a, b] = ends(side);
         return {std::min(vertex(a), vertex(b)), std::max(vertex(a), vertex(b))};
+    }
+    /// Whether two sides are of one polygon: its diagonal, if they are of one edge.
+    bool together(idx side, idx other) const
+    {
+        const auto polygon = [this](idx s)
+        { return polygons[static_cast<std::size_t>(origins[static_cast<std::size_t>(s / 3)])]; };
+        return !polygons.empty() && polygon(side) == polygon(other);
     }
     /// Whether two sides of one edge run the same way.
     bool clash(idx side, idx other) const { return place(ends(side)[0]) == place(ends(other)[0]); }
@@ -74,7 +82,7 @@ inline placed_triangles place_triangles(std::span<const vec3> points, std::span<
         for (idx& v : t) v = number[static_cast<std::size_t>(v)];
     mesh<triangle> places(std::move(used), std::move(placed));
     const double unit = unit_scale(places);
-    return {std::move(places), unit, std::move(cells), triangles};
+    return {std::move(places), unit, std::move(cells), triangles, {}};
 }
 
 /// Moves the cells that `is_bad` names to a list, in the numbering of the input.

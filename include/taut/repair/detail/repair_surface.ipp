@@ -30,6 +30,9 @@ TAUT_INLINE void repair_params::validate(std::size_t points, std::size_t triangl
     if (!bodies.empty() && bodies.size() != points)
         throw parameter_error("bodies", std::to_string(bodies.size()) + " for " + std::to_string(points) +
                                             " vertices; give one a vertex");
+    if (!polygons.empty() && polygons.size() != triangles)
+        throw parameter_error("polygons", std::to_string(polygons.size()) + " for " + std::to_string(triangles) +
+                                              " triangles; give one a triangle");
     if (!normal_cells.empty() && normal_cells.size() != triangles)
         throw parameter_error("normal_cells", std::to_string(normal_cells.size()) + " for " +
                                                   std::to_string(triangles) + " triangles; give one a triangle");
@@ -158,7 +161,7 @@ private:
                                  return is_repeated(t);
                              });
         if (cells_.empty()) return flat;
-        placed_ = detail::place_triangles(points_, triangles_, cells_, place_);
+        place_cells();
         // What is largest may be flat: a triangle too small for it to have an area is found flat by nobody later.
         auto thin = bad_rest_cells(placed_->places).first;
         if (thin.empty()) return flat;
@@ -173,7 +176,13 @@ private:
     void leave_out(const std::vector<idx>& some)
     {
         take_out(cells_, [&](idx c) { return std::binary_search(some.begin(), some.end(), c); });
-        if (!cells_.empty()) placed_ = detail::place_triangles(points_, triangles_, cells_, place_);
+        if (!cells_.empty()) place_cells();
+    }
+
+    void place_cells()
+    {
+        placed_ = detail::place_triangles(points_, triangles_, cells_, place_);
+        placed_->polygons = params_.polygons;
     }
 
     /// The places, as vertices of the input, where open edges end.

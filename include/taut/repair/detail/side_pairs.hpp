@@ -68,9 +68,9 @@ inline vec3 direction_from_edge(const placed_triangles& t, idx side)
     return length > 0 ? across / length : across;
 }
 
-/// Pairs the sides of a crowd that run opposite ways once triangles are turned: those of one edge of the input first,
-/// then those that bend least, then those of one sheet. More than a few are left open, as nothing tells who belongs
-/// together.
+/// Pairs the sides of a crowd that run opposite ways once triangles are turned: those of one polygon first, then those
+/// of one edge of the input, then those that bend least, then those of one sheet. More than a few are left open, as
+/// nothing tells who belongs together.
 inline void pair_crowd(const placed_triangles& t, const winding& w, const std::vector<idx>& crowd, side_pairs& pairs)
 {
     constexpr std::size_t most = 16;
@@ -78,7 +78,7 @@ inline void pair_crowd(const placed_triangles& t, const winding& w, const std::v
     const auto cell = [](idx side) { return static_cast<std::size_t>(side / 3); };
     std::vector<vec3> away;
     for (const idx s : crowd) away.push_back(direction_from_edge(t, s));
-    std::vector<std::tuple<bool, long, bool, idx, idx>> candidates;
+    std::vector<std::tuple<bool, bool, long, bool, idx, idx>> candidates;
     for (std::size_t i = 0; i < crowd.size(); ++i)
         for (std::size_t j = i + 1; j < crowd.size(); ++j)
         {
@@ -86,11 +86,11 @@ inline void pair_crowd(const placed_triangles& t, const winding& w, const std::v
             if (t.clash(a, b) == (w.turned[cell(a)] == w.turned[cell(b)])) continue;
             // Rounded, so that angles are equal where only their last digits differ.
             const long bend = std::lround(1e6 * glm::dot(away[i], away[j]));
-            candidates.emplace_back(t.edge(a) != t.edge(b), bend, w.sheet[cell(a)] != w.sheet[cell(b)], std::min(a, b),
-                                    std::max(a, b));
+            candidates.emplace_back(!t.together(a, b), t.edge(a) != t.edge(b), bend,
+                                    w.sheet[cell(a)] != w.sheet[cell(b)], std::min(a, b), std::max(a, b));
         }
     std::sort(candidates.begin(), candidates.end());
-    for (const auto& [edges, bend, sheets, a, b] : candidates)
+    for (const auto& [polygons, edges, bend, sheets, a, b] : candidates)
         if (pairs.twin[static_cast<std::size_t>(a)] < 0 && pairs.twin[static_cast<std::size_t>(b)] < 0)
             pairs.join(a, b);
 }

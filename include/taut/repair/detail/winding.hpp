@@ -38,7 +38,8 @@ inline void choose_way(const placed_triangles& t, std::span<const idx> cells, bo
 
 /// Spreads the winding of a triangle over what hangs together with it, breadth first, so that what must be cut of a
 /// one-sided part is where two fronts meet: about as short as can be. What edges of the input join goes before what is
-/// sewn: a part of the input that agrees with itself is turned over as a whole or not at all.
+/// sewn: a part of the input that agrees with itself is turned over as a whole or not at all. Polygons are reached as a
+/// whole, so that none is cut.
 /// twin: the other side of each side, or -1
 inline winding wind(const placed_triangles& t, std::span<const idx> twin)
 {
@@ -48,7 +49,7 @@ inline winding wind(const placed_triangles& t, std::span<const idx> twin)
     std::vector<idx> sewn;  // sides whose twins are to be looked at
     const auto wanted = [&](idx side, idx other)
     { return static_cast<char>(w.turned[static_cast<std::size_t>(side / 3)] ^ (t.clash(side, other) ? 1 : 0)); };
-    const auto reach = [&](idx side, idx other)
+    const auto take = [&](idx side, idx other)
     {
         const auto c = static_cast<std::size_t>(other / 3);
         if (w.sheet[c] >= 0) return;
@@ -56,12 +57,25 @@ inline winding wind(const placed_triangles& t, std::span<const idx> twin)
         w.turned[c] = wanted(side, other);
         cells.push_back(other / 3);
     };
+    const auto take_polygon = [&](std::size_t from) // of the cell there
+    {
+        for (std::size_t k = from; k < cells.size(); ++k)
+            for (idx s = 3 * cells[k]; s < 3 * cells[k] + 3; ++s)
+                if (const idx mate = twin[static_cast<std::size_t>(s)]; mate >= 0 && t.together(s, mate)) take(s, mate);
+    };
+    const auto reach = [&](idx side, idx other)
+    {
+        const std::size_t from = cells.size();
+        take(side, other);
+        take_polygon(from);
+    };
     for (std::size_t first = 0; first < n; ++first)
     {
         if (w.sheet[first] >= 0) continue;
         cells.assign(1, static_cast<idx>(first));
         sewn.clear();
         w.sheet[first] = cells[0];
+        take_polygon(0);
         bool closed = true, contradicts = false;
         for (std::size_t i = 0, k = 0; i < cells.size() || k < sewn.size();)
         {
