@@ -63,6 +63,7 @@ public:
 
     idx file_vertices = 0, file_triangles = 0;
     std::vector<std::string> notes; ///< what was changed in reading, in sentences
+    std::string texcoord_fault; ///< why the texture coordinates of the file are none here; empty: they are as it says
 
 protected:
     void take(mesh<triangle> whole) { whole_.emplace(std::move(whole)); }

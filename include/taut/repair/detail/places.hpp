@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,22 +11,11 @@
 #include <vector>
 
 #include <taut/core/counting_sort.hpp>
+#include <taut/core/keyed_hash.hpp>
 
 /// Which points are at one place.
 namespace taut::detail
 {
-
-inline std::uint64_t hash_place(const vec3& p)
-{
-    std::uint64_t h = 0;
-    for (int k = 0; k < 3; ++k)
-    {
-        h ^= std::bit_cast<std::uint64_t>(p[k] + 0.0); // -0 is 0
-        h *= 0x9e3779b97f4a7c15U;
-        h ^= h >> 32U;
-    }
-    return h;
-}
 
 /// The smallest of the points `some` with the same coordinates, one a point; the point itself for the others.
 /// some: points with finite coordinates, increasing
@@ -38,7 +26,7 @@ inline std::vector<idx> equal_places(std::span<const vec3> points, std::span<con
     std::vector<idx> order(n), place(points.size());
     std::iota(place.begin(), place.end(), idx(0));
     const auto start = counting_sort(
-        n, std::max<std::size_t>(n, 1), [&](std::size_t i) { return hash_place(point(some[i])) % n; },
+        n, std::max<std::size_t>(n, 1), [&](std::size_t i) { return keyed_hash(bits_of(point(some[i]))) % n; },
         [&](std::size_t i, std::size_t at) { order[at] = some[i]; });
     for (std::size_t b = 0; b + 1 < start.size(); ++b)
     {
@@ -74,7 +62,8 @@ inline std::vector<idx> near_places(std::span<const vec3> points, std::vector<id
         idx nearest = i;
         for (int n = 0; n < 27; ++n)
         {
-            const auto [from, to] = apart.equal_range(hash_place(cell + vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
+            const auto [from, to] =
+                apart.equal_range(keyed_hash(bits_of(cell + vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1))));
             for (auto k = from; k != to; ++k)
             {
                 const double d = glm::length(points[static_cast<std::size_t>(k->second)] - p);
@@ -86,7 +75,7 @@ inline std::vector<idx> near_places(std::span<const vec3> points, std::vector<id
             }
         }
         place[static_cast<std::size_t>(i)] = nearest;
-        if (nearest == i) apart.emplace(hash_place(cell), i);
+        if (nearest == i) apart.emplace(keyed_hash(bits_of(cell)), i);
     }
     for (idx& p : place) p = place[static_cast<std::size_t>(p)];
     return place;

@@ -64,7 +64,7 @@ private:
             for (long long k = 0; k < attributes; ++k) nodes_.real(number_type::float64);
             if (markers == 0) continue;
             const auto vertex = static_cast<idx>(v);
-            groups.add(nodes_.integer(integer, "a boundary marker"), 0, {&vertex, 1});
+            groups.add(marker(nodes_), 0, {&vertex, 1});
         }
         to_.finish_ids(nodes_);
         groups.move_to_prefixed(to_.file(), "points");
@@ -76,6 +76,14 @@ private:
         const long long n = from.in().content_ends() ? 0 : from.integer(integer, "a count");
         if (n < 0) from.fail("a negative count");
         return n;
+    }
+
+    /// Some programs write 0.0 for 0.
+    static long long marker(number_source<>& from)
+    {
+        const double x = from.real(number_type::float64);
+        if (x != std::floor(x) || std::abs(x) > 1e15) from.fail("a boundary marker that is no whole number");
+        return static_cast<long long>(x);
     }
 
     template <std::size_t N>
@@ -121,7 +129,7 @@ private:
         {
             read_cell(from, face, 3);
             to_.add_cell(cell_kind::triangle, face);
-            if (marked) groups.add(from.integer(integer, "a boundary marker"), 2, face);
+            if (marked) groups.add(marker(from), 2, face);
             from.in().next_line(); // TetGen -nn adds neighbours
         }
         groups.move_to_prefixed(to_.file(), "faces");
