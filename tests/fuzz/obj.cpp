@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "budget.hpp"
 #include "mutator.hpp"
 #include "surface_promises.hpp"
 
@@ -114,6 +115,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 /// Whatever the bytes, they are a surface that keeps the promises, or an error of the library.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    const taut::fuzz::budget limit(size);
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     try
     {
