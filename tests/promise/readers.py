@@ -106,7 +106,7 @@ def left_out(run):
         run("atlas", name, "-o", "no.obj", code=(3, 4))
         stats = run.stats("atlas", name, "-o", "out.obj", "--repair")
         assert mapped(run.read("out.obj")) == len(FACES), name
-        counts = {r["fault"]: r["count"] for r in stats["repairs"]}
+        counts = {r["fault"]: r["count"] for r in stats["surfaces"][0]["repairs"]}
         assert counts["non_finite"] == 4 and counts["repeated_vertex"] == 2, (name, counts)
 
 
