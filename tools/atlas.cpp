@@ -124,6 +124,9 @@ private:
             told.mapped = s.surface().cell_count();
             told.repairs.assign(s.repairs().begin(), s.repairs().end());
             report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());
+            if (!s.texcoord_fault.empty() && (options_.keep_charts || options_.keep_seams || !options_.pinned.empty()))
+                throw unsuitable_input(s.texcoord_fault +
+                                       "; correct it, or leave out --charts keep, --keep-seams and --pin");
             if (options_.inputs.size() > 1) require_valid(s.surface(), options_.inputs[i]);
         }
         joined_.emplace(join(sources_));

@@ -15,6 +15,7 @@
 #include <taut/io/make_untangle_problem.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/read_volume.hpp>
+#include <taut/mesh/ideal.hpp>
 #include <taut/mesh/validate.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 
@@ -44,10 +45,10 @@ void read_constraints(check_report& report, const std::string& path, constraints
                       const std::optional<io::cut_surface>& cut = {})
 {
     if (path.empty()) return;
+    const auto divided = cut ? divided_vertices(*cut) : std::vector<idx>();
     for (const auto& pin : io::read_pins<Element::dimension>(path, vertices)) try
         {
-            if constexpr (Element::dimension == 2)
-                if (cut) require_undivided({&pin, 1}, *cut);
+            if constexpr (Element::dimension == 2) require_undivided({&pin, 1}, divided);
             add_pins(pins, {pin});
         }
         catch (const constraint_error& e)
@@ -76,13 +77,29 @@ std::optional<io::cut_surface> find_cut(check_report& report, const io::surface_
     }
 }
 
+/// Pins may be too far away for the size of a mesh.
+template <class Element>
+bool near_enough(check_report& report, const mesh<Element>& m, const constraints<Element>& pins)
+{
+    try
+    {
+        pins.require_near(unit_scale(m));
+        return true;
+    }
+    catch (const constraint_error& e)
+    {
+        report_pins<Element>(report, e);
+        return false;
+    }
+}
+
 template <class Element>
 void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element::dimension>> initial,
            const constraints<Element>& pins, std::vector<idx> owners = {})
 {
     report.pins = pins.pins().size();
     report.springs = pins.springs().size();
-    if (pins.pins().empty()) return;
+    if (!near_enough(report, m, pins) || pins.pins().empty()) return;
     auto problem = make_untangle_problem(m, std::move(initial), pins);
     problem.owners = std::move(owners);
     const auto found = find_infeasibility(problem);

@@ -45,6 +45,8 @@ exit_code evaluate(const eval_options& options)
     refuse("--picture", !options.picture.empty());
     refuse("--cut", !options.cut.empty());
     const auto file = io::read_surface_file(options.input, options.format);
+    if (!file.texcoord_fault.empty())
+        throw unsuitable_input(file.texcoord_fault + "; correct it, or let `taut unwrap` make others");
     if (file.texcoords.empty())
         throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
     const auto cut = io::cut_seams(file);

@@ -10,9 +10,8 @@
 namespace taut::tools
 {
 
-std::vector<idx> read_faces(const std::string& path)
+std::vector<idx> parse_faces(std::string_view text, const std::string& path)
 {
-    const std::string text = io::read_file(path);
     std::vector<idx> faces;
     std::size_t line = 1;
     for (const char *at = text.data(), *const end = at + text.size(); at != end;)
@@ -32,6 +31,11 @@ std::vector<idx> read_faces(const std::string& path)
         }
     }
     return faces;
+}
+
+std::vector<idx> read_faces(const std::string& path)
+{
+    return parse_faces(io::read_file(path), path);
 }
 
 } // namespace taut::tools

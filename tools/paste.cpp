@@ -71,6 +71,9 @@ public:
                 source_.emplace(io::read_surface_file(options_.source));
                 target_.emplace(io::read_surface_file(options_.target));
             });
+        for (const auto* file : {&*source_, &*target_}) // faces that stay keep theirs
+            if (!file->texcoord_fault.empty())
+                throw unsuitable_input(file->texcoord_fault + "; correct it, or leave the texture coordinates out");
         const auto& surface = source_->surface;
         if (options_.region.empty()) require_vertex("--at", options_.at, surface, options_.source);
         require_vertex("--onto", options_.onto, target_->surface, options_.target);

@@ -120,13 +120,18 @@ std::string describe(const io::cut_surface& cut)
     return "cut open along the seams of its vt, on which " + count(cut.seam_vertices, "vertex lies", "vertices lie");
 }
 
-void require_undivided(std::span<const io::pin<2>> pins, const io::cut_surface& cut)
+std::vector<idx> divided_vertices(const io::cut_surface& cut)
 {
     // Further sheets follow the vertices of the file.
     std::vector<idx> divided;
     for (std::size_t s = 0; s < cut.origins.size(); ++s)
         if (cut.origins[s] != static_cast<idx>(s)) divided.push_back(cut.origins[s]);
     std::sort(divided.begin(), divided.end());
+    return divided;
+}
+
+void require_undivided(std::span<const io::pin<2>> pins, std::span<const idx> divided)
+{
     for (const auto& pin : pins)
         if (const auto sheets = std::equal_range(divided.begin(), divided.end(), pin.vertex);
             sheets.first != sheets.second)

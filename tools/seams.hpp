@@ -8,6 +8,7 @@
 #include <taut/io/cut_seams.hpp>
 #include <taut/io/pins.hpp>
 #include <taut/mesh/validate.hpp>
+#include <vector>
 
 namespace taut::tools
 {
@@ -25,7 +26,10 @@ std::optional<io::cut_surface> cut_to_one_disk(const io::surface_file& file);
 /// "cut open along the seams of its vt, on which 14 vertices lie"
 std::string describe(const io::cut_surface& cut);
 
-/// Throws unsuitable_input if a pin names a vertex that the cut divides.
-void require_undivided(std::span<const io::pin<2>> pins, const io::cut_surface& cut);
+/// The vertices of the file that a cut divides, ascending, as often as it adds one.
+std::vector<idx> divided_vertices(const io::cut_surface& cut);
+
+/// Throws unsuitable_input if a pin names one of them.
+void require_undivided(std::span<const io::pin<2>> pins, std::span<const idx> divided);
 
 } // namespace taut::tools

@@ -109,7 +109,7 @@ private:
     {
         if (options_.pins.empty()) return;
         const auto pins = io::read_pins<2>(options_.pins, file_->surface.vertex_count());
-        if (cut_) require_undivided(pins, *cut_);
+        if (cut_) require_undivided(pins, divided_vertices(*cut_));
         pins_ = constraints<triangle>(surface());
         add_pins(pins_, pins);
         report_.pins = pins_.pins().size();
@@ -212,6 +212,8 @@ private:
 
     std::vector<vec2> start_from_file() const
     {
+        if (!file_->texcoord_fault.empty())
+            throw unsuitable_input(file_->texcoord_fault + "; correct it for --start uv, or use --start tutte");
         if (file_->texcoords.empty())
             throw unsuitable_input(options_.input +
                                    ": has no texture coordinates (vt) for --start uv; use --start tutte");

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "../../tools/view/messages.cpp"
+#include "budget.hpp"
 #include "mutator.hpp"
 #include "require.hpp"
 
@@ -70,6 +71,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 /// Whatever the bytes, they are a message whose numbers can be used, or a message_error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    const taut::fuzz::budget limit(size);
     try
     {
         const auto m = view::parse({data, size});

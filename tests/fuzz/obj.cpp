@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "budget.hpp"
 #include "mutator.hpp"
 #include "surface_promises.hpp"
 
@@ -57,6 +63,9 @@ std::string generate(dice& random)
 /// it.
 std::string without_texcoords(const std::string& text)
 {
+    static const std::set<std::string> of_numbers{"v",    "vt",    "vn",   "vp",   "f",     "fo",    "l",     "p",
+                                                  "curv", "curv2", "surf", "parm", "trim",  "hole",  "scrv",  "sp",
+                                                  "con",  "deg",   "bmat", "step", "ctech", "stech", "cstype"};
     std::string result;
     std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
     result.append(text, 0, at);
@@ -81,8 +90,8 @@ std::string without_texcoords(const std::string& text)
                 word += text[at++];
             ended = word.empty();
             words.emplace_back(blanks, word);
-            if (!words[0].second.starts_with('#')) continue;
-            ended = true; // a comment ends with its line
+            if (of_numbers.contains(words[0].second)) continue;
+            ended = true; // names and comments end with their line
             while (at < text.size() && text[at] != '\n' && text[at] != '\r') words[0].second += text[at++];
         }
         std::string end;
@@ -114,6 +123,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 /// Whatever the bytes, they are a surface that keeps the promises, or an error of the library.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    const taut::fuzz::budget limit(size);
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     try
     {

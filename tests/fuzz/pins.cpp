@@ -6,6 +6,7 @@
 #include <taut/constrain/constraints.hpp>
 #include <taut/io/make_untangle_problem.hpp>
 
+#include "budget.hpp"
 #include "mutator.hpp"
 #include "require.hpp"
 
@@ -67,6 +68,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    const taut::fuzz::budget limit(size);
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     examine(bytes, mesh<triangle>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}));
     examine(bytes, mesh<tetrahedron>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}));

@@ -6,6 +6,7 @@
 
 #include <taut/io/ply.hpp>
 
+#include "budget.hpp"
 #include "mutator.hpp"
 #include "surface_promises.hpp"
 
@@ -169,6 +170,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 /// Whatever the bytes, they are a surface that keeps the promises, or an error of the library.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    const taut::fuzz::budget limit(size);
     try
     {
         fuzz::require_promises(io::parse_ply(std::string_view(reinterpret_cast<const char*>(data), size)));

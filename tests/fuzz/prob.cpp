@@ -7,6 +7,7 @@
 #include <taut/io/make_untangle_problem.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
 
+#include "budget.hpp"
 #include "mutator.hpp"
 #include "require.hpp"
 
@@ -77,6 +78,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    const taut::fuzz::budget limit(size);
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     examine<triangle>(bytes);
     examine<tetrahedron>(bytes);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <taut/io/cell_faces.hpp>
 #include <taut/io/read_volume.hpp>
@@ -9,6 +13,7 @@
 
 #include "../support/volume_promises.hpp"
 #include "../support/volume_texts.hpp"
+#include "budget.hpp"
 #include "mutator.hpp"
 #include "require.hpp"
 
@@ -22,6 +27,100 @@ using io::volume_format;
 /// The first byte of an input says which format the rest is of. Files of TetGen follow each other, with form feeds
 /// between them.
 constexpr std::string_view letters = " mgvutsp";
+
+/// A VTU file of one tetrahedron with arrays of any type, count and encoding, that may share their bytes.
+std::string generate_vtu(dice& random)
+{
+    const bool big = random.one_in(2), wide = random.one_in(2);
+    const std::string appended = std::string(random.pick({"raw", "raw", "raw", "base64"}));
+    std::string data, arrays, cells;
+    std::vector<std::string> places;
+    const auto put = [&](std::string& to, auto value)
+    {
+        std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+        if (big) std::reverse(bytes.begin(), bytes.end());
+        to += bytes;
+    };
+    const auto array = [&](std::string_view type, const std::string& name, std::initializer_list<int> values)
+    {
+        std::string bytes, words;
+        for (const int x : values)
+        {
+            words += std::to_string(x) + ' ';
+            if (type.ends_with("8")) put(bytes, static_cast<std::int8_t>(x));
+            if (type.ends_with("Int16")) put(bytes, static_cast<std::int16_t>(x));
+            if (type.ends_with("Int32")) put(bytes, static_cast<std::int32_t>(x));
+            if (type.ends_with("Int64")) put(bytes, static_cast<std::int64_t>(x));
+            if (type == "Float32") put(bytes, static_cast<float>(x));
+            if (type == "Float64") put(bytes, static_cast<double>(x));
+        }
+        std::string tag = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" ";
+        if (name == "Points" || random.one_in(12)) tag += "NumberOfComponents=\"3\" ";
+        if (random.one_in(4)) return tag + "format=\"ascii\">" + words + "</DataArray>";
+        if (random.one_in(30)) return tag + "format=\"binary\">BAAAAAECAwQ=</DataArray>";
+        if (places.empty() || !random.one_in(4))
+        {
+            places.push_back(std::to_string(data.size()));
+            const std::size_t size = random.one_in(40) ? random.below(100) : bytes.size();
+            if (wide)
+                put(data, static_cast<std::uint64_t>(size));
+            else
+                put(data, static_cast<std::uint32_t>(size));
+            data += bytes;
+        }
+        return tag + "format=\"appended\" offset=\"" + places[random.below(places.size())] + "\"/>";
+    };
+    const auto integers = [&] { return random.pick({"Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64"}); };
+    const std::string points =
+        array(random.pick({"Float32", "Float64"}), "Points", {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+    cells = array(integers(), "connectivity", {0, 1, 2, 3}) + array(integers(), "offsets", {4});
+    cells += array(integers(), "types", {10});
+    for (std::size_t k = random.below(6); k > 0; --k)
+        arrays += array(random.one_in(6) ? "Float64" : integers(), "a" + std::to_string(k), {1, 2, 1, 2});
+    return "<VTKFile type=\"UnstructuredGrid\" byte_order=\"" + std::string(big ? "BigEndian" : "LittleEndian") +
+           "\" header_type=\"" + (wide ? "UInt64" : "UInt32") + '"' +
+           (random.one_in(20) ? " compressor=\"vtkZLibDataCompressor\"" : "") +
+           "><UnstructuredGrid>\n<Piece NumberOfPoints=\"" + random.count(5) +
+           "\" NumberOfCells=\"1\">\n<PointData>\n" + arrays + "\n</PointData>\n<Points>" + points +
+           "</Points>\n<Cells>" + cells + "</Cells></Piece></UnstructuredGrid>\n<AppendedData encoding=\"" + appended +
+           "\">_" + data + "</AppendedData></VTKFile>";
+}
+
+/// A text of gmsh 4.1 with entities of any number of tags, blocks in any order, parameters, and names.
+std::string generate_gmsh4(dice& random)
+{
+    std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    if (random.one_in(2))
+        text += "$PhysicalNames\n2\n3 1 \"body\"\n2 " + random.count(4) + " \"" +
+                std::string(random.pick({"body", "", "wall"})) + "\"\n$EndPhysicalNames\n";
+    const std::size_t entities = random.between(1, 3);
+    text += "$Entities\n0 0 0 " + std::to_string(entities) + '\n';
+    for (std::size_t k = 1; k <= entities; ++k)
+    {
+        const std::size_t tags = random.one_in(6) ? random.between(0, 60) : random.below(3);
+        text += std::to_string(random.one_in(12) ? 1 : k) + " 0 0 0 1 1 1 " + std::to_string(tags);
+        for (std::size_t t = 0; t < tags; ++t) text += ' ' + std::to_string(random.between(1, 9));
+        text += random.one_in(2) ? " 0\n" : " 2 1 -2\n";
+    }
+    text += "$EndEntities\n$Nodes\n" + std::to_string(entities) + ' ' + std::to_string(4 * entities) + " 1 99\n";
+    const std::size_t dimension = random.between(2, 3);
+    for (std::size_t k = 0; k < entities; ++k)
+    {
+        const bool parameters = random.one_in(3);
+        text += std::to_string(dimension) + ' ' + std::to_string(k + 1) + (parameters ? " 1 4\n" : " 0 4\n");
+        for (std::size_t v = 0; v < 4; ++v) text += std::to_string(4 * k + v + 1) + '\n';
+        for (const char* corner : {"0 0 ", "1 0 ", "0 1 ", "0 0 "})
+            text += corner + random.number() + (!parameters ? "" : dimension == 2 ? " 0.5 0.5" : " 0.5 0.5 0") + '\n';
+    }
+    text += "$EndNodes\n$Elements\n" + std::to_string(entities) + ' ' + std::to_string(entities) + " 1 99\n";
+    for (std::size_t k = 0; k < entities; ++k)
+    {
+        text += "3 " + random.count(entities + 1) + " 4 1\n" + std::to_string(k + 1);
+        for (std::size_t v = 0; v < 4; ++v) text += ' ' + std::to_string(4 * k + v + 1);
+        text += '\n';
+    }
+    return text + "$EndElements\n";
+}
 
 /// A small mesh with any numbers in any format.
 std::string generate(dice& random)
@@ -40,7 +139,7 @@ std::string generate(dice& random)
                                   random.one_in(3)};
     const int dimension = random.one_in(5) ? 2 : 3;
     const std::string end(random.pick({"\n", "\n", "\r\n"}));
-    switch (random.below(9))
+    switch (random.below(11))
     {
     case 0:
         return 'm' + test::medit_text(s, dimension, end);
@@ -56,6 +155,10 @@ std::string generate(dice& random)
         return 'u' + test::vtu_text(s, e, random.one_in(2));
     case 6:
         return 's' + test::su2_text(s, dimension, end);
+    case 8:
+        return 'u' + generate_vtu(random);
+    case 9:
+        return 'g' + generate_gmsh4(random);
     case 7:
         return "p4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 " + random.number() +
                "\n1 4\n0 1 2 3\n1\n2\n";
@@ -109,6 +212,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
+    const taut::fuzz::budget limit(size);
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     const auto letter = size == 0 ? letters.npos : letters.find(bytes[0]);
     if (letter == letters.npos || letter == 0) return 0;

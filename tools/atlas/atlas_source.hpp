@@ -76,6 +76,7 @@ public:
     idx file_vertices = 0, file_triangles = 0;
     std::vector<std::string> notes;             ///< what was changed in reading, in sentences
     std::set<std::filesystem::path> companions; ///< files that were read beside it
+    std::string texcoord_fault; ///< why the texture coordinates of the file are none here; empty: they are as it says
 
 protected:
     /// origin: atlas_params::origin

@@ -2,12 +2,12 @@
 #include "seam_edges.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <utility>
 
 #include <taut/io/read_file.hpp>
 
+#include "../edge_list.hpp"
 #include "../failure.hpp"
 
 namespace taut::tools
@@ -19,43 +19,6 @@ namespace
 std::size_t u(idx i)
 {
     return static_cast<std::size_t>(i);
-}
-
-/// Edges of a file, two vertices a line, from 0, with the smaller vertex first, sorted.
-std::vector<std::array<idx, 2>> read_edges(const std::string& path, idx vertices)
-{
-    const std::string text = io::read_file(path);
-    std::vector<std::array<idx, 2>> edges;
-    std::size_t line = 1;
-    const auto fail = [&](const std::string& what) {
-        throw io::io_error(path, what, io::file_place{io::file_place::line, line});
-    };
-    for (std::size_t begin = 0; begin < text.size(); ++line)
-    {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
-        const char *at = text.data() + begin, *const stop = text.data() + std::min(text.find('#', begin), end);
-        begin = end + 1;
-        const auto blank = [&] { return at != stop && (*at == ' ' || *at == '\t' || *at == '\r' || *at == ','); };
-        std::vector<idx> numbers;
-        while (true)
-        {
-            while (blank()) ++at;
-            if (at == stop) break;
-            idx v = 0;
-            const auto [next, error] = std::from_chars(at, stop, v);
-            if (error != std::errc{}) fail("no number of a vertex; write two a line, from 0");
-            if (v < 0 || v >= vertices)
-                fail("vertex " + std::to_string(v) + " of " + std::to_string(vertices) + "; write them from 0");
-            numbers.push_back(v);
-            at = next;
-        }
-        if (numbers.empty()) continue;
-        if (numbers.size() != 2) fail(std::to_string(numbers.size()) + " numbers; write the two vertices of an edge");
-        edges.push_back({std::min(numbers[0], numbers[1]), std::max(numbers[0], numbers[1])});
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
 }
 
 /// Marks these edges.
@@ -97,7 +60,8 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
     if (options.seams.empty() && !options.keep_charts && !options.keep_seams) return {};
     std::vector<char> seam(f.twin.size(), 0);
     if (!options.seams.empty())
-        mark_edges(seam, read_edges(options.seams, sources[0]->file_vertices), *sources[0], options.seams);
+        mark_edges(seam, parse_edges(io::read_file(options.seams), options.seams, sources[0]->file_vertices),
+                   *sources[0], options.seams);
     if (options.keep_charts) mark_texcoords(seam, joined.surface, f, texcoords_of(sources));
     if (!options.keep_seams) return seam;
 

@@ -66,7 +66,7 @@ struct opened_surface
     {
         if (from.pins.empty()) return;
         const auto pins = io::read_pins<2>(from.pins, file.surface.vertex_count());
-        if (cut) tools::require_undivided(pins, *cut);
+        if (cut) tools::require_undivided(pins, tools::divided_vertices(*cut));
         constraints = pinned(surface(), pins);
     }
     const mesh<triangle>& surface() const { return cut ? cut->surface : file.surface; }

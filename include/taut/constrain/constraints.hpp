@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -194,6 +195,18 @@ public:
 
     bool empty() const { return pins_.empty() && springs_.empty(); }
 
+    /// Throws constraint_error (not_finite) where targets are too far away in lengths of `unit` times these.
+    void require_near(double unit) const
+    {
+        std::vector<idx> far;
+        for (const auto& [v, pin] : pins_)
+            if (!finite(pin.value * unit, pin.held)) far.push_back(v);
+        for (const auto& [v, s] : springs_)
+            if (!finite(s.target * unit, all)) far.push_back(v);
+        detail::refuse_vertices(constraint_fault::not_finite, std::move(far),
+                                "with a target that is too far away for the size of the mesh; give a nearer one");
+    }
+
     /// The same for a copy of the mesh. Throws constraint_error where it is another mesh, with fewer vertices.
     constraints on(const mesh<Element>& copy) const
     {
@@ -240,7 +253,9 @@ public:
     }
 
 private:
-    static constexpr const char* not_finite_ = "with a target that is not finite; give finite coordinates";
+    static constexpr const char* not_finite_ =
+        "with a target that is not finite, or so far away that distances are not; give nearer coordinates";
+    static constexpr double farthest_ = std::numeric_limits<double>::max() / 2; // so that differences are finite
     static constexpr const char* idle_spring_ = "with a spring and a pin, which leaves the spring nothing to do; "
                                                 "leave one of them out";
 
@@ -250,7 +265,7 @@ private:
     static bool finite(const point& x, std::uint8_t coordinates)
     {
         for (int k = 0; k < D; ++k)
-            if ((coordinates >> k & 1u) != 0 && !std::isfinite(x[k])) return false;
+            if ((coordinates >> k & 1u) != 0 && !(std::abs(x[k]) <= farthest_)) return false;
         return true;
     }
 

@@ -24,12 +24,13 @@ class held_coordinates
 {
 public:
     /// fixed: the vertices of a boundary that stays; none where it is free. Throws parameter_error for constraints of
-    /// another mesh.
+    /// another mesh; constraint_error (not_finite) for targets that are too far away in lengths of `unit`.
     held_coordinates(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
         : wanted_(std::move(wanted)), free_boundary_(fixed.empty()), unit_(unit)
     {
         for (const auto& [v, pin] : wanted_.pins()) require(v, vertices);
         for (const auto& s : wanted_.springs()) require(s.vertex, vertices);
+        wanted_.require_near(unit);
         if (free_boundary_ && wanted_.pins().empty()) return;
         marks_ = held_marks<2>(vertices);
         for (const idx v : fixed) marks_[static_cast<std::size_t>(v)] = marks_.every;

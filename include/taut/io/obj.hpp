@@ -50,7 +50,7 @@ public:
     /// The first byte of the first vt or f statement; null if there is none.
     const char* body() const { return body_; }
     std::size_t corner_count() const { return soup_.corners.size(); }
-    bool faulty() const { return soup_.fault.has_value(); }
+    bool faulty() const { return soup_.fault.has_value() || !soup_.texcoord_fault.empty(); }
 
     /// False if some statement counts back from its place, which a piece does not know.
     bool absolute() const { return absolute_; }
@@ -83,10 +83,16 @@ public:
 
     surface_soup finish()
     {
-        require_range(vertices_, soup_.points.size(), "vertex");
-        require_range(coords_, soup_.texcoords.size(), "texture coordinate");
-        // What is not there is none; where readers are strict, that has been thrown, and there are no normals.
-        if (soup_.fault) drop_beyond(soup_.corner_coords, soup_.texcoords.size());
+        if (auto what = beyond(vertices_, soup_.points.size(), "vertex"); !what.empty())
+            soup_.note(
+                [&]
+                {
+                    return mesh_error(mesh_fault::index_out_of_range,
+                                      {static_cast<idx>(vertices_.face), static_cast<idx>(vertices_.number - 1)}, what);
+                });
+        if (soup_.texcoord_fault.empty())
+            soup_.texcoord_fault = beyond(coords_, soup_.texcoords.size(), "texture coordinate");
+        // What is not there is none; where readers are strict, there are no normals.
         drop_beyond(soup_.corner_normals, soup_.normals.size());
         return std::move(soup_).finish();
     }
@@ -129,9 +135,8 @@ private:
         {
             const char* const position = in_.position();
             const obj_corner c = read_obj_corner(in_);
-            soup_.corners.push_back(resolve(c.vertex, soup_.points.size(), vertices_, position));
-            soup_.corner_coords.push_back(
-                c.has_texcoord ? resolve(c.texcoord, soup_.texcoords.size(), coords_, position) : -1);
+            soup_.corners.push_back(resolve_vertex(c.vertex, position));
+            soup_.corner_coords.push_back(c.has_texcoord ? resolve_texcoord(c.texcoord, position) : -1);
             if (c.has_normal && !soup_.strict) add_corner_normal(c.normal);
         }
         soup_.end_polygon(first, in_.path(), in_.here());
@@ -147,32 +152,53 @@ private:
             i == 0 || n < 0 || n > static_cast<long long>(polygon_soup<>::limit) ? -1 : static_cast<idx>(n));
     }
 
-    /// A number counted from 1, or back from -1, the last of `count`. The result is counted from 0.
-    idx resolve(long long i, std::size_t count, largest& most, const char* position)
+    /// A number counted from 1, or back from -1, the last of `count`. The result is counted from 0; nothing if it
+    /// cannot be.
+    std::optional<idx> resolve(long long i, std::size_t count, largest& most, const char* position)
     {
         absolute_ = absolute_ && i > 0;
         const long long zero_based = i > 0 ? i - 1 : static_cast<long long>(count) + i;
-        if (i == 0 || zero_based < 0 || zero_based > static_cast<long long>(polygon_soup<>::limit))
-        {
-            const std::string what = "a face names number " + std::to_string(i) + " of " + std::to_string(count) +
-                                     "; numbers start at 1, or at -1 from the end";
-            if (soup_.strict) in_.fail(what);
-            soup_.note({mesh_fault::index_out_of_range,
-                        {static_cast<idx>(soup_.sizes.size()), -1},
-                        place_prefix(in_.path(), in_.line_of(position)) + what});
-            return -1;
-        }
+        if (i == 0 || zero_based < 0 || zero_based > static_cast<long long>(polygon_soup<>::limit)) return std::nullopt;
         if (zero_based >= most.number) most = {zero_based + 1, position, soup_.sizes.size()};
         return static_cast<idx>(zero_based);
     }
 
-    void require_range(const largest& most, std::size_t count, const std::string& what)
+    idx resolve_vertex(long long i, const char* position)
     {
-        if (most.number > static_cast<long long>(count))
-            soup_.note({mesh_fault::index_out_of_range,
-                        {static_cast<idx>(most.face), static_cast<idx>(most.number - 1)},
-                        place_prefix(in_.path(), in_.line_of(most.position)) + "a face names " + what + ' ' +
-                            std::to_string(most.number) + ", but there are " + std::to_string(count)});
+        const auto v = resolve(i, soup_.points.size(), vertices_, position);
+        if (!v && soup_.strict) in_.fail(wrong_number(i, soup_.points.size()));
+        if (!v)
+            soup_.note(
+                [&]
+                {
+                    return mesh_error(mesh_fault::index_out_of_range, {static_cast<idx>(soup_.sizes.size()), -1},
+                                      place_of(position) + wrong_number(i, soup_.points.size()));
+                });
+        return v.value_or(-1);
+    }
+
+    idx resolve_texcoord(long long i, const char* position)
+    {
+        const auto t = resolve(i, soup_.texcoords.size(), coords_, position);
+        if (!t && soup_.texcoord_fault.empty())
+            soup_.texcoord_fault = place_of(position) + wrong_number(i, soup_.texcoords.size());
+        return t.value_or(-1);
+    }
+
+    std::string place_of(const char* position) const { return place_prefix(in_.path(), in_.line_of(position)); }
+
+    static std::string wrong_number(long long i, std::size_t count)
+    {
+        return "a face names number " + std::to_string(i) + " of " + std::to_string(count) +
+               "; numbers start at 1, or at -1 from the end";
+    }
+
+    /// What a face names that is not there; empty if all is.
+    std::string beyond(const largest& most, std::size_t count, const std::string& what) const
+    {
+        if (most.number <= static_cast<long long>(count)) return {};
+        return place_of(most.position) + "a face names " + what + ' ' + std::to_string(most.number) +
+               ", but there are " + std::to_string(count);
     }
 
     static void drop_beyond(std::vector<idx>& names, std::size_t count)

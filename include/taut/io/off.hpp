@@ -23,6 +23,7 @@ class off_reader
 public:
     off_reader(std::string_view text, const std::string& path, bool strict) : in_(text, path, true)
     {
+        refuse_binary();
         in_.require_text();
         soup_.strict = strict;
     }
@@ -46,6 +47,13 @@ public:
     }
 
 private:
+    /// Geomview's binary form says so behind the header.
+    void refuse_binary() const
+    {
+        scanner in = in_;
+        if (in.word().ends_with("OFF") && in.word() == "BINARY") in.fail("binary OFF is not read; save it as text");
+    }
+
     /// [ST][C][N]OFF, or nothing: the header may be missing.
     void read_header()
     {
@@ -60,7 +68,7 @@ private:
         if (!rest.empty() && rest != "C" && rest != "N" && rest != "CN")
             in_.fail("not an OFF file of points in space: '" + std::string(key.substr(0, 40)) + "'");
         skip_to_content();
-        if (!in_.at_digit()) in_.fail("expected the number of vertices; binary OFF is not supported");
+        if (!in_.at_digit()) in_.fail_at_word("the number of vertices");
     }
 
     std::size_t read_count(const char* what)

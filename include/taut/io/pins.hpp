@@ -8,15 +8,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <taut/core/types.hpp>
 #include <taut/io/atomic_file.hpp>
+#include <taut/io/detail/scanner.hpp>
 #include <taut/io/read_file.hpp>
 
 namespace taut::io
@@ -52,6 +53,7 @@ public:
     pin_reader(std::string_view text, const std::string& path) : rest_(text), path_(path)
     {
         if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3); // byte order mark of UTF-8
+        refuse_utf16(rest_, path_);
         if (rest_.substr(0, 4096).find('\0') != rest_.npos) throw io_error(path_, "not a text file");
     }
 
@@ -160,7 +162,7 @@ std::vector<pin<D>> parse_pins(std::string_view text, const std::string& path = 
 {
     detail::pin_reader<> in(text, path);
     std::vector<pin<D>> pins;
-    std::unordered_map<idx, std::pair<std::uint8_t, std::size_t>> given; // bits, and the last line
+    std::map<idx, std::pair<std::uint8_t, std::size_t>> given; // bits, and the last line
     for (bool first = true; in.next(); first = false)
     {
         const std::string_view cell = in.cells()[0];

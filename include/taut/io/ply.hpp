@@ -40,6 +40,8 @@ public:
                 read_vertices(e);
             else if (e.name == "face")
                 read_faces(e);
+            else if (e.name == "tristrips")
+                read_strips(e);
             else
                 for (std::size_t r = 0; r < e.rows; ++r)
                     for (const ply_property& p : e.properties) read_property(p, [](double) {});
@@ -164,12 +166,48 @@ private:
         positions.end();
     }
 
-    void read_faces(const ply_element& e)
+    static bool is(const ply_property& p, std::string_view a, std::string_view b)
+    {
+        return p.counts && (p.name == a || p.name == b);
+    }
+
+    void require_vertices(const ply_element& e) const
     {
         if (soup_.points.empty() && e.rows > 0)
             throw io_error(path_, "the faces stand before the vertices; write the vertex element first");
-        const auto is = [](const ply_property& p, std::string_view a, std::string_view b)
-        { return p.counts && (p.name == a || p.name == b); };
+    }
+
+    /// Triangle strips: each vertex ends a triangle with the two before it, every second one turned; -1 begins a new
+    /// strip, and a vertex named twice joins two.
+    void read_strips(const ply_element& e)
+    {
+        require_vertices(e);
+        std::array<long long, 3> last{};
+        for (std::size_t r = 0; r < e.rows; ++r)
+        {
+            std::size_t length = 0; // of the strip
+            const auto add = [&](double value)
+            {
+                const long long v = whole(value);
+                length = v == -1 ? 0 : length + 1;
+                last = {last[1], last[2], v};
+                if (length < 3 || last[0] == last[1] || last[1] == last[2] || last[2] == last[0]) return;
+                const std::size_t first = soup_.corners.size(), turned = length % 2 == 0 ? 1 : 0;
+                for (const std::size_t k : {turned, 1 - turned, std::size_t{2}})
+                    soup_.add_corner(last[k], path_, here());
+                soup_.end_polygon(first, path_, here());
+            };
+            for (const ply_property& p : e.properties)
+                if (is(p, "vertex_indices", "vertex_index"))
+                    read_property(p, add);
+                else
+                    read_property(p, [](double) {});
+        }
+    }
+
+    void read_faces(const ply_element& e)
+    {
+        require_vertices(e);
         soup_.sizes.reserve(e.rows);
         soup_.corners.reserve(3 * e.rows);
         for (std::size_t r = 0; r < e.rows; ++r)
@@ -228,9 +266,9 @@ polygon_soup<> read_ply(std::string_view bytes, const std::string& path, bool st
 } // namespace detail
 
 /// Reads a PLY file: ASCII or binary of either byte order; vertices with x, y, z and perhaps s, t (or u, v), faces as
-/// lists vertex_indices (or vertex_index) and perhaps texcoord. Normals, colours and comments are kept for write_obj;
-/// other elements and properties are skipped. Polygons are split into triangles, which the notes say. `path` is named
-/// in errors. Throws io_error, mesh_error.
+/// lists vertex_indices (or vertex_index) and perhaps texcoord, and triangle strips. Normals, colours and comments are
+/// kept for write_obj; other elements and properties are skipped. Polygons are split into triangles, which the notes
+/// say. `path` is named in errors. Throws io_error, mesh_error.
 template <class = void>
 surface_file parse_ply(std::string_view bytes, const std::string& path = "PLY data")
 {

@@ -84,6 +84,8 @@ struct surface_file
     file_faces faces = {};                          ///< what the triangles were made from
     file_vertices vertices = {};                    ///< OFF and PLY
     obj_text obj = {};                              ///< OBJ; else empty
+    std::string texcoord_fault = {}; ///< what is wrong with the texture coordinates of the file, which then are none
+                                     ///< here: one is no finite number, or is named and not there; place and fault
 
     /// The texture coordinate of corner k of triangle c.
     /// Throws texcoord_error if it has none, or one that is not there.
@@ -130,7 +132,7 @@ struct surface_soup
     std::vector<std::array<idx, 3>> triangles;      ///< of faces; polygons with a vertex that cannot be used as fans
                                                     ///< around its corner
     std::vector<vec2> texcoords;                    ///< as in surface_file
-    std::vector<std::array<idx, 3>> texcoord_cells; ///< -1 also where the file names one that is not there
+    std::vector<std::array<idx, 3>> texcoord_cells; ///< as in surface_file
     std::vector<vec3> normals;                      ///< as in the file; empty if it has none
     std::vector<std::array<idx, 3>> normal_cells; ///< one triple a triangle, into normals, -1: none; empty: the normal
                                                   ///< of a corner has the number of its vertex
@@ -138,7 +140,8 @@ struct surface_soup
     file_faces faces;
     file_vertices vertices;
     obj_text obj;
-    std::optional<mesh_error> fault; ///< the first index or coordinate that cannot be used, and its place in the file
+    std::optional<mesh_error> fault; ///< the first index, coordinate or face that cannot be used, and its place
+    std::string texcoord_fault;      ///< as in surface_file
 };
 
 /// The surface of triangles without such faults. path: named in errors. Throws `fault`, or mesh_error as mesh does.
@@ -153,7 +156,8 @@ inline surface_file to_surface_file(surface_soup&& soup, const std::string& path
                 std::move(soup.notes),
                 std::move(soup.faces),
                 std::move(soup.vertices),
-                std::move(soup.obj)};
+                std::move(soup.obj),
+                std::move(soup.texcoord_fault)};
     }
     catch (const mesh_error& e)
     {

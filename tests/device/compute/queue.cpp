@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <future>
 #include <sstream>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/wait.h>
+#include <unistd.h>
+#endif
 
 #include <doctest/doctest.h>
 
@@ -67,6 +75,44 @@ TEST_CASE("queue: a second thread is told whose queue it is")
     std::thread second([&] { run_twice(q); });
     second.join();
 }
+
+#if defined(__unix__) || defined(__APPLE__)
+TEST_CASE("queue: a child that fork() has made is told that it cannot go on with OpenCL, and ends")
+{
+    taut::queue q;
+    taut::buffer<float> x(q, std::vector<float>(64, 1.0f));
+    const auto refused = [](const auto& call)
+    {
+        try
+        {
+            call();
+            return false;
+        }
+        catch (const taut::device_error& e)
+        {
+            return std::string(e.what()).find("fork before the first queue") != std::string::npos;
+        }
+    };
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0)
+    {
+        ::alarm(60); // it must not wait for ever
+        bool told = refused([&] { q.finish(); }) && refused([&] { x.download(); }) &&
+                    refused([] { taut::queue another; }) && refused([] { taut::devices(); });
+        {
+            const taut::queue last = std::move(q);
+            x = taut::buffer<float>();
+        }
+        ::_exit(told ? 0 : 1);
+    }
+    int status = -1;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    run_twice(q); // the parent's is as it was
+}
+#endif
 
 TEST_CASE("queue: a user's context and command queue are adopted and keep working afterwards")
 {

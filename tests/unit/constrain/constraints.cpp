@@ -70,6 +70,8 @@ TEST_CASE("constraints: what cannot hold is refused with the vertices it concern
     check_refused([&] { c.pin(4, {not_a_number, 0}); }, f::not_finite, {4});
     check_refused([&] { c.pin_v(4, infinite); }, f::not_finite, {4});
     check_refused([&] { c.spring(4, {0, -infinite}, 1); }, f::not_finite, {4});
+    check_refused([&] { c.pin(4, {1e308, 0}); }, f::not_finite, {4}); // two of these may be infinitely far apart
+    check_refused([&] { c.spring(4, {0, -1e308}, 1); }, f::not_finite, {4});
     check_refused([&] { c.pin(3, {1, 2}); }, f::contradictory, {3});
     check_refused([&] { c.pin_u(5, 0.75); }, f::contradictory, {5});
     check_refused([&] { c.pin(3, {1, 1}); }, f::duplicate, {3});
@@ -226,4 +228,22 @@ TEST_CASE("constraints: a file of pins becomes pins and springs")
     CHECK(c.held(3) == 2);
     CHECK(c.springs().at(0).vertex == 5);
     check_refused([&] { add_pins(c, io::parse_pins<2>("0,1,3\n")); }, constraint_fault::contradictory, {0});
+}
+
+TEST_CASE("constraints: targets that another unit brings out of range are named")
+{
+    const auto m = test::grid(2, 2);
+    auto c = taut::constraints(m).pin(1, {8e307, -8e307}).pin_u(2, -1e200).spring(3, {0, 1e300}, 1);
+    c.require_near(1);
+    c.require_near(1e-300);
+    try
+    {
+        c.require_near(0x1p40);
+        FAIL("no error");
+    }
+    catch (const constraint_error& e)
+    {
+        CHECK(e.fault() == constraint_fault::not_finite);
+        CHECK(e.ids() == std::vector<idx>{1, 3});
+    }
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -97,6 +98,9 @@ TEST_CASE("geodesic disk: what is enclosed and smaller is filled, what is no dis
     CHECK(fault_of([&] { geodesic_disk(torus, -1, 1.0); }) == region_fault::out_of_range);
     CHECK(fault_of([&] { geodesic_disk(torus, 24 * 24, 1.0); }) == region_fault::out_of_range);
     CHECK_THROWS_AS(geodesic_disk(torus, 0, 0.0), parameter_error);
+    std::vector<taut::idx> all_but_one(std::size_t(torus.cell_count()) - 1);
+    std::iota(all_but_one.begin(), all_but_one.end(), 0);
+    CHECK(fault_of([&] { region_of_faces(torus, all_but_one); }) == region_fault::handles);
     CHECK_THROWS_AS(geodesic_disk(test::three_on_an_edge(), 0, 2.0), mesh_error);
 }
 

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -210,4 +211,27 @@ TEST_CASE("refine: chosen triangles lose their small angles, and others stay as 
     refine(whole, std::vector<char>(whole.cells().size(), 1), 100000);
     check_cover(whole);
     CHECK(smallest_angle(whole) > 0.2);
+}
+
+TEST_CASE("planar triangulation: no point is added on an edge that is fixed, whichever side of its triangle that is")
+{
+    planar_triangulation t({-1, -1}, {9, 9});
+    for (idx j = 0; j < 4; ++j)
+        for (idx i = 0; i < 4; ++i) t.add({2 * i + j % 2, 2 * j});
+    std::array<int, 3> tried{};
+    const auto sides = 3 * static_cast<idx>(t.cells().size());
+    for (idx s = 0; s < sides; ++s)
+    {
+        const auto& corners = t.cells()[static_cast<std::size_t>(s / 3)];
+        const idx a = corners[static_cast<std::size_t>((s + 1) % 3)],
+                  b = corners[static_cast<std::size_t>((s + 2) % 3)];
+        if (t.twin(s) == planar_triangulation::none) continue;
+        planar_triangulation fixed = t;
+        fixed.fix(a, b);
+        const vec2 middle = (place(t, a) + place(t, b)) / 2.0; // exact
+        CHECK(fixed.add_from(s / 3, middle) == planar_triangulation::none);
+        CHECK(planar_triangulation(t).add_from(s / 3, middle) == static_cast<idx>(t.points().size()));
+        ++tried[static_cast<std::size_t>(s % 3)];
+    }
+    CHECK(std::min({tried[0], tried[1], tried[2]}) > 0);
 }

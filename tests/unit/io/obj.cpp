@@ -278,7 +278,8 @@ TEST_CASE("obj: malformed lines are named")
     CHECK(line("v 0 0\n") == 1);
     CHECK(line("v 0 0 0\nv 1 zero 0\n") == 2);
     CHECK(line("v 0 0 0\r\n\r\nv 1 0 0x\r\n") == 3);
-    CHECK(line("v 1 2 1.#QNAN\n") == 1);
+    CHECK(line("v 1 2 1.#\n") == 1);
+    CHECK(line("v 1 2 1.#qnan\n") == 1);
     CHECK(line(square + "f 1 2\n") == 5);
     CHECK(line(square + "f\n") == 5);
     CHECK(line(square + "f 0 1 2\n") == 5);
@@ -291,7 +292,7 @@ TEST_CASE("obj: malformed lines are named")
     CHECK(line(square + "f 1/1/1/1 2 3\n") == 5);
     CHECK(line(square + "f 1 2 99999999999\n") == 5);
     CHECK(line(square + "f 1 2 99999999999999999999999\n") == 5);
-    CHECK(line(square + "vt nan 0\n") == 5);
+    CHECK(line(square + "vt zero 0\n") == 5);
     CHECK(contains(io_error_of("v 0 0 0\nv 1 zero 0\n").what(), "x.obj, line 2: expected a number, found 'zero'"));
     CHECK(contains(io_error_of("v 0 0\n").what(), "found the end of the line"));
     CHECK_FALSE(io_error_of(std::string("v 0 0 0\n\0\x01", 10)).place().has_value());
@@ -299,7 +300,7 @@ TEST_CASE("obj: malformed lines are named")
 
 TEST_CASE("obj: a coordinate that is no finite number names vertex and line")
 {
-    for (const char* bad : {"nan", "inf", "-inf", "NaN", "1e999", "-nan"})
+    for (const char* bad : {"nan", "inf", "-inf", "NaN", "1e999", "-nan", "1.#INF", "-1.#IND00", "1.#QNAN", "-1.#J"})
     {
         const auto e = mesh_error_of("v 0 0 0\n# gap\nv 1 " + std::string(bad) + " 0\n");
         CHECK(e.fault() == mesh_fault::non_finite);
@@ -314,7 +315,45 @@ TEST_CASE("obj: a face that names a missing vertex is found with its line")
     CHECK(e.fault() == mesh_fault::index_out_of_range);
     CHECK(e.ids() == std::vector<taut::idx>{1, 6});
     CHECK(contains(e.what(), "x.obj, line 6"));
-    CHECK(mesh_error_of(square + "f 1/1 2/2 3/3\n").fault() == mesh_fault::index_out_of_range);
+}
+
+TEST_CASE("obj: names end with their line, though a backslash may end them; what has numbers goes on")
+{
+    const std::string names = "mtllib a\\\ng b \\\no c\\\ns 1\\\nusemtl d\\\n# e \\\nunknown \\\n";
+    for (const char* end : {"\n", "\r\n"})
+    {
+        std::string text = names + square + names + "f 1 2 \\\n3\nl 1 \\\nv 9 9 9\n";
+        for (std::size_t at = 0; *end == '\r' && (at = text.find('\n', at)) != text.npos; at += 2)
+            text.insert(at, "\r");
+        const auto file = parse_obj(text);
+        CHECK(file.surface.vertex_count() == 4);
+        CHECK(file.surface.cells() == std::vector<std::array<taut::idx, 3>>{{0, 1, 2}});
+    }
+}
+
+TEST_CASE("obj: texture coordinates that cannot be used are none, and the file says why")
+{
+    const std::string good = "vt 0 0\nvt 1 0\nvt 1 1\n", face = "f 1/1 2/2 3/3\n";
+    for (const auto& [text, reason] :
+         {std::pair(square + "vt nan 0\n" + good + face, "x.obj, line 5: a texture coordinate is not a finite number"),
+          {square + good + "vt 0 -1.#INF\n" + face, "x.obj, line 8: a texture coordinate is not a finite number"},
+          {square + good + face + "f 1/1 3/3 4/4\n",
+           "x.obj, line 9: a face names texture coordinate 4, but there are 3"},
+          {square + good + face + "f 1/1 3/3 4/-7\n", "x.obj, line 9: a face names number -7 of 3"},
+          {square + good + face + "f 1/1 3/3 4/0\n", "x.obj, line 9: a face names number 0 of 3"},
+          {square + face, "x.obj, line 5: a face names texture coordinate 3, but there are 0"}})
+    {
+        const auto file = parse_obj(text, "x.obj");
+        CHECK(file.texcoords.empty());
+        CHECK(file.texcoord_cells.empty());
+        CHECK(file.texcoord_fault.starts_with(reason));
+        REQUIRE(file.notes.size() == 1);
+        CHECK(file.notes[0] == "the texture coordinates of the file are not used: " + file.texcoord_fault);
+        const auto soup = io::parse_obj_soup(text, "x.obj");
+        CHECK_FALSE(soup.fault.has_value());
+        CHECK(soup.texcoord_fault == file.texcoord_fault);
+    }
+    CHECK(parse_obj(square + good + face).texcoord_fault.empty());
 }
 
 TEST_CASE("obj: nothing to read is an empty mesh; other faults of meshes name the file")
@@ -346,7 +385,7 @@ TEST_CASE("obj: a large file, which is read in pieces, holds the same as its lin
             text += 'f';
             for (const taut::idx v : t)
                 text += (v % 11 ? " " : " \\" + end) + std::to_string(relative ? v - m.vertex_count() : v + 1);
-            text += end + "g group \\" + end + "f 1 1 1" + end;
+            text += end + "p 1 \\" + end + "f 1 1 1" + end;
         }
         return text;
     };

@@ -250,3 +250,39 @@ TEST_CASE("ply: faces before the vertices are refused with the remedy")
     CHECK_THROWS_WITH_AS(taut::io::parse_ply(text), doctest::Contains("write the vertex element first"),
                          taut::io::io_error);
 }
+
+TEST_CASE("ply: triangle strips, text and binary: -1 begins another one, a vertex named twice joins two")
+{
+    using cells = std::vector<cell>;
+    const cells expected{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {5, 6, 7}, {0, 1, 2}};
+    const std::vector<int> strips[] = {{0, 1, 2, 3, 4, -1, 5, 6, 7, -1, -1, 3}, {1, 1, 0, 2}};
+    for (const std::string_view format : {"ascii", "binary_little_endian", "binary_big_endian"})
+    {
+        std::string text = "ply\nformat " + std::string(format) +
+                           " 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+                           "element tristrips 2\nproperty list int int vertex_indices\nend_header\n";
+        const bool ascii = format == "ascii", big = format == "binary_big_endian";
+        for (int v = 0; v < 8; ++v)
+            for (const int x : {v, v * v, 0})
+                text += ascii ? std::to_string(x) + ' ' : bytes(static_cast<float>(x), big);
+        for (const auto& strip : strips)
+        {
+            const auto n = static_cast<int>(strip.size());
+            text += ascii ? std::to_string(n) : bytes(n, big);
+            for (const int v : strip) text += ascii ? ' ' + std::to_string(v) : bytes(v, big);
+            if (ascii) text += '\n';
+        }
+        CHECK(parse_ply(text).surface.cells() == expected);
+    }
+}
+
+TEST_CASE("ply: texture coordinates that are no numbers are none, and the file says where")
+{
+    const auto f = parse_ply("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                             "property float z\nproperty float s\nproperty float t\nelement face 1\n"
+                             "property list uchar int vertex_indices\nend_header\n"
+                             "0 0 0 0 0\n1 0 0 nan 0\n0 1 0 0 1\n3 0 1 2\n",
+                             "x.ply");
+    CHECK(f.texcoords.empty());
+    CHECK(f.texcoord_fault == "x.ply, line 13: a texture coordinate is not a finite number");
+}

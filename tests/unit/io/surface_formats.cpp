@@ -9,7 +9,9 @@
 
 #include <support/temporary_folder.hpp>
 #include <taut/io/detail/posix_file.hpp>
+#include <taut/io/pins.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/read_volume.hpp>
 
 using namespace taut;
 
@@ -51,4 +53,27 @@ TEST_CASE("read_surface: what is open already is read from where it is, in the f
         REQUIRE(::lseek(*open, 12, SEEK_SET) == 12);
         CHECK(io::read_surface("/dev/fd/" + std::to_string(*open)).cell_count() == 1);
     }
+}
+
+TEST_CASE("read_surface: UTF-16 is named, with a byte order mark and without")
+{
+    const test::temporary_folder folder;
+    for (const bool big : {false, true})
+        for (const bool mark : {false, true})
+            for (const auto& [name, text] :
+                 {std::pair("a.obj", obj), {"a.off", off}, {"a.ply", ply}, {"a.stl", "solid a\nendsolid\n"}})
+            {
+                std::string wide = mark ? (big ? "\xfe\xff" : "\xff\xfe") : "";
+                for (const char c : std::string(text))
+                {
+                    wide += big ? '\0' : c;
+                    wide += big ? c : '\0';
+                }
+                folder.write(folder / name, wide);
+                CHECK_THROWS_WITH_AS(io::read_surface(folder / name), doctest::Contains("in UTF-16; save it as UTF-8"),
+                                     io::io_error);
+                CHECK_THROWS_WITH_AS(io::parse_volume(wide, io::volume_format::medit), doctest::Contains("in UTF-16"),
+                                     io::io_error);
+                CHECK_THROWS_WITH_AS(io::parse_pins<2>(wide), doctest::Contains("in UTF-16"), io::io_error);
+            }
 }

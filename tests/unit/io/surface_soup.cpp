@@ -67,8 +67,23 @@ TEST_CASE("soup: what a mesh refuses stays, and the first fault is named with it
 TEST_CASE("soup: texture coordinates that are not there are none")
 {
     const auto soup = io::parse_obj_soup(soup_square + "vt 0 0\nf 1/1 2/2 3/-9\n");
-    CHECK(soup.texcoord_cells == cells_of_soup{{0, -1, -1}});
-    CHECK(soup.fault->fault() == mesh_fault::index_out_of_range);
+    CHECK(soup.texcoord_cells.empty());
+    CHECK_FALSE(soup.fault.has_value());
+    CHECK_FALSE(soup.texcoord_fault.empty());
+}
+
+TEST_CASE("soup: a face of one or two corners is a triangle that names a vertex twice")
+{
+    const auto soup = io::parse_obj_soup(soup_square + "f 1 2 3\nf 2 3\nf 4\nf\nf 1 3 4\n", "a.obj");
+    CHECK(soup.triangles == cells_of_soup{{0, 1, 2}, {1, 2, 2}, {3, 3, 3}, {0, 2, 3}});
+    CHECK(soup.faces.sizes == std::vector<taut::idx>{3, 2, 1, 0, 3});
+    CHECK(soup.faces.corner(3, 0) == 6);
+    REQUIRE(soup.fault.has_value());
+    CHECK(soup.fault->fault() == mesh_fault::repeated_vertex);
+    CHECK(std::string(soup.fault->what()) == "a.obj, line 6: a face needs three corners or more");
+    CHECK(soup.notes == std::vector<std::string>{"1 face without corners left out"});
+    CHECK(io::parse_off_soup("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n").triangles ==
+          cells_of_soup{{0, 1, 2}, {0, 1, 1}});
 }
 
 TEST_CASE("soup: all triangles of a polygon have its corner that cannot be used")

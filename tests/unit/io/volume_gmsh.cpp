@@ -50,6 +50,31 @@ TEST_CASE("gmsh: without physical groups the entities are groups; a name of seve
     CHECK_THROWS_AS(both.find_group("the wall"), io::group_error);
 }
 
+TEST_CASE("gmsh: physical tags make no more of a mesh than some times what it has")
+{
+    const auto s = test::small_volume(false);
+    std::string tags;
+    for (int k = 0; k < 1000; ++k) tags += ' ' + std::to_string(k % 9 + 1);
+    const std::string text = test::gmsh4_text(s, {});
+    const auto few = read_gmsh(text), many = read_gmsh(replace_once(text, " 1 2 1 -3", " 1000" + tags + " 1 -3"));
+    CHECK(few.notes.empty());
+    CHECK(many.cells.size() == few.cells.size());
+    REQUIRE(many.notes.size() == 1);
+    CHECK(many.notes[0].starts_with("the physical groups have more than 16 times what the mesh has"));
+    CHECK(many.groups[0].name.starts_with("entity:"));
+}
+
+TEST_CASE("gmsh: nodes with parameters of version 2, and version 1 by name")
+{
+    const std::string nodes = "4\n1 0 0 0 0 1\n2 1 0 0 1 1 0.5\n3 0 1 0 2 1 0.5 0.25\n4 0 0 1 3 1\n";
+    const std::string elements = "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n";
+    const auto file = read_gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n" + nodes +
+                                "$EndParametricNodes\n" + elements);
+    CHECK(io::tetrahedra_of(file).points() == std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    CHECK_THROWS_WITH_AS(read_gmsh("$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n0\n$ENDELM\n"),
+                         doctest::Contains("version 1 of the format is not read; save as 2.2 or 4.1"), io::io_error);
+}
+
 TEST_CASE("gmsh: errors tell the line, or the byte, and the remedy")
 {
     const auto s = test::small_volume(false);
@@ -67,6 +92,7 @@ TEST_CASE("gmsh: errors tell the line, or the byte, and the remedy")
     refuses(replace_once(text, "\n117 ", "\n118 "), "no point has the number 117");
     refuses(replace_once(text, "$Nodes\n5", "$Nodes\n5000000"), "more than the rest of the file can hold");
     refuses(replace_once(text, "$Nodes", "$Knots"), "no $EndKnots");
+    refuses("$" + std::string(1000, 'x') + "\n" + text, "line 1: the name of a section has 1000 letters");
     refuses(replace_once(text, "$Elements\n3", "$Elements\n2"), "$Elements does not end here, where its counts say");
     refuses(replace_once(fourth, "$EndEntities\n", "$EndEntities\n$PartitionedEntities\n$EndPartitionedEntities\n"),
             "save it without them");

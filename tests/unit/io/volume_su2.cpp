@@ -37,6 +37,18 @@ TEST_CASE("SU2: keys in any order and spelling, comments, what stands behind num
     CHECK(file.find_group("wing:2").vertices == std::vector<idx>{0, 1, 2, 3});
 }
 
+TEST_CASE("SU2: a marker named many times is one")
+{
+    std::string text = test::su2_text(test::small_square(), 2);
+    const std::size_t groups = read_su2(text).groups.size();
+    for (int k = 0; k < 2000; ++k)
+        text +=
+            "MARKER_TAG= many\nMARKER_ELEMS= 1\n3 " + std::to_string(k % 3) + ' ' + std::to_string(k % 3 + 1) + '\n';
+    const auto file = read_su2(text);
+    CHECK(file.groups.size() == groups + 1);
+    CHECK(file.find_group("many:1").vertices == std::vector<idx>{0, 1, 2, 3});
+}
+
 TEST_CASE("SU2: errors tell the line")
 {
     const std::string text = test::su2_text(test::small_volume(false));
@@ -52,6 +64,7 @@ TEST_CASE("SU2: errors tell the line")
     refuses(with("NDIME= 3", "NDIME= 3\nNZONE= 2"), "line 3: several zones");
     refuses(with("\n10 0 1 2 3", "\n10 0 1 2 5"), "line 4: point 5 of 5; they count from 0");
     refuses(with("\n10 0 1 2 3", "\n24 0 1 2 3"), "cells of higher order");
+    refuses(with("\n10 0 1 2 3", "\n11 0 1 2 3"), "element type 11 is none of SU2");
     refuses(with("NPOIN= 5", "NPOIN= 50000"), "NPOIN is 50000, more than the rest");
     refuses(with("MARKER_ELEMS= 1", "MARKER_ELEMS= 2"), "the file ends before the type of an element");
     refuses(with("MARKER_ELEMS= 1", ""), "no MARKER_ELEMS=");

@@ -31,6 +31,16 @@ TEST_CASE("TetGen: nodes, elements and faces, counted from any number; markers a
     }
 }
 
+TEST_CASE("TetGen: boundary markers may be written with a point")
+{
+    const std::string nodes = "4 3 0 1\n0 0 0 0 0.0\n1 1 0 0 2.0\n2 0 1 0 2.0\n3 0 0 1 -1.0\n";
+    const auto file = io::parse_tetgen(nodes, "1 4 0\n0 0 1 2 3\n", "1 1\n0 0 2 1 7.0\n");
+    CHECK(file.find_group("points:2").vertices == std::vector<idx>{1, 2});
+    CHECK(file.find_group("faces:7").vertices == std::vector<idx>{0, 1, 2});
+    CHECK_THROWS_WITH_AS(io::parse_tetgen("1 3 0 1\n0 0 0 0 0.5\n", "0 4 0\n"),
+                         doctest::Contains("a boundary marker that is no whole number"), io::io_error);
+}
+
 TEST_CASE("TetGen: two dimensions are triangles, as Triangle writes them")
 {
     const auto file = io::parse_tetgen("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n", "2 3 0\n1 1 2 3\n2 1 3 4\n");

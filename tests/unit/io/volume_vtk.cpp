@@ -80,6 +80,39 @@ TEST_CASE("VTK: lookup tables, scalars without a table and metadata within field
     CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
 }
 
+TEST_CASE("VTK: voxels and pixels are hexahedra and quads, whose corners run around")
+{
+    const std::string text = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+                             "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\nCELLS 2 14\n"
+                             "8 0 1 2 3 4 5 6 7\n4 0 1 2 3\nCELL_TYPES 2\n11\n8\n";
+    const auto file = io::parse_volume(text, volume_format::vtk);
+    REQUIRE(file.cells.size() == 2);
+    CHECK(file.cells[0].kind == io::cell_kind::hexahedron);
+    CHECK(file.cells[0].corners == std::vector<idx>{0, 1, 3, 2, 4, 5, 7, 6});
+    CHECK(file.cells[1].kind == io::cell_kind::quad);
+    CHECK(file.cells[1].corners == std::vector<idx>{0, 1, 3, 2});
+}
+
+TEST_CASE("VTU: arrays that share their bytes make no more of a file than these")
+{
+    test::volume_sample many;
+    for (int v = 0; v < 400; ++v)
+    {
+        many.points.emplace_back(v, 0, 0);
+        many.cells.push_back({io::cell_kind::vertex, {v}, 1});
+    }
+    const std::string raw = test::vtu_text(many, {.text = false});
+    const auto begin = raw.find("<DataArray type='Int32' Name=\"side\""), end = raw.find("/>", begin) + 2;
+    std::string same;
+    for (int k = 0; k < 2000; ++k) same += raw.substr(begin, end - begin);
+    const auto file = io::parse_volume(exchange(raw, "<PointData>", "<PointData>" + same), volume_format::vtu);
+    std::size_t values = 0;
+    for (const auto& label : file.labels) values += label.values.size();
+    CHECK(values < file.bytes.size());
+    REQUIRE_FALSE(file.notes.empty());
+    CHECK(file.notes.back().find("so they share them") != std::string::npos);
+}
+
 TEST_CASE("VTK: errors tell the line")
 {
     const std::string text = test::vtk_text(test::small_volume(false), {}, 3);

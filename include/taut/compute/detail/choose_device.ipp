@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <taut/compute/choose_device.hpp>
+#include <taut/compute/detail/one_process.hpp>
 #include <taut/compute/detail/opencl.hpp>
 #include <taut/compute/errors.hpp>
 
@@ -31,6 +32,7 @@ TAUT_INLINE std::string refusal(const device& d, const device_requirements& need
 
 TAUT_ON_USE_BODY std::vector<listed_device> devices(const device_requirements& needs)
 {
+    detail::refuse_fork("listing devices");
     std::vector<listed_device> all;
     for (const auto& platform : boost::compute::system::platforms())
     {

@@ -43,6 +43,7 @@ inline bool wants_quick_builds()
 template <class MakeContext>
 std::shared_ptr<queue_state> open(const taut::device& device, queue_options options, MakeContext&& make)
 {
+    refuse_fork("opening a queue");
     try
     {
         const boost::compute::context context = make();

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include <taut/compute/detail/one_process.hpp>
 #include <taut/compute/detail/sole_use.hpp>
 #include <taut/compute/event.hpp>
 #include <taut/compute/program_cache.hpp>
@@ -28,8 +29,15 @@ struct queue_state
     {
     }
 
-    /// Waits: PoCL compiles at launch, on threads of its own, and crashes if the process ends meanwhile.
-    ~queue_state() { clFinish(commands.get()); }
+    /// Waits: PoCL compiles at launch, on threads of its own, and crashes if the process ends meanwhile. In a child
+    /// that fork() has made there are none, so that it is left as it is.
+    ~queue_state()
+    {
+        if (!made_by_fork())
+            clFinish(commands.get());
+        else
+            clRetainCommandQueue(commands.get());
+    }
 
     queue_state(const queue_state&) = delete;
     queue_state& operator=(const queue_state&) = delete;
@@ -65,9 +73,11 @@ struct queue_state
         throw device_error(operation, reason, device.label(), code);
     }
 
-    /// Keeps the queue to the calling thread. Throws device_error where another one is using it.
+    /// Keeps the queue to the calling thread. Throws device_error where another one is using it, and in a child made by
+    /// fork().
     sole_use enter() const
     {
+        if (made_by_fork()) refuse_fork("using a queue", device.label());
         return {user, [this]
                 { fail("using a queue", "another thread is using it now; give each thread a queue of its own"); }};
     }

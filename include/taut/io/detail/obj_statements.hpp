@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -10,6 +12,16 @@
 /// How OBJ text falls into statements and faces into corners, for who reads it and who writes it anew.
 namespace taut::io::detail
 {
+
+/// Whether a backslash at the end of its line joins the next one to a statement: to numbers, as of vertices, faces and
+/// curves. What names something ends with its line, as do comments: names may end with a backslash.
+inline bool joins_lines(std::string_view key)
+{
+    static constexpr std::array<std::string_view, 23> known = {
+        "v",    "vt",   "vn",   "vp", "f",   "fo",  "l",    "p",    "curv",  "curv2", "surf",  "parm",
+        "trim", "hole", "scrv", "sp", "con", "deg", "bmat", "step", "ctech", "stech", "cstype"};
+    return std::find(known.begin(), known.end(), key) != known.end();
+}
 
 /// Calls statement(key, begin) for each statement: its first word, behind which the scanner stands, and its first byte.
 /// What the call does not read is skipped.
@@ -21,8 +33,7 @@ void for_each_statement(scanner& in, Statement statement)
         const char* const begin = in.position();
         const std::string_view key = in.word();
         statement(key, begin);
-        // Comments end with their line; every other statement may be joined to the next line.
-        in.next_line(!key.starts_with('#'));
+        in.next_line(joins_lines(key));
     }
 }
 

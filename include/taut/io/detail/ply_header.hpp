@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -107,6 +108,7 @@ ply_header read_ply_header(scanner& in)
     if (in.word() != "ply") in.fail("not a PLY file: it does not start with 'ply'");
     std::optional<ply_header::encoding> format;
     std::vector<ply_element> elements;
+    std::set<std::string> names; // of elements
     text_list comments;
     for (;;)
     {
@@ -130,8 +132,8 @@ ply_header read_ply_header(scanner& in)
             std::string name(in.word());
             const long long rows = in.integer("the number of elements");
             if (rows < 0) in.fail("a negative number of elements");
-            for (const ply_element& e : elements)
-                if (e.name == name) in.fail("element " + name.substr(0, 40) + " is declared twice; join the two");
+            if (!names.insert(name).second)
+                in.fail("element " + name.substr(0, 40) + " is declared twice; join the two");
             elements.push_back({std::move(name), static_cast<std::size_t>(rows), {}});
         }
         else if (key == "property")

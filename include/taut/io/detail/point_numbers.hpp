@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include <taut/core/keyed_hash.hpp>
 #include <taut/core/types.hpp>
 
 namespace taut::io::detail
@@ -23,10 +21,10 @@ public:
     std::pair<idx, bool> number(const vec3& p)
     {
         if (2 * (points_.size() + 1) > slots_.size()) grow();
-        const key_type key = key_of(p);
-        std::size_t slot = slot_of(key);
+        const auto key = bits_of(p);
+        std::size_t slot = keyed_hash(key) & (slots_.size() - 1);
         for (; slots_[slot] >= 0; slot = (slot + 1) & (slots_.size() - 1))
-            if (key_of(points_[static_cast<std::size_t>(slots_[slot])]) == key) return {slots_[slot], false};
+            if (bits_of(points_[static_cast<std::size_t>(slots_[slot])]) == key) return {slots_[slot], false};
         slots_[slot] = static_cast<idx>(points_.size());
         points_.push_back(p);
         return {slots_[slot], true};
@@ -35,31 +33,12 @@ public:
     std::span<const vec3> points() const { return points_; } ///< by number
 
 private:
-    using key_type = std::array<std::uint64_t, 3>;
-
-    static key_type key_of(const vec3& p)
-    {
-        const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); };
-        return {bits(p.x), bits(p.y), bits(p.z)};
-    }
-
-    std::size_t slot_of(const key_type& key) const
-    {
-        std::uint64_t h = 0;
-        for (const std::uint64_t k : key)
-        {
-            h = (h ^ k) * 0x9e3779b97f4a7c15u; // the golden ratio spreads the bits
-            h ^= h >> 29;
-        }
-        return static_cast<std::size_t>(h) & (slots_.size() - 1);
-    }
-
     void grow()
     {
         slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), -1);
         for (std::size_t i = 0; i < points_.size(); ++i)
         {
-            std::size_t slot = slot_of(key_of(points_[i]));
+            std::size_t slot = keyed_hash(bits_of(points_[i])) & (slots_.size() - 1);
             while (slots_[slot] >= 0) slot = (slot + 1) & (slots_.size() - 1);
             slots_[slot] = static_cast<idx>(i);
         }

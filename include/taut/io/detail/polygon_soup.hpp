@@ -32,7 +32,8 @@ struct polygon_soup
     std::vector<idx> corner_normals;
     std::vector<idx> sizes;          // corners of each polygon
     bool strict = true;              // faults are thrown; else the first is kept, and what it is in stays
-    std::optional<mesh_error> fault; // of indices and coordinates
+    std::optional<mesh_error> fault; // of indices, coordinates and faces
+    std::string texcoord_fault;      // the first of texture coordinates, which then are none
 
     static constexpr std::size_t limit = std::numeric_limits<idx>::max();
 
@@ -45,10 +46,12 @@ struct polygon_soup
         sizes.reserve(corner_count / 3);
     }
 
-    void note(mesh_error e)
+    /// make() is the fault, whose place takes time to count: asked for the first one alone.
+    template <class Make>
+    void note(const Make& make)
     {
-        if (strict) throw e;
-        if (!fault) fault = std::move(e);
+        if (strict) throw mesh_error(make());
+        if (!fault) fault = make();
     }
 
     /// where() is the place in the file, asked for errors only. Throws mesh_error (non_finite), io_error.
@@ -57,10 +60,13 @@ struct polygon_soup
     {
         if (points.size() >= limit) throw io_error(path, "more vertices than 32-bit numbers can name", where());
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            note({mesh_fault::non_finite,
-                  {static_cast<idx>(points.size())},
-                  place_prefix(path, where()) + "vertex " + std::to_string(points.size()) +
-                      " has a coordinate that is not a finite number"});
+            note(
+                [&]
+                {
+                    return mesh_error(mesh_fault::non_finite, {static_cast<idx>(points.size())},
+                                      place_prefix(path, where()) + "vertex " + std::to_string(points.size()) +
+                                          " has a coordinate that is not a finite number");
+                });
         points.push_back(p);
     }
 
@@ -68,17 +74,27 @@ struct polygon_soup
     void add_texcoord(const vec2& x, const std::string& path, Where where)
     {
         if (texcoords.size() >= limit) throw io_error(path, "more texture coordinates than 32 bits can name", where());
-        if (!std::isfinite(x.x) || !std::isfinite(x.y))
-            throw io_error(path, "a texture coordinate is not a finite number", where());
+        if (texcoord_fault.empty() && (!std::isfinite(x.x) || !std::isfinite(x.y)))
+            texcoord_fault = place_prefix(path, where()) + "a texture coordinate is not a finite number";
         texcoords.push_back(x);
     }
 
-    /// Ends the polygon whose corners are corners[first] and all after it.
+    /// Ends the polygon whose corners are corners[first] and all after it. Throws io_error.
     template <class Where>
     void end_polygon(std::size_t first, const std::string& path, Where where)
     {
         const std::size_t size = corners.size() - first;
-        if (size < 3) throw io_error(path, "a face needs three corners or more", where());
+        if (size < 3)
+        {
+            const std::string what = "a face needs three corners or more";
+            if (strict) throw io_error(path, what, where());
+            note(
+                [&]
+                {
+                    return mesh_error(mesh_fault::repeated_vertex, {static_cast<idx>(sizes.size())},
+                                      place_prefix(path, where()) + what);
+                });
+        }
         if (corners.size() > limit) throw io_error(path, "more corners than 32-bit numbers can name", where());
         sizes.push_back(static_cast<idx>(size));
     }
@@ -89,10 +105,14 @@ struct polygon_soup
     {
         if (v < 0 || v >= static_cast<long long>(points.size()))
         {
-            note({mesh_fault::index_out_of_range,
-                  {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
-                  place_prefix(path, where()) + "a face names vertex " + std::to_string(v) + ", but there are " +
-                      std::to_string(points.size()) + ", counted from 0"});
+            note(
+                [&]
+                {
+                    return mesh_error(mesh_fault::index_out_of_range,
+                                      {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
+                                      place_prefix(path, where()) + "a face names vertex " + std::to_string(v) +
+                                          ", but there are " + std::to_string(points.size()) + ", counted from 0");
+                });
             v = -1;
         }
         corners.push_back(static_cast<idx>(v));
@@ -125,17 +145,19 @@ struct polygon_soup
     surface_soup finish() &&
     {
         surface_soup result;
-        const bool coords = !texcoords.empty() && !corner_coords.empty(), named_normals = !corner_normals.empty();
+        const bool coords = texcoord_fault.empty() && !texcoords.empty() && !corner_coords.empty();
+        const bool named_normals = !corner_normals.empty();
         corner_coords.resize(corners.size(), -1); // the last faces may have had none
         if (named_normals) corner_normals.resize(corners.size(), -1);
         const bool polygons = std::any_of(sizes.begin(), sizes.end(), [](idx n) { return n != 3; });
         if (polygons)
         {
             auto split = face_splitting<>(points, corners, sizes).run();
-            result.notes.push_back(
-                std::to_string(split.polygons) + (split.polygons == 1 ? " polygon was" : " polygons were") +
-                " split into triangles" +
-                (split.fans > 0 ? " (" + std::to_string(split.fans) + " as a fan, too large for more)" : ""));
+            if (split.polygons > 0)
+                result.notes.push_back(
+                    std::to_string(split.polygons) + (split.polygons == 1 ? " polygon was" : " polygons were") +
+                    " split into triangles" +
+                    (split.fans > 0 ? " (" + std::to_string(split.fans) + " as a fan, too large for more)" : ""));
             result.faces.triangles = std::move(split.corners);
         }
         const auto by_triangle = [&](const std::vector<idx>& items)
@@ -148,6 +170,11 @@ struct polygon_soup
         result.triangles = by_triangle(corners);
         if (coords) result.texcoord_cells = by_triangle(corner_coords);
         if (named_normals) result.normal_cells = by_triangle(corner_normals);
+        if (const auto empty = std::count(sizes.begin(), sizes.end(), 0); empty > 0)
+            result.notes.push_back(std::to_string(empty) + (empty == 1 ? " face" : " faces") +
+                                   " without corners left out");
+        if (!texcoord_fault.empty())
+            result.notes.push_back("the texture coordinates of the file are not used: " + texcoord_fault);
         if (coords) result.texcoords = std::move(texcoords);
         result.points = std::move(points);
         result.normals = named_normals ? std::move(normals) : carried.normals;
@@ -155,6 +182,7 @@ struct polygon_soup
         result.faces.corners = std::move(corners);
         result.vertices = std::move(carried);
         result.fault = std::move(fault);
+        result.texcoord_fault = std::move(texcoord_fault);
         return result;
     }
 };

@@ -70,6 +70,7 @@ std::string read_surface_bytes(const std::filesystem::path& path, surface_format
         throw io_error(path.string(), "unknown kind of file; surfaces are read from .obj, .off, .ply and .stl, from "
                                       "other names if the format is given");
     std::string text = read_file(path);
+    if (!is_binary_stl(text)) refuse_utf16(text, path.string());
     if (format == surface_format::automatic) format = format_of_text(text);
     return text;
 }

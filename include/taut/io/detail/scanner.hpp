@@ -17,6 +17,15 @@
 namespace taut::io::detail
 {
 
+/// Fails if a text is of two bytes a letter.
+inline void refuse_utf16(std::string_view text, const std::string& path)
+{
+    const auto alternates = [&](std::size_t zero) // 'v' 0 ' ' 0, or the other way round
+    { return text.size() >= 4 && text[zero] == 0 && text[zero + 2] == 0 && text[1 - zero] > 0 && text[3 - zero] > 0; };
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || alternates(0) || alternates(1))
+        throw io_error(path, "a text in UTF-16; save it as UTF-8");
+}
+
 /// Reads words and numbers from a text that stays alive. Lines end with LF, CR LF or CR; a backslash before the end of
 /// a line joins it to the next one, as OBJ wants. Independent of the locale.
 class scanner
@@ -114,12 +123,13 @@ public:
         return true;
     }
 
-    /// A decimal number, "nan" or "inf" as a word of its own. Too large: infinity. Throws io_error.
+    /// A decimal number, "nan", "inf" or what Microsoft's library prints for these as a word of its own. Too large:
+    /// infinity. Throws io_error.
     double number()
     {
         skip_blanks();
         double value = 0;
-        if (short_number(value)) return value;
+        if (short_number(value) || take_no_number(value)) return value;
         const char* first = after_plus();
         const auto [last, failure] = std::from_chars(first, end_, value);
         if (failure == std::errc::invalid_argument || !ends_word(last)) fail_at_word("a number");
@@ -266,11 +276,30 @@ private:
         if (p != end_ && *p == '.')
         {
             ++p;
+            if (p != end_ && *p == '#') return false; // 1.#INF
             fraction = take_digits();
         }
         if (digits > exact || fraction >= powers.size() || !ends_word(p)) return false;
         value = static_cast<double>(digits) / powers[fraction];
         if (negative) value = -value;
+        at_ = p;
+        return true;
+    }
+
+    /// Takes what Microsoft's library prints for what is no number: 1.#INF, -1.#IND00, 1.#QNAN.
+    bool take_no_number(double& value)
+    {
+        constexpr std::string_view begin = "1.#";
+        const char* p = at_;
+        if (p != end_ && (*p == '-' || *p == '+')) ++p;
+        if (!std::string_view(p, static_cast<std::size_t>(end_ - p)).starts_with(begin)) return false;
+        const char* const first = p += begin.size();
+        while (p != end_ && *p >= 'A' && *p <= 'Z') ++p;
+        const std::string_view letters(first, static_cast<std::size_t>(p - first));
+        while (p != end_ && *p >= '0' && *p <= '9') ++p;
+        if (letters.empty() || !ends_word(p)) return false;
+        using limits = std::numeric_limits<double>;
+        value = letters == "INF" ? (*at_ == '-' ? -limits::infinity() : limits::infinity()) : limits::quiet_NaN();
         at_ = p;
         return true;
     }

@@ -90,9 +90,9 @@ private:
             const idx first = first_[f];
             result.push_back({first + static_cast<idx>(a), first + static_cast<idx>(b), first + static_cast<idx>(c)});
         };
-        if (n == 3)
+        if (n <= 3) // a line or a point is a triangle that names a vertex twice, as repair knows them
         {
-            add(0, 1, 2);
+            if (n > 0) add(0, std::min<std::size_t>(n - 1, 1), n - 1);
             return true;
         }
         if (const std::size_t bad = unusable_corner(f); bad < n)

@@ -216,7 +216,7 @@ private:
             if (strides == most_strides || done == most_steps || !moves || !run_.clock.proceed()) break;
             auto r = finest.minimize(step, observer_on(run_.clock, 1)); // no map of the run yet
             moves = r.iterations > 0;
-            if (!(r.history.back().step < followed))
+            if (moves && !(r.history.back().step < followed))
             {
                 ++strides;
                 finest.set_springs(springs(0, stiffness *= growth));

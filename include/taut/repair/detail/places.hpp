@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -12,22 +12,17 @@
 #include <vector>
 
 #include <taut/core/counting_sort.hpp>
+#include <taut/core/keyed_hash.hpp>
 
 /// Which points are at one place.
 namespace taut::detail
 {
 
-/// Of a place in a body.
+/// A hash of a place in a body.
 inline std::uint64_t hash_place(const vec3& p, idx body)
 {
-    auto h = static_cast<std::uint64_t>(body);
-    for (int k = 0; k < 3; ++k)
-    {
-        h ^= std::bit_cast<std::uint64_t>(p[k] + 0.0); // -0 is 0
-        h *= 0x9e3779b97f4a7c15U;
-        h ^= h >> 32U;
-    }
-    return h;
+    const auto [x, y, z] = bits_of(p);
+    return keyed_hash(std::array{x, y, z, static_cast<std::uint64_t>(body)});
 }
 
 /// The body that a point is of. bodies: one a point, or none

@@ -91,6 +91,12 @@ public:
         entities_[static_cast<std::size_t>(dimension)].add(tag, dimension, corners);
     }
 
+    /// Of its cells, ascending, each once.
+    std::vector<idx> vertices_of_entity(int dimension, long long tag) const
+    {
+        return entities_[static_cast<std::size_t>(dimension)].vertices_of(tag, to_.file().points.size());
+    }
+
     /// Physical groups under their names, physical:DIM:TAG where they have none; in a file without them entity:DIM:TAG.
     void finish_groups()
     {
@@ -124,8 +130,16 @@ private:
             in_.next_line();
             if (!word.starts_with('$')) continue; // a comment
             const std::string_view name = word.substr(1);
+            if (name.size() > longest_name)
+            {
+                in_.go_to(word.data());
+                in_.fail("the name of a section has " + std::to_string(name.size()) +
+                         " letters; no section of gmsh has");
+            }
             const auto begin = static_cast<std::size_t>(in_.position() - in_.start());
-            const auto end = all.find("$End" + std::string(name), begin);
+            // Those of version 1 are $NOD to $ENDNOD, $ELM to $ENDELM.
+            const bool first_version = name == "NOD" || name == "ELM";
+            const auto end = all.find((first_version ? "$END" : "$End") + std::string(name), begin);
             if (end == all.npos)
             {
                 in_.go_to(after);
@@ -140,6 +154,11 @@ private:
 
     void read_format()
     {
+        if (has("NOD"))
+        {
+            go_to("NOD");
+            in_.fail("version 1 of the format is not read; save as 2.2 or 4.1 (gmsh -format msh41)");
+        }
         if (!has("MeshFormat")) in_.fail("not a gmsh mesh of version 2 or 4: there is no $MeshFormat");
         go_to("MeshFormat");
         const double version = in_.number();
@@ -176,6 +195,8 @@ private:
             if (!name.empty()) names_[{dimension, tag}] = name;
         }
     }
+
+    static constexpr std::size_t longest_name = 64; // its end is searched for
 
     volume_builder<>& to_;
     scanner& in_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <taut/io/detail/volume/gmsh.hpp>
 
@@ -24,8 +25,9 @@ public:
 
     void read()
     {
-        read_nodes();
-        sections_.leave("Nodes");
+        const char* const nodes = sections_.has("ParametricNodes") ? "ParametricNodes" : "Nodes";
+        read_nodes(nodes);
+        sections_.leave(nodes);
         read_elements();
         sections_.leave("Elements");
     }
@@ -41,9 +43,10 @@ private:
         return n;
     }
 
-    void read_nodes()
+    /// Parametric nodes have the dimension and the tag of an entity behind them, and parameters on lines and faces.
+    void read_nodes(std::string_view section)
     {
-        sections_.go_to("Nodes");
+        sections_.go_to(section);
         const std::size_t n = read_count("the number of nodes");
         to_.set_places(sections_.encoding(), false, 3);
         from_.fitting(static_cast<long long>(n), "the number of nodes", from_.text() ? 8 : 28);
@@ -52,6 +55,10 @@ private:
         {
             to_.add_id(from_.integer(integer, "the number of a node"));
             to_.add_point(from_);
+            if (section == "Nodes") continue;
+            const long long dimension = from_.integer(integer, "the dimension of an entity");
+            from_.integer(integer, "the tag of an entity");
+            for (long long k = 0; k < dimension && dimension < 3; ++k) from_.real(number_type::float64);
         }
         to_.finish_ids(from_);
     }

@@ -41,10 +41,12 @@ public:
         sections_.leave("Nodes");
         read_elements();
         sections_.leave("Elements");
+        add_physical_groups();
     }
 
 private:
     static constexpr number_type integer = number_type::int32, size = number_type::uint64;
+    static constexpr std::size_t most_times = 16;
 
     struct entity
     {
@@ -128,9 +130,36 @@ private:
                 to_.add_cell(kind, cell);
                 sections_.add_tags(physical ? groups->second.front() : 0, of.tag);
                 sections_.add_entity(of.dimension, of.tag, cell);
-                if (groups == physical_.end()) continue;
-                for (const long long tag : groups->second) sections_.add_physical(of.dimension, tag, cell);
             }
+        }
+    }
+
+    /// What an entity has is in all its physical groups. A tag takes few bytes of the file and stands for all vertices
+    /// of the entity: there are no groups where these are many times what the mesh has.
+    void add_physical_groups()
+    {
+        auto& file = to_.file();
+        std::vector<std::vector<idx>> vertices;
+        std::size_t named = 0;
+        for (const auto& [of, tags] : physical_)
+        {
+            vertices.push_back(tags.empty() ? std::vector<idx>() : sections_.vertices_of_entity(of.first, of.second));
+            named += tags.size() * vertices.back().size();
+        }
+        std::size_t there = file.points.size();
+        for (const auto& block : file.cells) there += block.corners.size();
+        if (named > most_times * there)
+        {
+            file.notes.push_back("the physical groups have more than " + std::to_string(most_times) +
+                                 " times what the mesh has; no groups were made of them");
+            return;
+        }
+        auto of_entity = vertices.begin();
+        for (const auto& [of, tags] : physical_)
+        {
+            for (const long long tag : tags)
+                if (!of_entity->empty()) sections_.add_physical(of.first, tag, *of_entity);
+            ++of_entity;
         }
     }
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,15 +15,18 @@
 namespace taut::io::detail
 {
 
-/// Ascending, each once. vertex_count: how many there could be.
+/// Ascending, each once.
+inline std::vector<idx> unique_vertices(std::vector<idx> vertices)
+{
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
+/// The same. vertex_count: how many there could be.
 inline std::vector<idx> unique_vertices(std::vector<idx> vertices, std::size_t vertex_count)
 {
-    if (vertices.size() < vertex_count / 8)
-    {
-        std::sort(vertices.begin(), vertices.end());
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        return vertices;
-    }
+    if (vertices.size() < vertex_count / 8) return unique_vertices(std::move(vertices));
     std::vector<char> named(vertex_count, 0);
     for (const idx v : vertices) named[static_cast<std::size_t>(v)] = 1;
     vertices.clear();
@@ -46,6 +49,13 @@ public:
     }
 
     bool empty() const { return groups_.empty(); }
+
+    /// The vertices of a number, ascending, each once.
+    std::vector<idx> vertices_of(long long tag, std::size_t vertex_count) const
+    {
+        const auto found = groups_.find(tag);
+        return found == groups_.end() ? std::vector<idx>() : unique_vertices(found->second.vertices, vertex_count);
+    }
 
     /// Moves all to the file under name(tag).
     template <class Name>
@@ -87,6 +97,7 @@ void make_names_unique(std::vector<volume_group>& groups)
     for (auto& g : groups)
         if (count[g.name] > 1) g.name += ':' + std::to_string(g.dimension);
     std::map<std::string, std::size_t> first;
+    std::set<std::size_t> joined;
     std::vector<volume_group> result;
     for (auto& g : groups)
     {
@@ -97,10 +108,10 @@ void make_names_unique(std::vector<volume_group>& groups)
             continue;
         }
         auto& to = result[known->second].vertices;
-        std::vector<idx> both;
-        std::set_union(to.begin(), to.end(), g.vertices.begin(), g.vertices.end(), std::back_inserter(both));
-        to = std::move(both);
+        to.insert(to.end(), g.vertices.begin(), g.vertices.end());
+        joined.insert(known->second);
     }
+    for (const std::size_t g : joined) result[g].vertices = unique_vertices(std::move(result[g].vertices));
     groups = std::move(result);
 }
 

@@ -42,6 +42,7 @@ template <class = void>
 void read_volume_bytes(volume_file& file, volume_format format)
 {
     file.format = name_of(format);
+    refuse_utf16(file.bytes, file.path);
     switch (format)
     {
     case volume_format::medit:

@@ -106,7 +106,10 @@ private:
         std::array<idx, 8> corners{};
         for (std::size_t c = 0; c < n; ++c)
         {
-            const cell_kind kind = kind_of_vtk(from_.integer(number_type::int32, "the type of an element"), from_);
+            const long long type = from_.integer(number_type::int32, "the type of an element");
+            if (type == vtk_pixel || type == vtk_voxel)
+                from_.fail("element type " + std::to_string(type) + " is none of SU2");
+            const cell_kind kind = kind_of_vtk(type, from_);
             const auto cell = std::span(corners).first(static_cast<std::size_t>(shape_of(kind).corners));
             for (idx& v : cell) v = to_.point_at(from_.integer(number_type::int32, "a point"), 0, from_);
             in_.next_line();

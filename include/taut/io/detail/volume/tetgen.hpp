@@ -66,7 +66,7 @@ private:
             for (long long k = 0; k < attributes; ++k) nodes_.real(number_type::float64);
             if (markers == 0) continue;
             const auto vertex = static_cast<idx>(v);
-            groups.add(nodes_.integer(integer, "a boundary marker"), 0, {&vertex, 1});
+            groups.add(marker(nodes_), 0, {&vertex, 1});
         }
         to_.finish_ids(nodes_);
         groups.move_to_prefixed(to_.file(), "points");
@@ -78,6 +78,14 @@ private:
         const long long n = from.in().content_ends() ? 0 : from.integer(integer, "a count");
         if (n < 0) from.fail("a negative count");
         return n;
+    }
+
+    /// Some programs write 0.0 for 0.
+    static long long marker(number_source<>& from)
+    {
+        const double x = from.real(number_type::float64);
+        if (x != std::floor(x) || std::abs(x) > 1e15) from.fail("a boundary marker that is no whole number");
+        return static_cast<long long>(x);
     }
 
     template <std::size_t N>
@@ -126,7 +134,7 @@ private:
         {
             read_cell(from, face, 3);
             to_.add_cell(cell_kind::triangle, face);
-            labels_.values.push_back(marked ? from.integer(integer, "a boundary marker") : 0);
+            labels_.values.push_back(marked ? marker(from) : 0);
             if (marked) groups.add(labels_.values.back(), 2, face);
             from.in().next_line(); // TetGen -nn adds neighbours
         }

@@ -5,10 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -17,25 +17,33 @@
 namespace taut::io::detail
 {
 
+/// Cells along the axes: their corners are in the order of coordinates, not around.
+enum : int
+{
+    vtk_pixel = 8,
+    vtk_voxel = 11
+};
+
 /// The kind of a cell that VTK (and SU2) gives a number. Throws io_error at `from` for one that is not read.
 inline cell_kind kind_of_vtk(long long type, const number_source<>& from)
 {
-    static constexpr std::array<std::pair<int, cell_kind>, 8> known = {{{1, cell_kind::vertex},
-                                                                        {3, cell_kind::line},
-                                                                        {5, cell_kind::triangle},
-                                                                        {9, cell_kind::quad},
-                                                                        {10, cell_kind::tetrahedron},
-                                                                        {14, cell_kind::pyramid},
-                                                                        {13, cell_kind::wedge},
-                                                                        {12, cell_kind::hexahedron}}};
+    static constexpr std::array<std::pair<int, cell_kind>, 10> known = {{{1, cell_kind::vertex},
+                                                                         {3, cell_kind::line},
+                                                                         {5, cell_kind::triangle},
+                                                                         {9, cell_kind::quad},
+                                                                         {vtk_pixel, cell_kind::quad},
+                                                                         {vtk_voxel, cell_kind::hexahedron},
+                                                                         {10, cell_kind::tetrahedron},
+                                                                         {14, cell_kind::pyramid},
+                                                                         {13, cell_kind::wedge},
+                                                                         {12, cell_kind::hexahedron}}};
     for (const auto& [number, kind] : known)
         if (number == type) return kind;
     const std::string_view what =
-        type == 42 || type == 41  ? "polyhedra cannot be read; split them into tetrahedra"
-        : type > 20               ? "cells of higher order; save the mesh in first order"
-        : type == 8 || type == 11 ? "pixels and voxels lie along the axes; save them as quads and hexahedra"
-                                  : "not a kind of cell that is read; save tetrahedra, pyramids, wedges, hexahedra, "
-                                    "triangles, quads, lines and vertices";
+        type == 42 || type == 41 ? "polyhedra cannot be read; split them into tetrahedra"
+        : type > 20              ? "cells of higher order; save the mesh in first order"
+                                 : "not a kind of cell that is read; save tetrahedra, pyramids, wedges, hexahedra, "
+                                   "triangles, quads, lines and vertices";
     from.fail("cell type " + std::to_string(type) + ": " + std::string(what));
 }
 
@@ -48,7 +56,7 @@ struct vtk_cells
     std::vector<idx> corners;
 
     /// Throws io_error at `from`.
-    void move_to(volume_builder<>& to, const number_source<>& from) const
+    void move_to(volume_builder<>& to, const number_source<>& from)
     {
         if (types.size() != ends.size())
             from.fail(std::to_string(types.size()) + " cell types for " + std::to_string(ends.size()) + " cells");
@@ -61,8 +69,11 @@ struct vtk_cells
                 from.fail("cell " + std::to_string(c) + ", a " + shape_of(kind).name + ", ends at corner " +
                           std::to_string(end) + " instead of " + std::to_string(needed) + " of " +
                           std::to_string(corners.size()));
-            to.add_vtk_cell(kind, std::span<const idx>(corners).subspan(static_cast<std::size_t>(begin),
-                                                                        static_cast<std::size_t>(end - begin)));
+            const auto cell =
+                std::span(corners).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+            if (types[c] == vtk_pixel || types[c] == vtk_voxel)
+                for (std::size_t k = 2; k < cell.size(); k += 4) std::swap(cell[k], cell[k + 1]);
+            to.add_vtk_cell(kind, cell);
             begin = end;
         }
     }
@@ -73,7 +84,7 @@ template <class = void>
 void add_attribute_groups(volume_file& file, const volume_label& a)
 {
     constexpr std::size_t most = 256;
-    std::unordered_set<long long> values;
+    std::set<long long> values;
     for (const long long x : a.values)
         if (values.insert(x).second && values.size() > most)
         {

@@ -258,13 +258,18 @@ private:
         const number_type type = type_of(a);
         if (is_real(type) || a.tag.attribute_or("NumberOfComponents", "1") != "1") return;
         volume_label attribute{std::string(a.tag.attribute_or("Name", "")), a.section == "CellData", {}};
-        if (const char* const why = obstacle(a))
+        const std::size_t count = attribute.of_cells ? cells_ : points_;
+        const char* why = obstacle(a);
+        // Arrays that share bytes could be any number.
+        if (a.tag.attribute_or("format", "ascii") != "ascii") attribute_bytes_ += count * size_of(type);
+        if (why == nullptr && attribute_bytes_ > bytes_.size())
+            why = "arrays of attributes have more bytes than the file, so they share them";
+        if (why != nullptr)
         {
             to_.file().notes.push_back("no groups were made of '" + attribute.name + "': " + why);
             return;
         }
-        for_each_integer(a, attribute.of_cells ? cells_ : points_,
-                         [&](long long x, const number_source<>&) { attribute.values.push_back(x); });
+        for_each_integer(a, count, [&](long long x, const number_source<>&) { attribute.values.push_back(x); });
         add_attribute_groups(to_.file(), attribute);
         to_.file().labels.push_back(std::move(attribute));
     }
@@ -276,6 +281,7 @@ private:
     number_type header_ = number_type::uint32;
     bool compressed_ = false, raw_ = false;
     std::size_t appended_ = 0, pieces_ = 0, points_ = 0, cells_ = 0;
+    std::size_t attribute_bytes_ = 0; // of appended arrays
 };
 
 } // namespace taut::io::detail

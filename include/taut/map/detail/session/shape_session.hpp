@@ -51,6 +51,7 @@ public:
         require_slides();
         this->lengths_ = unit_scale(m);
         wanted = params_.constraints.on(rest_);
+        wanted.require_near(this->lengths_);
     }
 
 private:
