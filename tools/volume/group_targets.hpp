@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,13 +30,16 @@ public:
 private:
     const io::volume_group& group(const std::string& name) const { return file_.find_group(name); }
     const vec3& point(idx v) const { return file_.points[static_cast<std::size_t>(v)]; }
-    void transform(const std::string& name, int kind, const std::vector<double>& numbers);
+    void transform(const std::string& name, std::size_t kind, const std::vector<double>& numbers);
     void take(idx v, const vec3& x, const std::string& name);
 
     const io::volume_file& file_;
     std::map<idx, vec3> targets_;
     std::map<idx, std::string> owner_;
 };
+
+/// The file of GROUP=FILE.csv; nothing for other moves.
+std::string file_of_move(const std::string& text);
 
 /// Numbers between commas; throws usage_error that begins with `option` unless there are `count`.
 std::vector<double> numbers_of(const std::string& text, std::size_t count, const std::string& option);
