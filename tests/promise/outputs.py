@@ -190,11 +190,11 @@ def a_batch_knows_all_files(t):
                    ["a.node", "a.ele", "a.face", "pins.csv", "moves.csv"], ["b.node", "b.ele", "b.face", "b.json"]),
         "rest": (["untangle", "r.ele", "--rest", "a.node", "-o", "u.node"],
                  ["r.node", "r.ele", "a.node", "a.ele", "a.face"], ["u.node", "u.ele"]),
-        "gltf": (["atlas", "t.gltf", "-o", "o.gltf", "--report", "o.html", "--picture", "o.png", "--render", "r.png"],
-                 ["t.gltf", "t a.bin"], ["o.gltf", "o.bin", "o.html", "o.png", "r.png"]),
+        "gltf": (["atlas", "t.gltf", "-o", "o.gltf", "--report", "o.html"],
+                 ["t.gltf", "t a.bin"], ["o.gltf", "o.bin", "o.html"]),
         "obj": (["atlas", "s.obj", "--seams", "seams.txt", "-o", "n.gltf"], ["s.obj", "seams.txt"], ["n.gltf", "n.bin"]),
         "paste": (["paste", "--source", "s.obj", "--target", "big.obj", "--at", "24", "--radius", "0.3", "--onto", "84", "--scale", "0.5",
-                   "-o", "p.obj", "--map", "p.exr", "--texels", "16", "--picture", "p.png"], ["s.obj", "big.obj"], ["p.obj", "p.exr", "p.png"]),
+                   "-o", "p.obj", "--map", "p.exr", "--texels", "16"], ["s.obj", "big.obj"], ["p.obj", "p.exr"]),
         "refine": (["deform", "flat.mesh", "-o", "f.mesh", "--refine", "--refined-map", "f.csv"], ["flat.mesh"], ["f.mesh", "f.csv"])}
     t.write("jobs.jsonl", "".join(json.dumps({"id": id, "args": [*job[0], "--quiet"] if job[0][0] != "paste" else [*job[0], "-q"]}) + "\n"
                                   for id, job in jobs.items()))
