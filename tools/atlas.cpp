@@ -81,15 +81,17 @@ bool holds_pinned(const atlas_params& params)
 class atlas_run
 {
 public:
-    atlas_run(const atlas_options& options, std::chrono::steady_clock::time_point launch)
-        : options_(options), clock_(launch), progress_(progress_of(options.progress, options.quiet), std::cerr)
+    atlas_run(const atlas_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
+        : options_(options),
+          clock_(launch),
+          progress_(progress_of(options.progress, options.quiet), std::cerr),
+          place_of_report_(options.quiet ? nullptr : files.place_of_report())
     {
     }
 
     exit_code operator()()
     {
-        const auto outputs = check(options_);
-        if (!options_.quiet) place_of_report_ = outputs.place_of_report();
+        check(options_);
         limit_time(options_.time_limit - clock_.now());
         tell("read");
         try
@@ -348,7 +350,7 @@ private:
     std::optional<atlas> atlas_;
     io::gltf_numbers numbers_ = io::gltf_numbers::floats;
     atlas_run_report report_;
-    const char* place_of_report_ = nullptr; ///< null: there is none
+    const char* place_of_report_; ///< null: there is none
 };
 
 } // namespace
@@ -358,10 +360,10 @@ command add_atlas(CLI::App& program, std::chrono::steady_clock::time_point launc
     const auto options = std::make_shared<atlas_options>();
     declare(*program.add_subcommand("atlas", "Cut any surface into charts, flatten them and pack them in a square"),
             *options);
-    return [options, launch]
+    return [options, launch](const outputs& files)
     {
         keep_freed_memory();
-        return atlas_run(*options, launch)();
+        return atlas_run(*options, files, launch)();
     };
 }
 

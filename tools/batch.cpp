@@ -22,6 +22,7 @@
 #include "progress.hpp"
 #include "run_clock.hpp"
 #include "shared_options.hpp"
+#include "text_table.hpp"
 #include "writing.hpp"
 
 namespace taut::tools
@@ -53,15 +54,12 @@ std::string summary(const batch::tally& t, double seconds)
     return out.str();
 }
 
-exit_code run(batch_options options, const run_clock& clock)
+exit_code run(batch_options options, const outputs& files, const run_clock& clock)
 {
     const auto part = batch::parse_shard(options.shard);
     if (!part) throw usage_error("--shard " + options.shard + ": is no i/N with i from 1 to N");
     if (options.run.resume && io::is_stream(options.out))
         throw usage_error("--resume needs the file of results: name it with --out");
-    outputs files;
-    files.add("--out", options.out, {});
-    files.protect("the manifest", options.manifest);
     const char* const place = options.quiet ? nullptr : files.place_of_report();
 
     std::vector<batch::job> jobs = batch::read_manifest(options.manifest), own;
@@ -70,7 +68,13 @@ exit_code run(batch_options options, const run_clock& clock)
     options.run.caches = options.cache.empty() ? batch::default_caches() : std::filesystem::path(options.cache);
     if (std::isfinite(options.memory_limit))
         options.run.bounds.memory = static_cast<std::uint64_t>(options.memory_limit);
-    options.run.at_once = static_cast<std::size_t>(options.jobs);
+    const auto wanted = static_cast<std::size_t>(options.jobs);
+    options.run.at_once = batch::most_jobs_at_once(wanted);
+    if (options.run.at_once == 0) throw usage_error("--jobs: too few files may be open for a job; raise `ulimit -n`");
+    if (options.run.at_once < wanted && !options.quiet)
+        std::cerr << "taut: note: --jobs " << wanted << ": so few files may be open that "
+                  << count(options.run.at_once, "job is", "jobs are")
+                  << " at work at once; `ulimit -n` says how many\n";
     options.run.resume |= options.run.retry;
 
     batch::result_file results(options.out);
@@ -98,13 +102,14 @@ command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launc
     const auto options = std::make_shared<batch_options>();
     auto& o = *options;
     auto& app = *program.add_subcommand("batch", "Run many calls of this program, each held to its limits");
-    add_path(
-        app, "--manifest", o.manifest, standard_input,
+    add_input(
+        app, "--manifest", o.manifest, "the manifest",
         R"(The jobs, a JSON object a line: {"id": "a", "args": ["unwrap", "a.obj", "-o", "flat.obj"]}, and in it, )"
         R"(if wanted, "time_limit": S and "memory_limit": BYTES)")
         ->required()
         ->type_name("FILE.jsonl");
-    add_path(app, "--out", o.out, standard_output, "Append the results, a JSON object a line; - is standard output")
+    add_output(app, "--out", o.out, {.otherwise = standard_output},
+               "Append the results, a JSON object a line; - is standard output")
         ->type_name("FILE.jsonl");
     app.add_option("--shard", o.shard, "Only part i of N of the jobs, i from 1 to N")->type_name("i/N");
     app.add_flag("--resume", o.run.resume,
@@ -129,7 +134,7 @@ command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launc
     add_progress(app, o.progress, o.quiet);
     app.footer("exit codes: 0 all jobs have a valid map; 10 all were run, and some failed; 2, 3 as other commands;\n"
                "  130, 143 interrupted: what was at work is done again with --resume");
-    return [options, launch] { return run(*options, run_clock(launch)); };
+    return [options, launch](const outputs& files) { return run(*options, files, run_clock(launch)); };
 }
 
 } // namespace taut::tools

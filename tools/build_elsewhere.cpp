@@ -18,6 +18,8 @@
 #include <taut/sparse/block_matrix.hpp>
 
 #include "child.hpp"
+#include "failure.hpp"
+#include "private_folder.hpp"
 
 namespace taut::tools
 {
@@ -36,17 +38,13 @@ std::string variable(const char* name)
     return value ? value : "";
 }
 
-/// Where PoCL keeps kernels; empty where that is nowhere, or written by others.
+/// Where PoCL keeps kernels.
 fs::path kernels_of_pocl()
 {
-    fs::path folder;
-    if (const auto named = variable("POCL_CACHE_DIR"); !named.empty())
-        folder = named;
-    else if (const auto caches = variable("XDG_CACHE_HOME"); !caches.empty())
-        folder = fs::path(caches) / "pocl" / "kcache";
-    else if (const auto home = variable("HOME"); !home.empty())
-        folder = fs::path(home) / ".cache" / "pocl" / "kcache";
-    return variable("POCL_KERNEL_CACHE") != "0" && ::access(folder.c_str(), W_OK) == 0 ? folder : fs::path();
+    if (const auto named = variable("POCL_CACHE_DIR"); !named.empty()) return named;
+    if (const auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return fs::path(caches) / "pocl" / "kcache";
+    if (const auto home = variable("HOME"); !home.empty()) return fs::path(home) / ".cache" / "pocl" / "kcache";
+    return "/tmp/pocl";
 }
 
 /// What `taut build-kernels` is told.
@@ -99,12 +97,23 @@ struct work
 
 } // namespace
 
+void require_own_kernels(const taut::device& device)
+{
+    const auto folder = kernels_of_pocl();
+    std::error_code failure;
+    if (!quirks::is_pocl(device) || !fs::is_directory(folder, failure)) return;
+    if (const auto fault = fault_of_folder(fs::canonical(folder, failure), S_IWOTH); !fault.empty())
+        throw usage_error(folder.string() + ", where PoCL keeps compiled kernels: " + fault +
+                          "; name a folder of your own with POCL_CACHE_DIR");
+}
+
 program_builder build_elsewhere(const taut::device& device, const std::string& wish)
 {
     const auto folder = kernels_of_pocl();
+    const bool kept = variable("POCL_KERNEL_CACHE") != "0" && ::access(folder.c_str(), W_OK) == 0;
     const bool useful =
         quirks::is_pocl(device) && device.compute_units() > 1 && std::thread::hardware_concurrency() > 1;
-    if (!useful || folder.empty()) return {};
+    if (!useful || !kept) return {};
     const auto latest = std::make_shared<std::shared_ptr<work>>();
     return [=](const std::string& source, const std::string& options,
                const std::vector<std::string>& kernels) -> build_under_way

@@ -16,4 +16,8 @@ namespace taut::tools
 /// or a kernel that the other one is building, as PoCL's cache is not safe between processes.
 program_builder build_elsewhere(const taut::device& device, const std::string& wish);
 
+/// Throws usage_error if the compiled kernels that the device's driver would load may be somebody else's: they run as
+/// this user.
+void require_own_kernels(const taut::device& device);
+
 } // namespace taut::tools

@@ -130,7 +130,7 @@ command add_build_kernels(CLI::App& program)
     app.add_option("dimension", options->dimension)->check(CLI::Range(2, 3));
     app.add_option("real", options->real);
     add_device(app, options->device);
-    return [options] { return run(*options); };
+    return [options](const outputs&) { return run(*options); };
 }
 
 } // namespace taut::tools

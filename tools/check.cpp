@@ -309,7 +309,6 @@ std::string lines_of(const check_report& r, const check_options& options)
 
 exit_code run(const check_options& options)
 {
-    require_one_standard_input(options.input, options.pins);
     const auto report = examine(options);
     write_standard_output(options.json ? text_of(json_of(report, options)) : lines_of(report, options));
     return report.code;
@@ -322,12 +321,10 @@ command add_check(CLI::App& program)
     const auto options = std::make_shared<check_options>();
     auto& app = *program.add_subcommand(
         "check", "Say what is wrong with a surface, a volume, a problem or pins, without solving");
-    add_path(app, "IN", options->input, standard_input,
-             "Surface (OBJ, OFF, PLY, STL) as `unwrap` takes it, problem (.prob), or volume, or mesh of the plane "
-             "(.mesh .msh "
-             ".vtk .vtu .node .su2); - is standard input")
-        ->required()
-        ->type_name("FILE");
+    add_input(app, "IN", options->input, "the input",
+              "Surface (OBJ, OFF, PLY, STL) as `unwrap` takes it, problem (.prob), or volume, or mesh of the plane "
+              "(.mesh .msh .vtk .vtu .node .su2); - is standard input")
+        ->required();
     using io::surface_format;
     add_choice<std::optional<surface_format>>(app, "--format", options->format,
                                               {{"auto", surface_format::automatic},
@@ -337,12 +334,12 @@ command add_check(CLI::App& program)
                                                {"stl", surface_format::stl},
                                                {"prob", {}}},
                                               "What IN is; auto: what its name says, for - (standard input) a surface");
-    add_path(app, "--pins", options->pins, standard_input,
-             "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
+    add_input(app, "--pins", options->pins, "the pins",
+              "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
         ->type_name("FILE.csv");
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 nothing wrong; 2 usage; 3 unreadable input; 4 unsuitable input; 7 proved infeasible");
-    return [options] { return run(*options); };
+    return [options](const outputs&) { return run(*options); };
 }
 
 } // namespace taut::tools

@@ -72,6 +72,7 @@ io::detail::descriptor file_of(const std::string& text)
     sigset_t all;
     sigemptyset(&all);
     ::sigprocmask(SIG_SETMASK, &all, nullptr);
+    ::syscall(SYS_close_range, STDERR_FILENO + 1, ~0U, 0); // whatever libraries have opened, too
     ::execve("/proc/self/exe", args, environment);
     ::_exit(127);
 }

@@ -8,12 +8,14 @@
 #include <CLI/CLI.hpp>
 
 #include "exit_codes.hpp"
+#include "outputs.hpp"
 
 namespace taut::tools
 {
 
-/// What a subcommand does once its options are parsed. Failures are exceptions; main() knows their exit codes.
-using command = std::function<exit_code()>;
+/// What a subcommand does once its options are parsed and its files looked at. Failures are exceptions; main() knows
+/// their exit codes.
+using command = std::function<exit_code(const outputs&)>;
 
 /// Each adds one subcommand with its options and returns what it does. `launch` is when the program started.
 command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point launch);

@@ -18,9 +18,9 @@ namespace taut::tools
 namespace
 {
 
-exit_code run(const shape_options& options, std::chrono::steady_clock::time_point launch)
+exit_code run(const shape_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
 {
-    const outputs files = check(options);
+    check(options);
     const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
     const run_clock clock(launch);
     limit_time(options.time_limit - clock.now());
@@ -50,14 +50,14 @@ command add_deform(CLI::App& program, std::chrono::steady_clock::time_point laun
         *program.add_subcommand(
             "deform", "Deform a volume, a mesh of the plane, or a surface in space by what is held and moved"),
         *options);
-    return [options, launch] { return run(*options, launch); };
+    return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }
 
 command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<shape_options>();
     declare_smooth(*program.add_subcommand("smooth", "Move vertices to where the elements are best shaped"), *options);
-    return [options, launch] { return run(*options, launch); };
+    return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }
 
 } // namespace taut::tools

@@ -49,7 +49,7 @@ command add_devices(CLI::App& program)
 {
     program.add_subcommand("devices", "List the OpenCL devices of this machine and the one that is taken by default")
         ->footer("exit codes: 0 listed; 2 usage; 5 no device");
-    return list_devices;
+    return [](const outputs&) { return list_devices(); };
 }
 
 } // namespace taut::tools

@@ -98,18 +98,17 @@ command add_eval(CLI::App& program)
 {
     const auto options = std::make_shared<eval_options>();
     auto& app = *program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
-    add_path(app, "IN", options->input, standard_input,
-             "OBJ file with texture coordinates; seams are cut open; - is standard input. Or a volume (.mesh .msh .vtk "
-             ".vtu .node .su2), or a problem (.prob)")
-        ->required()
-        ->type_name("FILE");
-    app.add_option("MAP", options->map, "The volume IN after it was deformed: the same vertices and cells")
-        ->type_name("FILE");
+    add_input(
+        app, "IN", options->input, "the input",
+        "OBJ file with texture coordinates; seams are cut open; - is standard input. Or a volume (.mesh .msh .vtk "
+        ".vtu .node .su2), or a problem (.prob)")
+        ->required();
+    add_input(app, "MAP", options->map, "the map", "The volume IN after it was deformed: the same vertices and cells");
     add_format(app, options->format);
     add_drawing(app, options->picture, options->cut, "Draw a volume, or a mesh of the plane");
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");
-    return [options] { return evaluate(*options); };
+    return [options](const outputs&) { return evaluate(*options); };
 }
 
 } // namespace taut::tools

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <csignal>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -20,6 +21,7 @@
 #include <taut/mesh/mesh_error.hpp>
 #include <taut/version.hpp>
 
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "help.hpp"
@@ -42,7 +44,7 @@ int fail(exit_code code, const std::string& what, const std::string& remedy = {}
 }
 
 /// Runs a subcommand of that name; every exception becomes one line and an exit code, see docs/errors.md.
-int guarded(const command& run, const std::string& name)
+int guarded(const std::function<exit_code()>& run, const std::string& name)
 {
     try
     {
@@ -123,8 +125,8 @@ void prepare_streams()
 
 int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
-    CLI::App program("Injective, low-distortion maps of triangle and tetrahedral meshes, on any OpenCL device.",
-                     "taut");
+    command_line program("Injective, low-distortion maps of triangle and tetrahedral meshes, on any OpenCL device.",
+                         "taut");
     program.set_version_flag("--version", "taut " TAUT_VERSION_STRING);
     program.require_subcommand(1);
     program.formatter(std::make_shared<wrapped_help>());
@@ -158,7 +160,8 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     }
     const auto all = program.get_subcommands({});
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k]->parsed()) return guarded(commands[k], all[k]->get_name());
+        if (all[k]->parsed())
+            return guarded([&] { return commands[k](outputs(files_of(*all[k]))); }, all[k]->get_name());
     return to_int(exit_code::usage);
 }
 

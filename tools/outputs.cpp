@@ -2,13 +2,16 @@
 #include "outputs.hpp"
 
 #include <algorithm>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <poll.h>
 #include <unistd.h>
 
 #include <taut/io/atomic_file.hpp>
 
+#include "companions.hpp"
 #include "failure.hpp"
 
 namespace taut::tools
@@ -34,48 +37,108 @@ bool same_file(const fs::path& a, const fs::path& b)
     return fs::equivalent(a, b, ignored) || spelled_out(a) == spelled_out(b);
 }
 
-} // namespace
-
-void outputs::add(const std::string& option, const fs::path& path, std::vector<std::string> extensions)
+/// As the user knows an option.
+std::string name_of(const CLI::Option& option)
 {
-    if (path.empty()) return;
-    const auto refuse = [&](const std::string& reason)
-    { throw usage_error(option + ' ' + path.string() + ": " + reason); };
+    return option.get_snames().empty() ? option.get_name() : '-' + option.get_snames().front();
+}
 
+[[noreturn]] void refuse(const run_file& output, const std::string& reason)
+{
+    const bool beside = output.path != output.given;
+    throw usage_error(name_of(*output.option) + ' ' + output.given.string() + ": " +
+                      (beside ? output.path.string() + ", which is written with it, " : "") + reason);
+}
+
+/// Throws usage_error if it could not be written as things are. Returns whether it is standard output.
+bool require_place(const run_file& output)
+{
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) refuse("is a folder; name a file");
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored)) refuse("there is no folder " + folder.string() + "; create it first");
+    if (fs::is_directory(output.path, ignored)) refuse(output, "is a folder; name a file");
+    const auto folder = output.path.has_parent_path() ? output.path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, ignored))
+        refuse(output, "there is no folder " + folder.string() + "; create it first");
     try
     {
-        const auto target = io::detail::resolve_target(path);
-        const bool named = !extensions.empty() && !target.stream;
-        if (named && std::find(extensions.begin(), extensions.end(), extension(path)) == extensions.end())
+        const auto target = io::detail::resolve_target(output.path);
+        const auto& known = output.use->extensions;
+        const bool named = output.path == output.given && !known.empty() && !target.stream;
+        if (named && std::find(known.begin(), known.end(), extension(output.path)) == known.end())
         {
             std::string list;
-            for (const auto& e : extensions) list += (list.empty() ? "" : " or ") + e;
-            refuse("the name must end in " + list);
+            for (const auto& e : known) list += (list.empty() ? "" : " or ") + e;
+            refuse(output, "the name must end in " + list);
         }
-        io::require_writable(path);
-        standard_output_taken_ = standard_output_taken_ || target.number == STDOUT_FILENO;
+        io::require_writable(output.path);
+        return target.number == STDOUT_FILENO;
     }
     catch (const io::io_error& e)
     {
-        throw usage_error(option + ": " + e.what());
+        throw usage_error(name_of(*output.option) + ": " + e.what());
     }
-    if (!fs::is_character_file(path, ignored)) // a terminal and /dev/null take anything
-        for (const auto& other : outputs_)
-            if (same_file(other.path, path)) refuse("is also the file of " + other.option + "; name another one");
-    outputs_.push_back({option, path});
 }
 
-void outputs::protect(const std::string& what, const fs::path& input, const std::string& but_for) const
+/// Whether an output is to replace that input, as a whole.
+bool is_in_place(const run_file& output, const run_file& input)
+{
+    return output.use->in_place && output.source == input.given && same_file(output.given, input.given) &&
+           output.path != name_of_invalid(output.given);
+}
+
+void require_no_input(const run_file& output, const run_file& input)
 {
     std::error_code ignored;
-    if (fs::exists(input, ignored) && !fs::is_regular_file(input, ignored)) return; // a pipe can be both
-    for (const auto& o : outputs_)
-        if (o.option != but_for && same_file(o.path, input))
-            throw usage_error(o.option + ' ' + o.path.string() + ": would overwrite " + what);
+    if (fs::exists(input.path, ignored) && !fs::is_regular_file(input.path, ignored)) return; // a pipe can be both
+    if (!same_file(output.path, input.path) || is_in_place(output, input)) return;
+    refuse(output,
+           "would overwrite " + (input.path == input.given ? input.use->read_as
+                                                           : input.path.string() + ", which belongs to " +
+                                                                 input.use->read_as + ' ' + input.given.string()));
+}
+
+/// A file beside an output that nobody has named is that of the output that is there, or somebody else's.
+void require_own(const run_file& output)
+{
+    if (const auto stray = stray_companion(output.given, output.source); !stray.empty())
+        throw usage_error(name_of(*output.option) + ' ' + output.given.string() + ": " + stray.string() +
+                          " of another mesh would become a part of it; move it away, or choose another name");
+    std::error_code ignored;
+    if (output.path == output.given || output.path == name_of_invalid(output.given) ||
+        !fs::exists(output.path, ignored))
+        return;
+    const auto own = fs::exists(output.given, ignored) ? companions_of(output.given) : std::vector<fs::path>();
+    const auto is_it = [&](const fs::path& one) { return same_file(one, output.path); };
+    if (std::none_of(own.begin(), own.end(), is_it))
+        refuse(output, "is there already and no part of it; move it away, or choose another name");
+}
+
+} // namespace
+
+outputs::outputs(std::span<const run_file> files)
+{
+    std::vector<const run_file*> before;
+    const run_file* standard = nullptr;
+    for (const auto& file : files)
+    {
+        if (file.is_read() && file.given == standard_input)
+        {
+            if (standard)
+                throw usage_error(name_of(*file.option) + " -: standard input is " + name_of(*standard->option) +
+                                  " already; name a file");
+            standard = &file;
+        }
+        if (file.is_read()) continue;
+        standard_output_taken_ |= require_place(file);
+        std::error_code ignored;
+        if (!fs::is_character_file(file.path, ignored)) // a terminal and /dev/null take anything
+            for (const auto* other : before)
+                if (same_file(other->path, file.path))
+                    refuse(file, "is also the file of " + name_of(*other->option) + "; name another one");
+        before.push_back(&file);
+        for (const auto& input : files)
+            if (input.is_read()) require_no_input(file, input);
+        require_own(file);
+    }
 }
 
 const char* outputs::place_of_report() const
@@ -107,7 +170,14 @@ std::string extension(const fs::path& path)
 
 std::string name_of_invalid(const std::string& output)
 {
-    return io::is_stream(output) ? std::string() : output + ".invalid";
+    try
+    {
+        return io::is_stream(output) ? std::string() : output + ".invalid";
+    }
+    catch (const io::io_error&) // a folder
+    {
+        return {};
+    }
 }
 
 void remove_invalid(const std::string& output)

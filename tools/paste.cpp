@@ -32,6 +32,7 @@
 #include "interrupt.hpp"
 #include "open_queue.hpp"
 #include "outputs.hpp"
+#include "paste_check.hpp"
 #include "report_files.hpp"
 #include "run_clock.hpp"
 #include "shared_options.hpp"
@@ -94,7 +95,8 @@ public:
             });
         if (!options_.map.empty() || options_.triangles > 0) map_seconds_ = clock_.timed([&] { draw_map(*q); });
         paste_->unfold(); // what is left of folds is told
-        look();
+        quality_ = require_sound(*paste_);
+        meeting_ = paste_->self_intersections();
         write();
         return exit_code::valid;
     }
@@ -173,17 +175,6 @@ private:
                                                   static_cast<std::uint8_t>(c.z)};
             }
         return encode_png(picture);
-    }
-
-    /// The result is looked at as it is written, not taken from the library's word.
-    void look()
-    {
-        const auto edges_before = measure_seam(target_->surface, 0, 0);
-        quality_ = measure_seam(paste_->surface(), paste_->first_gap(), paste_->first_feature());
-        if (!quality_.manifold || quality_.boundary_edges != edges_before.boundary_edges)
-            throw no_valid_map("the pasted surface is not manifold, or has another boundary than the target; choose "
-                               "another vertex, radius or scale");
-        meeting_ = paste_->self_intersections();
     }
 
     void write()
@@ -309,14 +300,7 @@ private:
         if (const double taken = paste_->pose().softness; taken != options_.pose.softness)
             lines.add("note", "softness " + number(taken, 3) + " instead of " + number(options_.pose.softness, 3) +
                                   ", at which the seam would fold, or which finds no map");
-        if (quality_.folded > 0)
-            lines.add("note", count(static_cast<std::uint64_t>(quality_.folded), "edge", "edges") +
-                                  " of gap and feature where the surface turns back by more than 150 degrees");
-        if (!meeting_.empty())
-            lines.add("note", count(meeting_.size(), "pair of triangles meets", "pairs of triangles meet") +
-                                  ", as of " + std::to_string(meeting_[0][0]) + " and " +
-                                  std::to_string(meeting_[0][1]) +
-                                  ", which did not before: another pose, scale or softness may help");
+        for (const auto& note : notes_of(quality_, meeting_)) lines.add("note", note);
         lines.add("time", duration(clock_.now()) + ": read " + duration(read_seconds_) + ", device " +
                               duration(device_seconds_) + ", paste " + duration(paste_seconds_));
         lines.add_written({options_.output, options_.map, options_.picture, options_.stats});
@@ -337,18 +321,10 @@ private:
     double read_seconds_ = 0, device_seconds_ = 0, paste_seconds_ = 0, map_seconds_ = 0;
 };
 
-exit_code run(const paste_options& options, std::chrono::steady_clock::time_point launch)
+exit_code run(const paste_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
 {
     if (options.region.empty() == (options.at < 0 || !(options.radius > 0)))
         throw usage_error("say what to cut out: --at V --radius R, or --region FILE, and not both");
-    outputs files;
-    files.add("-o", options.output, {".obj"});
-    files.add("--map", options.map, {".exr", ".png"});
-    files.add("--stats", options.stats, {".json"});
-    files.add("--picture", options.picture, {".png"});
-    files.protect("the source", options.source);
-    files.protect("the target", options.target);
-    if (!options.region.empty()) files.protect("the file of triangles", options.region);
     const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
     const run_clock clock(launch);
     limit_time(options.time_limit - clock.now());
@@ -362,19 +338,17 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
     const auto options = std::make_shared<paste_options>();
     auto& app = *program.add_subcommand("paste", "Cut a feature out of one surface and paste it on another");
     const auto positive = number_that([](double x) { return x > 0 && std::isfinite(x); }, "is not positive");
-    app.add_option("--source", options->source, "Surface that has the feature: OBJ, OFF, PLY or STL")
-        ->required()
-        ->type_name("FILE");
+    add_input(app, "--source", options->source, "the source", "Surface that has the feature: OBJ, OFF, PLY or STL")
+        ->required();
     app.add_option("--at", options->at, "Its vertex in the middle of the feature, from 0")
         ->type_name("V")
         ->check(whole_number());
     app.add_option("--radius", options->radius, "How far the feature reaches along the surface, in units of the source")
         ->type_name("R")
         ->check(positive);
-    app.add_option("--region", options->region,
-                   "Instead of these: triangles of the source, from 0, that are the feature")
-        ->type_name("FILE");
-    app.add_option("--target", options->target, "Surface to paste it on")->required()->type_name("FILE");
+    add_input(app, "--region", options->region, "the file of triangles",
+              "Instead of these: triangles of the source, from 0, that are the feature");
+    add_input(app, "--target", options->target, "the target", "Surface to paste it on")->required();
     app.add_option("--onto", options->onto, "Its vertex where the middle of the rim goes, from 0")
         ->required()
         ->type_name("V")
@@ -393,25 +367,25 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
     app.add_option("--reach", options->reach, "Radius of what may bend on the target, by that of the feature")
         ->type_name("1.2..")
         ->check(number_that([](double x) { return x >= 1.2 && std::isfinite(x); }, "is not 1.2 or more"));
-    add_path(app, "-o,--output", options->output, standard_output, "Surface to write; - is standard output")
+    add_output(app, "-o,--output", options->output, {.extensions = {".obj"}}, "Surface to write; - is standard output")
         ->required()
         ->type_name("OUT.obj");
     app.add_option("--triangles", options->triangles, "Make the feature anew from its map, of about so many triangles")
         ->type_name("N")
         ->check(CLI::Range(1, 100'000'000));
-    app.add_option("--map", options->map, "Write the feature's map of positions: .exr floats, .png colours")
-        ->type_name("FILE");
+    add_output(app, "--map", options->map, {.extensions = {".exr", ".png"}},
+               "Write the feature's map of positions: .exr floats, .png colours");
     app.add_option("--texels", options->texels, "Texels along the longer side of the map")
         ->type_name("8..8192")
         ->check(CLI::Range(8, 8192));
-    add_path(app, "--stats", options->stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
-    app.add_option("--picture", options->picture, "Draw source, target and result")->type_name("FILE.png");
+    add_stats(app, options->stats);
+    add_output(app, "--picture", options->picture, {.extensions = {".png"}}, "Draw source, target and result");
     add_time_limit(app, options->time_limit, "Give up after S seconds");
     add_device(app, options->device);
     app.add_flag("-q,--quiet", options->quiet, "No report");
     app.footer("exit codes: 0 written; 2 usage; 3 unreadable input; 4 unsuitable input: no disk, or no place for it;\n"
                "  5 no device; 6 out of time; 9 device failure; 130 interrupted, 143 terminated");
-    return [options, launch] { return run(*options, launch); };
+    return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }
 
 } // namespace taut::tools

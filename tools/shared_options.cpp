@@ -32,39 +32,6 @@ CLI::Validator whole_number()
             ""};
 }
 
-namespace
-{
-
-CLI::Validator dash_for(const char* stream)
-{
-    return {[=](std::string& given)
-            {
-                if (given == "-") given = stream;
-                return std::string();
-            },
-            ""};
-}
-
-} // namespace
-
-CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& path, const char* stream,
-                      const std::string& help)
-{
-    return app.add_option(name, path, help)->transform(dash_for(stream));
-}
-
-CLI::Option* add_path(CLI::App& app, const std::string& name, std::vector<std::string>& paths, const char* stream,
-                      const std::string& help)
-{
-    return app.add_option(name, paths, help)->transform(dash_for(stream));
-}
-
-void require_one_standard_input(const std::string& input, const std::string& pins)
-{
-    if (input == standard_input && pins == standard_input)
-        throw usage_error("--pins -: standard input is IN already; name a file");
-}
-
 void add_format(CLI::App& app, io::surface_format& format)
 {
     add_choice<io::surface_format>(app, "--format", format,
@@ -78,7 +45,7 @@ void add_format(CLI::App& app, io::surface_format& format)
 
 void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const std::string& help)
 {
-    add_path(app, "--picture", picture, standard_output, help + ", coloured by distortion")->type_name("FILE.png|.svg");
+    add_output(app, "--picture", picture, {.extensions = {".png", ".svg"}}, help + ", coloured by distortion");
     app.add_option("--cut", cut,
                    "Show the inside of a volume in the picture: without the elements whose centre is beyond a plane "
                    "across an axis, x, y, z or x:FRACTION of the extent, or nx,ny,nz,d: nx x + ny y + nz z = d")
@@ -94,9 +61,8 @@ void add_fix(CLI::App& app, std::vector<std::string>& groups)
 void add_refine(CLI::App& app, bool& refine, std::string& map, const std::string& help)
 {
     app.add_flag("--refine", refine, help);
-    add_path(app, "--refined-map", map, standard_output,
-             "With --refine: write which element of the input each element is a part of, as element,of")
-        ->type_name("FILE.csv")
+    add_output(app, "--refined-map", map, {.extensions = {".csv"}},
+               "With --refine: write which element of the input each element is a part of, as element,of")
         ->needs("--refine");
 }
 

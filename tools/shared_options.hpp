@@ -8,7 +8,7 @@
 
 #include <taut/io/read_surface.hpp>
 
-#include "outputs.hpp"
+#include "command_line.hpp"
 #include "progress.hpp"
 
 /// Options that several commands have.
@@ -18,15 +18,6 @@ namespace taut::tools
 /// Checks whose messages are sentences; CLI11's own write the range out to the last digit.
 CLI::Validator number_that(bool (*holds)(double), const char* otherwise);
 CLI::Validator whole_number();
-
-/// The name of a file, or of several; - stands for `stream`, standard_input or standard_output.
-CLI::Option* add_path(CLI::App& app, const std::string& name, std::string& path, const char* stream,
-                      const std::string& help);
-CLI::Option* add_path(CLI::App& app, const std::string& name, std::vector<std::string>& paths, const char* stream,
-                      const std::string& help);
-
-/// Throws usage_error if both are standard input.
-void require_one_standard_input(const std::string& input, const std::string& pins);
 
 /// --format of a surface to read
 void add_format(CLI::App& app, io::surface_format& format);

@@ -23,9 +23,9 @@ namespace taut::tools
 namespace
 {
 
-exit_code run(const untangle_options& options, std::chrono::steady_clock::time_point launch)
+exit_code run(const untangle_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
 {
-    const outputs files = check(options);
+    check(options);
     const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
 
     const run_clock clock(launch);
@@ -74,7 +74,7 @@ command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point la
     declare(*program.add_subcommand("untangle",
                                     "Make a map, or a volume, injective while some vertices stay where they are"),
             *options);
-    return [options, launch] { return run(*options, launch); };
+    return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }
 
 } // namespace taut::tools

@@ -29,22 +29,21 @@ void require_problem_options(const untangle_options& o)
 
 void declare(CLI::App& app, untangle_options& o)
 {
-    add_path(
-        app, "PROBLEM", o.input, standard_input,
+    add_input(
+        app, "PROBLEM", o.input, "the input",
         "Problem (rest shape, initial map, cells and fixed vertices, as text), - is standard input; or a volume, or "
         "a mesh of the plane, with inverted elements: .mesh .msh .vtk .vtu .node .su2")
-        ->required()
-        ->type_name("FILE");
-    add_path(
-        app, "-o,--output", o.output, standard_output,
+        ->required();
+    add_output(
+        app, "-o,--output", o.output, {.made_of = "PROBLEM", .may_fail = true},
         "What to write; of a problem the map, a vertex a line, - is standard output; of a volume the same file with "
         "other coordinates. OUT.invalid if it is not injective")
         ->required()
         ->type_name("OUT");
-    app.add_option("--rest", o.rest,
-                   "The volume at rest, the same vertices and cells; without it elements are wanted to be regular")
-        ->type_name("FILE");
-    app.add_option("--pins", o.pins, "Vertices of the volume to hold: vertex,x,y,z, vertices from 0")
+    add_input(app, "--rest", o.rest, "the shape at rest",
+              "The volume at rest, the same vertices and cells; without it elements are wanted to be regular");
+    add_input(app, "--pins", o.pins, "the file of pins",
+              "Vertices of the volume to hold: vertex,x,y,z, vertices from 0")
         ->type_name("FILE.csv");
     add_fix(app, o.fixed);
     add_choice(app, "--boundary", o.boundary,
@@ -57,7 +56,7 @@ void declare(CLI::App& app, untangle_options& o)
                "what is written has more vertices then, the given ones first. OUT of a problem is a problem, too");
     add_time_limit(app, o.time_limit, "Give up after S seconds");
     add_device(app, o.device);
-    add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    add_stats(app, o.stats);
     add_drawing(app, o.picture, o.cut, "Draw the map before and after, with its pins");
     add_progress(app, o.progress, o.quiet);
     app.footer("exit codes: 0 injective map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
@@ -65,21 +64,11 @@ void declare(CLI::App& app, untangle_options& o)
                "143 terminated");
 }
 
-outputs check(const untangle_options& o)
+void check(const untangle_options& o)
 {
     const bool volume = names_volume(o.input);
     if (!volume) require_problem_options(o);
-    outputs files;
     if (volume) require_file(o.output);
-    files.add("-o", o.output, {});
-    files.add("-o (not valid)", name_of_invalid(o.output), {});
-    files.add("--stats", o.stats, {".json"});
-    files.add("--picture", o.picture, {".png", ".svg"});
-    files.add("--refined-map", o.refined_map, {".csv"});
-    files.protect("the input", o.input);
-    if (!o.pins.empty()) files.protect("the file of pins", o.pins);
-    if (!o.rest.empty()) files.protect("the shape at rest", o.rest);
-    return files;
 }
 
 } // namespace taut::tools

@@ -7,8 +7,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "outputs.hpp"
-
 namespace taut::tools
 {
 
@@ -35,7 +33,7 @@ struct untangle_options
 /// Declares the options; they are filled when the program's arguments are parsed.
 void declare(CLI::App& app, untangle_options& options);
 
-/// Throws usage_error for options that do not fit together and for outputs that could not be written.
-outputs check(const untangle_options& options);
+/// Throws usage_error for options that do not fit together.
+void check(const untangle_options& options);
 
 } // namespace taut::tools

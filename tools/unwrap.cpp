@@ -54,15 +54,17 @@ queue open_queue(const unwrap_options& options, std::vector<std::string>& notes)
 class unwrap_run
 {
 public:
-    unwrap_run(const unwrap_options& options, std::chrono::steady_clock::time_point launch)
-        : options_(options), clock_(launch), progress_(progress_of(options.progress, options.quiet), std::cerr)
+    unwrap_run(const unwrap_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
+        : options_(options),
+          clock_(launch),
+          progress_(progress_of(options.progress, options.quiet), std::cerr),
+          place_of_report_(options.quiet ? nullptr : files.place_of_report())
     {
     }
 
     exit_code operator()()
     {
-        const auto outputs = check(options_);
-        if (!options_.quiet) place_of_report_ = outputs.place_of_report();
+        check(options_);
         limit_time(options_.time_limit - clock_.now());
         tell("read");
         report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
@@ -274,7 +276,7 @@ private:
     constraints<triangle> pins_;
     std::vector<vec2> uv_;
     unwrap_report report_;
-    const char* place_of_report_ = nullptr; ///< null: there is none
+    const char* place_of_report_; ///< null: there is none
 };
 
 } // namespace
@@ -283,7 +285,7 @@ command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point laun
 {
     const auto options = std::make_shared<unwrap_options>();
     declare(*program.add_subcommand("unwrap", "Flatten a surface with little distortion and without folds"), *options);
-    return [options, launch] { return unwrap_run(*options, launch)(); };
+    return [options, launch](const outputs& files) { return unwrap_run(*options, files, launch)(); };
 }
 
 } // namespace taut::tools

@@ -51,9 +51,9 @@ void declare_map(CLI::App& app, unwrap_options& o)
         {{"upright", placement::upright}, {"unit-square", placement::unit_square}, {"as-solved", placement::as_solved}},
         "Where a map that nothing holds comes to lie: y up or x to the right, the lower left corner at 0,0; the same "
         "scaled into the unit square; anywhere");
-    add_path(app, "--pins", o.pins, standard_input,
-             "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
-             "file; without a weight exactly, with one as a spring; an empty u or v is free")
+    add_input(app, "--pins", o.pins, "the pins",
+              "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
+              "file; without a weight exactly, with one as a spring; an empty u or v is free")
         ->type_name("FILE.csv");
     app.add_flag("--cut", o.cut,
                  "Cut a surface that is no disk open along short seams: closed ones, handles, between boundaries");
@@ -94,10 +94,10 @@ void declare_solver(CLI::App& app, unwrap_options& o)
 
 void declare_reports(CLI::App& app, unwrap_options& o)
 {
-    add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
-    add_path(app, "--picture", o.picture, standard_output, "Draw the flat map, coloured by distortion")
-        ->type_name("FILE.png|.svg");
-    add_path(app, "--render", o.render, standard_output, "Draw the surface with a checkerboard")->type_name("FILE.png");
+    add_stats(app, o.stats);
+    add_output(app, "--picture", o.picture, {.extensions = {".png", ".svg"}},
+               "Draw the flat map, coloured by distortion");
+    add_output(app, "--render", o.render, {.extensions = {".png"}}, "Draw the surface with a checkerboard");
     const std::initializer_list<choice<std::optional<vec3>>> axes = {
         {"auto", {}},           {"+x", vec3(1, 0, 0)}, {"-x", vec3(-1, 0, 0)}, {"+y", vec3(0, 1, 0)},
         {"-y", vec3(0, -1, 0)}, {"+z", vec3(0, 0, 1)}, {"-z", vec3(0, 0, -1)}};
@@ -110,12 +110,12 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 
 void declare(CLI::App& app, unwrap_options& o)
 {
-    add_path(app, "IN", o.input, standard_input,
-             "Surface: OBJ, OFF, PLY or STL; - is standard input; cut open along the seams of its vt if it is no disk")
-        ->required()
-        ->type_name("FILE");
-    add_path(app, "-o,--output", o.output, standard_output,
-             "OBJ to write: the file as it is, with new vt; - is standard output, here and below")
+    add_input(app, "IN", o.input, "the input",
+              "Surface: OBJ, OFF, PLY or STL; - is standard input; cut open along the seams of its vt if it is no disk")
+        ->required();
+    add_output(app, "-o,--output", o.output,
+               {.extensions = {".obj"}, .made_of = "IN", .in_place = true, .may_fail = true},
+               "OBJ to write: the file as it is, with new vt; - is standard output, here and below")
         ->required()
         ->type_name("OUT.obj");
     add_format(app, o.format);
@@ -124,7 +124,7 @@ void declare(CLI::App& app, unwrap_options& o)
     declare_reports(app, o);
 }
 
-outputs check(const unwrap_options& o)
+void check(const unwrap_options& o)
 {
     if (o.start == start_kind::uv && o.boundary != boundary_kind::free)
         throw usage_error("--boundary circle and square lay the boundary anew, which --start uv does not; "
@@ -142,16 +142,6 @@ outputs check(const unwrap_options& o)
         throw usage_error("--up and --front turn the picture of --render; name one");
     if (o.tolerance && !(*o.tolerance < 1)) throw usage_error("--tolerance: must be below 1");
     if (!(o.time_limit > 0)) throw usage_error("--time-limit: must be positive");
-    outputs files;
-    files.add("--stats", o.stats, {".json"});
-    files.add("--picture", o.picture, {".png", ".svg"});
-    files.add("--render", o.render, {".png"});
-    files.add("-o", o.output, {".obj"});
-    files.add("-o (not valid)", name_of_invalid(o.output), {});
-    files.protect("the input", o.input, "-o"); // which is replaced as a whole, at the end
-    if (!o.pins.empty()) files.protect("the pins", o.pins);
-    require_one_standard_input(o.input, o.pins);
-    return files;
 }
 
 parameterize_params to_params(const unwrap_options& o)

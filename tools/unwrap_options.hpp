@@ -10,8 +10,6 @@
 #include <taut/io/read_surface.hpp>
 #include <taut/map/parameterize_params.hpp>
 
-#include "outputs.hpp"
-
 namespace taut::tools
 {
 
@@ -73,8 +71,8 @@ struct unwrap_options
 /// Declares the options; they are filled when the program's arguments are parsed.
 void declare(CLI::App& app, unwrap_options& options);
 
-/// Throws usage_error for options that do not fit together and for outputs that could not be written.
-outputs check(const unwrap_options& options);
+/// Throws usage_error for options that do not fit together.
+void check(const unwrap_options& options);
 
 /// What the library is to do, all but the start's coordinates and the observer.
 parameterize_params to_params(const unwrap_options& options);

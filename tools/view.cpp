@@ -7,19 +7,16 @@
 #include <string>
 #include <utility>
 
-#include <spawn.h>
-
 #include "commands.hpp"
 #include "failure.hpp"
 #include "interrupt.hpp"
 #include "open_queue.hpp"
 #include "shared_options.hpp"
+#include "view/browser.hpp"
 #include "view/page_files.hpp"
 #include "view/server.hpp"
 #include "view/subjects.hpp"
 #include "view/workbench.hpp"
-
-extern char** environ;
 
 namespace taut::tools
 {
@@ -36,13 +33,17 @@ struct view_options
     bool no_browser = false;
 };
 
-void open_browser(const std::string& url)
+/// Where that fails, there is the address that was printed.
+void open_browser(std::optional<view::browser>& browser, const std::string& url)
 {
-    std::string program = "xdg-open", address = url;
-    char* arguments[] = {program.data(), address.data(), nullptr};
-    pid_t child = 0;
-    posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments,
-                 environ); // where there is none, there is the URL
+    try
+    {
+        browser.emplace(url);
+    }
+    catch (const std::exception& e)
+    {
+        std::cerr << "taut: note: the browser is not opened: " << e.what() << '\n';
+    }
 }
 
 exit_code serve(const view_options& options)
@@ -66,8 +67,14 @@ exit_code serve(const view_options& options)
                           std::chrono::duration<double>(options.frame / 1000));
     std::cout << server->url() << std::endl;
     keep(true); // Ctrl-C ends it as it should be ended
-    if (!options.no_browser) open_browser(server->url());
-    server->run([&](view::message m) { return bench.wish(std::move(m)); }, [] { return !interrupted(); });
+    std::optional<view::browser> browser;
+    if (!options.no_browser) open_browser(browser, server->url());
+    server->run([&](view::message m) { return bench.wish(std::move(m)); },
+                [&]
+                {
+                    if (browser) browser->look();
+                    return !interrupted();
+                });
     return exit_code::valid;
 }
 
@@ -78,16 +85,13 @@ command add_view(CLI::App& program)
     const auto options = std::make_shared<view_options>();
     auto& app =
         *program.add_subcommand("view", "Work on a map or shape with a mouse, on a page that only this machine sees");
-    add_path(app, "IN", options->from.path, standard_input, "Surface, volume or planar mesh")
-        ->required()
-        ->type_name("FILE");
+    add_input(app, "IN", options->from.path, "the input", "Surface, volume or planar mesh")->required();
     add_format(app, options->from.format);
-    add_path(app, "--pins", options->from.pins, standard_input, "First pins and springs, as for unwrap and deform")
+    add_input(app, "--pins", options->from.pins, "the pins", "First pins and springs, as for unwrap and deform")
         ->type_name("FILE.csv");
     auto& feature = options->from.feature;
-    auto* source =
-        app.add_option("--source", feature.source, "Surface whose feature is pasted on IN, as by `taut paste`")
-            ->type_name("FILE");
+    auto* source = add_input(app, "--source", feature.source, "the source",
+                             "Surface whose feature is pasted on IN, as by `taut paste`");
     app.add_option("--at", feature.at, "Its vertex in the middle of the feature, from 0")
         ->type_name("V")
         ->needs(source);
@@ -114,7 +118,7 @@ command add_view(CLI::App& program)
     add_device(app, options->device);
     app.footer("exit codes: 0 ended by its page or Ctrl-C; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no "
                "device;\n  6 no map to begin with; 9 device failure; 130 interrupted, 143 terminated");
-    return [options] { return serve(*options); };
+    return [options](const outputs&) { return serve(*options); };
 }
 
 } // namespace taut::tools

@@ -4,6 +4,7 @@ import hashlib
 import json
 import math
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -300,10 +301,131 @@ def parallel():
     assert set(results("task 2.jsonl")) == set(results("2.jsonl"))
 
 
+def foreign():
+    """A file of results is appended to, and never shortened but by a result that was not finished; others stay as they are."""
+    sheet("a.obj", 2)
+    jobs = [{"id": "a", "args": ["check", "a.obj"]}]
+    manifest(jobs)
+    batch()
+    with open("results.jsonl", "rb") as f:
+        whole = f.read()
+    other = whole.replace(b'"a"', b'"b"', 1)
+    for text in (b"precious note", b"precious note\n", b"1\n2\n", b"{", b'{"a": 1}', b'{"a": 1}\n', b"[]\n" + whole, b'"id"', b"\x00\x01\x02",
+                 b'{"id": "a", "args": ["check", "a.obj"]}\n', b"note\n" + whole, whole + b"note", whole + b"{} {}", whole + b'{"ids'):
+        with open("kept.txt", "wb") as f:
+            f.write(text)
+        for options in ((), ("--resume",)):
+            said = batch(*options, out="kept.txt", code=2)
+            assert "kept.txt" in said and "another file" in said, (text, said)
+            with open("kept.txt", "rb") as f:
+                assert f.read() == text
+    for text, left, done in ((b"", b"", 1), (b"\n\n", b"\n\n", 1), (whole[:-1], whole, 0), (whole, whole, 0), (other + whole[:-1], other + whole, 0),
+                             (other[:-1], other, 1), (other + b"{", other, 1), (other + whole[:-9], other, 1), (whole[:30], b"", 1),
+                             (other + b"note\n" + whole[:50], other + b"note\n", 1), (other + b'{"note": 1}', other + b'{"note": 1}\n', 1)):
+        with open("results.jsonl", "wb") as f:
+            f.write(text)
+        assert f"{done} done" in batch("--resume")
+        with open("results.jsonl", "rb") as f:
+            now = f.read()
+        assert now.startswith(left) and now[len(left):].count(b"\n") == done, (text, now)
+    manifest([])
+    with open("notes", "w") as f:
+        f.write("precious note")
+    batch(out="notes", code=2)
+
+
+def descriptors():
+    """Where few files may be open, fewer jobs are at work, and none is lost."""
+    sheet("a.obj", 2)
+    manifest([{"id": str(k), "args": ["check", "a.obj"]} for k in range(24)])
+    limited = lambda n: dict(preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (n, n)), capture_output=True, text=True, timeout=300)
+    run = subprocess.run(command("--jobs", "20"), **limited(40))
+    assert run.returncode == 0 and "--jobs 20" in run.stderr and "ulimit -n" in run.stderr, run
+    assert {one["code"] for one in results().values()} == {0} and len(results()) == 24
+    assert all(one["inputs"]["a.obj"] for one in results().values())
+    os.remove("results.jsonl")
+    run = subprocess.run(command(), **limited(20))
+    assert run.returncode == 0 and len(results()) == 24, run
+    run = subprocess.run(command("--jobs", "20"), **limited(14))
+    assert run.returncode == 2 and "ulimit -n" in run.stderr and len(results()) == 24, run
+
+    # What the batch has open is no business of its jobs.
+    os.mkfifo("wait.obj")
+    manifest([{"id": "wait", "args": ["check", "wait.obj"]}])
+    with open("a.obj") as extra:
+        run = subprocess.Popen(command(), stdout=subprocess.DEVNULL, pass_fds=[extra.fileno()])
+        job = until(lambda: [c for c in children(run.pid) if b"wait.obj" in open(f"/proc/{c}/cmdline", "rb").read()])[0]
+        until(lambda: set(os.listdir(f"/proc/{job}/fd")) == {"0", "1", "2"})
+        run.terminate()
+        assert run.wait(timeout=60) == 143
+
+
+def private_caches():
+    """Compiled kernels are code: they come from a folder that is the user's alone."""
+    sheet("a.obj", 2)
+    manifest([{"id": "a", "args": ["check", "a.obj"]}])
+
+    def at(folder, code=0):
+        run = subprocess.run([taut, "batch", "--manifest", "jobs.jsonl", "--cache", folder], capture_output=True, text=True, timeout=300)
+        assert run.returncode == code and (code == 0 or folder in run.stderr and "another folder" in run.stderr), (run.returncode, run.stderr)
+
+    mask = os.umask(0)
+    at("new/below")
+    os.umask(mask)
+    for made in ("new", "new/below", "new/below/0"):
+        assert os.stat(made).st_mode & 0o777 == 0o700, made
+    assert os.stat("new/below/0.lock").st_mode & 0o777 == 0o600
+    os.symlink("new/below", "link")
+    at("link", 2)
+    at("link/", 2)
+    at("link/.", 2)
+    for mode in (0o777, 0o1777, 0o770, 0o720, 0o702):
+        os.chmod("new/below", mode)
+        at("new/below", 2)
+        os.chmod("new/below", 0o700)
+        os.chmod("new/below/0", mode)
+        at("new/below", 2)
+        os.chmod("new/below/0", 0o700)
+    at("a.obj", 2)
+    at("new/below")
+    os.remove("new/below/0.lock")
+    os.symlink("../../precious", "new/below/0.lock")
+    at("new/below", 2)
+    assert not os.path.exists("precious")
+    os.remove("new/below/0.lock")
+    if os.geteuid() == 0:  # who else gives folders away
+        os.chown("new/below", 65534, 65534)
+        at("new/below", 2)
+        os.chown("new/below", 0, 0)
+        os.chown("new/below/0", 65534, 65534)
+        at("new/below", 2)
+        os.chown("new/below/0", 0, 0)
+        os.chown("new", 65534, 65534)
+        at("new/below", 2)
+    # Jobs at work are finished before the batch gives up.
+    os.makedirs("two/1")
+    os.chmod("two", 0o700)
+    os.chmod("two/1", 0o777)
+    os.mkfifo("slow.obj")
+    manifest([{"id": "slow", "args": ["check", "slow.obj"]}, {"id": "a", "args": ["check", "a.obj"]}, {"id": "b", "args": ["check", "a.obj"]}])
+    run = subprocess.Popen([taut, "batch", "--manifest", "jobs.jsonl", "--out", "two.jsonl", "--jobs", "2", "--cache", "two"], stderr=subprocess.PIPE, text=True)
+    until(lambda: [c for c in children(run.pid) if b"slow.obj" in open(f"/proc/{c}/cmdline", "rb").read()])
+    with open("slow.obj", "w") as f, open("a.obj") as mesh:
+        f.write(mesh.read())
+    said = run.communicate(timeout=60)[1]
+    assert run.returncode == 2 and "two/1" in said and set(results("two.jsonl")) == {"slow"}, (run.returncode, said)
+
+    # PoCL's own, of a command.
+    os.makedirs("pocl", mode=0o777)
+    os.chmod("pocl", 0o777)
+    run = subprocess.run([taut, "unwrap", "a.obj", "-o", "flat.obj"], capture_output=True, text=True, timeout=300, env=os.environ | {"POCL_CACHE_DIR": "pocl"})
+    assert run.returncode == 2 and "POCL_CACHE_DIR" in run.stderr or "pthread" not in subprocess.run([taut, "devices"], capture_output=True, text=True).stdout, run
+
+
 case, taut, folder = sys.argv[1], os.path.abspath(sys.argv[2]), sys.argv[3]
 caches = os.path.abspath(f"{folder}/../caches")
 shutil.rmtree(folder, ignore_errors=True)
 os.makedirs(folder)
 os.chdir(folder)
-{f.__name__: f for f in (answers, malformed, poison, resume, shards, workers, parallel)}[case]()
+{f.__name__: f for f in (answers, malformed, poison, resume, shards, workers, parallel, foreign, descriptors, private_caches)}[case]()
 print(f"batch: {case}: all as it should be")

@@ -10,8 +10,10 @@ import subprocess
 class Program:
     """`taut view FILE` at work. Use as a context; port and token are those of the address that it prints."""
 
-    def __init__(self, program, file, *options):
-        self.process = subprocess.Popen([program, "view", file, "--no-browser", *options], stdout=subprocess.PIPE, text=True)
+    def __init__(self, program, file, *options, browser=None):
+        """browser: environment in which the program opens one"""
+        quiet = ["--no-browser"] if browser is None else []
+        self.process = subprocess.Popen([program, "view", file, *quiet, *options], stdout=subprocess.PIPE, text=True, env=browser)
         self.url = self.process.stdout.readline().strip()
         assert self.url.startswith("http://127.0.0.1:"), self.url
         address, self.token = self.url.split("/#")

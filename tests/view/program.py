@@ -2,6 +2,8 @@
 """program.py TAUT FOLDER: `taut view` as a page and as a stranger meets it."""
 import math
 import os
+import signal
+import socket
 import struct
 import sys
 import time
@@ -229,15 +231,84 @@ def strangers(path):
         time.sleep(0.5)
         assert p.request()[0] == 200 and p.process.poll() is None
 
-        # At rest it costs no time.
+        # At rest nothing is done: the next state is that of the next wish.
         s = p.socket()
         while not (state := s.message("state"))["writer"] or state["working"]:
             pass
-        spent = lambda: sum(map(int, open(f"/proc/{p.process.pid}/stat").read().rsplit(")", 1)[1].split()[11:13]))
-        time.sleep(1)
-        begin = spent()
-        time.sleep(3)
-        assert spent() - begin <= 6, "an idle page must cost nothing"  # ticks of 10 ms
+        for _ in range(50):
+            assert p.request()[0] == 200
+        s.send(redo())  # there is nothing to redo
+        assert s.message("state")["number"] == state["number"] + 1
+
+
+def idle(path):
+    """Other users of the machine reach the port. Who has the address is served all the same."""
+    with Program(program, path) as p:
+        s = p.socket()
+        s.message("state")
+        idlers = []
+        for k in range(200):
+            idlers.append(socket.create_connection(("127.0.0.1", p.port), timeout=20))
+            idlers[-1].sendall(b"GET / HTTP/1.1\r\n" if k % 2 else b"")
+        assert p.request()[0] == 200 and p.request("/page.js")[0] == 200
+        other = p.socket()
+        assert not isinstance(other, int) and other.message("model")
+        s.send(redo())
+        assert s.message("state")
+        # The oldest had to go, the latest is waited for.
+        try:
+            assert idlers[0].recv(1) == b""
+        except ConnectionError:
+            pass
+        idlers.append(socket.create_connection(("127.0.0.1", p.port), timeout=20))
+        idlers[-1].sendall(b"GET / HTTP/1.1\r\n")
+        assert p.request()[0] == 200
+        idlers[-1].sendall(f"Host: 127.0.0.1:{p.port}\r\n\r\n".encode())
+        assert idlers[-1].recv(12) == b"HTTP/1.1 200"
+        # With the token there are many pages, but not without end.
+        pages = [p.socket() for _ in range(14)]
+        assert not any(isinstance(page, int) for page in pages) and p.socket() == 503
+        pages.pop().close()
+        until(lambda: not isinstance(p.socket(), int))
+
+
+def until(holds, seconds=60):
+    end = time.monotonic() + seconds
+    while not (value := holds()):
+        assert time.monotonic() < end, "still not so"
+        time.sleep(0.01)
+    return value
+
+
+def opened(path):
+    """The browser gets the name of a file, which this user alone can read, and nothing else of the program."""
+    scripts = tempfile.mkdtemp(dir=folder)
+    told = f"{scripts}/told"
+    with open(f"{scripts}/xdg-open", "w") as f:
+        f.write(f"""#!/bin/sh
+{{ printf '%s\\n' "$#" "$1"; stat -c %a "$1" "$(dirname "$1")"; ls -l "/proc/$$/fd" | grep -c 'socket:'; grep SigBlk /proc/$$/status; cat "$1"; }} >{told}.new 2>&1
+mv {told}.new {told}
+""")
+    os.chmod(f"{scripts}/xdg-open", 0o755)
+    with Program(program, path, browser=os.environ | {"PATH": f"{scripts}:{os.environ['PATH']}"}) as p:
+        until(lambda: os.path.exists(told))
+        with open(told) as f:
+            count, file, mode, folder_mode, files, blocked, *content = f.read().split("\n")
+        assert count == "1" and p.token not in file and (mode, folder_mode) == ("600", "700"), (count, file, mode, folder_mode)
+        assert files == "0", f"{files} sockets of the program"
+        assert int(blocked.split()[1], 16) == 0, blocked
+        assert p.url in "\n".join(content)
+        for process in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{process}/cmdline", "rb") as f:
+                    assert p.token.encode() not in f.read(), process
+            except OSError:
+                pass  # it is over
+        # Who has ended is waited for.
+        until(lambda: not open(f"/proc/{p.process.pid}/task/{p.process.pid}/children").read().split())
+        assert os.path.exists(file) and not isinstance(p.socket(), int)
+        p.process.send_signal(signal.SIGINT)
+        assert p.process.wait(timeout=60) in (0, 130) and not os.path.exists(os.path.dirname(file))
 
 
 def volume(path):
@@ -314,6 +385,25 @@ def pasting(path, n):
         assert "no pins" in s.message("note")["text"]
 
 
+def no_surface(path, n):
+    """A result that `taut paste` does not write is not saved or kept either, and the page is told why."""
+    pinched = path.replace("dome.obj", "pinched.obj")  # a triangle touches the surface at a vertex, far from the feature
+    last = (n + 1) ** 2
+    with open(path) as f, open(pinched, "w") as out:
+        out.write(f.read() + f"v 0 0 1\nv 0 -1 1\nf {n + 6} {last + 1} {last + 2}\n")
+    onto = (n // 2) * (n + 1) + n // 2
+    with Program(program, pinched, "--source", path, "--at", str(onto), "--radius", "0.3", "--onto", str(onto), "--scale", "0.5") as p:
+        s = p.socket()
+        state = s.message("state")
+        for wish in (save(), keep(2)):
+            s.send(wish)
+            text = s.message("note")["text"]
+            assert "not manifold" in text and "fan" in text, text
+        s.send(redo())
+        after = s.message("state")
+        assert after["positions"] == state["positions"] and not after["can_undo"]
+
+
 def in_the_way(path, n):
     """Two pins that exchange their places cannot: the page comes to rest all the same, and soon."""
     with Program(program, path) as p:
@@ -337,7 +427,10 @@ if __name__ == "__main__":
     a_page(f"{folder}/dome.obj", n)
     in_the_way(f"{folder}/dome.obj", n)
     strangers(f"{folder}/dome.obj")
+    idle(f"{folder}/dome.obj")
+    opened(f"{folder}/dome.obj")
     volume(f"{folder}/bar.mesh")
     pasting(f"{folder}/dome.obj", n)
+    no_surface(f"{folder}/dome.obj", n)
     shell(f"{folder}/dome.obj", n)
     print("view: all as it should be")

@@ -37,13 +37,11 @@ void declare_charts(CLI::App& app, atlas_options& o)
     app.add_flag("--keep-seams", o.keep_seams, "The seams of the file's vt and its materials are seams of charts, too");
     app.add_flag("--symmetric", o.symmetric,
                  "Charts are mirror images of each other, in a plane that is found; no chart leads across it");
-    app.add_option("--seams", o.seams, "Edges that are seams of charts, a line each: two vertices, from 0")
-        ->type_name("FILE");
-    app.add_option(
-           "--pin", o.pinned,
-           "Faces, from 0: the charts of the file's vt that have one of them stay as and where they are, others "
-           "are laid around them")
-        ->type_name("FILE");
+    add_input(app, "--seams", o.seams, "the file of seams",
+              "Edges that are seams of charts, a line each: two vertices, from 0");
+    add_input(app, "--pin", o.pinned, "the file of pinned faces",
+              "Faces, from 0: the charts of the file's vt that have one of them stay as and where they are, others "
+              "are laid around them");
 }
 
 void declare_packing(CLI::App& app, atlas_options& o)
@@ -67,12 +65,11 @@ void declare_reports(CLI::App& app, atlas_options& o)
 {
     add_time_limit(app, o.time_limit, "Stop after S seconds, with charts as they are (exit code 8)");
     add_device(app, o.device);
-    add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
-    add_path(app, "--picture", o.picture, standard_output, "Draw the atlas, coloured by distortion")
-        ->type_name("FILE.png|.svg");
-    add_path(app, "--render", o.render, standard_output, "Draw the surface with a checkerboard")->type_name("FILE.png");
-    app.add_option("--report", o.report, "Write a page with model and atlas side by side, for a browser")
-        ->type_name("FILE.html");
+    add_stats(app, o.stats);
+    add_output(app, "--picture", o.picture, {.extensions = {".png", ".svg"}}, "Draw the atlas, coloured by distortion");
+    add_output(app, "--render", o.render, {.extensions = {".png"}}, "Draw the surface with a checkerboard");
+    add_output(app, "--report", o.report, {.extensions = {".html"}},
+               "Write a page with model and atlas side by side, for a browser");
     add_progress(app, o.progress, o.quiet);
 }
 
@@ -80,13 +77,14 @@ void declare_reports(CLI::App& app, atlas_options& o)
 
 void declare(CLI::App& app, atlas_options& o)
 {
-    add_path(app, "IN", o.inputs, standard_input,
-             "Surfaces that share the atlas: OBJ, OFF, PLY, STL, glTF; - is standard input")
+    add_input(app, "IN", o.inputs, "the input",
+              "Surfaces that share the atlas: OBJ, OFF, PLY, STL, glTF; - is standard input")
         ->required()
         ->type_name("FILE...");
-    add_path(app, "-o,--output", o.outputs, standard_output,
-             "What to write, once for each surface: the file as it is, with new vt; one for several: an OBJ of all of "
-             "them as triangles, an object each; - is standard output")
+    add_output(
+        app, "-o,--output", o.outputs, {.extensions = {".obj", ".glb", ".gltf"}, .made_of = "IN", .in_place = true},
+        "What to write, once for each surface: the file as it is, with new vt; one for several: an OBJ of all of "
+        "them as triangles, an object each; - is standard output")
         ->required()
         ->allow_extra_args(false)
         ->type_name("OUT.obj|.glb");
@@ -103,7 +101,7 @@ void declare(CLI::App& app, atlas_options& o)
         "  5 no device; 6 no valid atlas; 8 time limit, written; 9 device failure; 130 interrupted, 143 terminated");
 }
 
-outputs check(const atlas_options& o)
+void check(const atlas_options& o)
 {
     if (o.outputs.size() != 1 && o.inputs.size() != o.outputs.size())
         throw usage_error(std::to_string(o.inputs.size()) + " surfaces and " + std::to_string(o.outputs.size()) +
@@ -113,8 +111,6 @@ outputs check(const atlas_options& o)
         throw usage_error("--seams names vertices of one surface; map the surfaces one at a time, or use --keep-seams");
     if (o.inputs.size() > 1 && !o.pinned.empty())
         throw usage_error("--pin names faces of one surface; map the surfaces one at a time");
-    if (std::count(o.inputs.begin(), o.inputs.end(), standard_input) > 1)
-        throw usage_error("-: standard input is one surface; name the others");
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
     if (o.texcoord_set > 0 && !gltf && std::none_of(o.outputs.begin(), o.outputs.end(), io::is_gltf))
         throw usage_error("--texcoord-set is of glTF; leave it out");
@@ -130,26 +126,15 @@ outputs check(const atlas_options& o)
     if (2 * o.padding >= o.resolution)
         throw usage_error("--padding " + number(o.padding, 6) + ": must be less than half of --resolution, " +
                           std::to_string(o.resolution));
-    outputs files;
     const bool joined = o.outputs.size() < o.inputs.size();
     if (joined && io::is_gltf(o.outputs[0]))
         throw usage_error("-o " + o.outputs[0] +
                           ": several surfaces become one file as .obj; for glTF give -o once "
                           "for each surface");
-    for (const auto& path : o.outputs)
-        files.add("-o", path,
-                  joined ? std::vector<std::string>{".obj"} : std::vector<std::string>{".obj", ".glb", ".gltf"});
     if (!joined)
         for (std::size_t i = 0; i < o.inputs.size(); ++i)
             if (io::is_gltf(o.inputs[i]) && !io::is_gltf(o.outputs[i]))
                 throw usage_error("-o " + o.outputs[i] + ": a model of glTF is written as .glb or .gltf");
-    files.add("--stats", o.stats, {".json"});
-    files.add("--picture", o.picture, {".png", ".svg"});
-    files.add("--render", o.render, {".png"});
-    files.add("--report", o.report, {".html"});
-    if (!o.seams.empty()) files.protect("the file of seams", o.seams);
-    if (!o.pinned.empty()) files.protect("the file of pinned faces", o.pinned);
-    return files;
 }
 
 std::string command_line(const atlas_options& o)

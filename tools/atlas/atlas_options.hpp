@@ -11,7 +11,6 @@
 #include <taut/atlas/atlas_params.hpp>
 #include <taut/io/read_surface.hpp>
 
-#include "../outputs.hpp"
 #include "atlas_source.hpp"
 
 namespace taut::tools
@@ -33,8 +32,8 @@ struct atlas_options
 /// Declares the options; they are filled when the program's arguments are parsed.
 void declare(CLI::App& app, atlas_options& options);
 
-/// Throws usage_error for options that do not fit together and for outputs that could not be written.
-outputs check(const atlas_options& options);
+/// Throws usage_error for options that do not fit together.
+void check(const atlas_options& options);
 
 /// What to type to have the same again.
 std::string command_line(const atlas_options& options);

@@ -5,20 +5,25 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <exception>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <poll.h>
 #include <sched.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "../exit_codes.hpp"
+#include "../failure.hpp"
 #include "../interrupt.hpp"
 #include "../outputs.hpp"
 #include "job_files.hpp"
@@ -80,6 +85,21 @@ std::optional<nlohmann::ordered_json> parsed(std::istream&& in)
     return json.is_discarded() ? std::nullopt : std::optional(std::move(json));
 }
 
+/// Files that a job at work keeps open here: two pipes, its end, the lock of its cache.
+constexpr std::size_t files_of_job = 4;
+/// And those that are open for a moment while one is started, looked at and written down.
+constexpr std::size_t files_of_batch = 10;
+
+std::size_t open_files()
+{
+    std::error_code failure;
+    std::size_t count = 0;
+    for (std::filesystem::directory_iterator all("/proc/self/fd", failure), end; !failure && all != end;
+         all.increment(failure))
+        ++count;
+    return count;
+}
+
 /// A job at work.
 class running_job
 {
@@ -139,44 +159,58 @@ public:
 
     tally operator()()
     {
-        while (next_ < jobs_.size() || count_.running > 0)
+        while (may_start() || count_.running > 0)
         {
             if (interrupted()) stop();
             fill();
             wait();
             look();
             tell_(count_);
-            if (interrupted() && count_.running == 0) break;
         }
+        if (failure_) std::rethrow_exception(failure_);
         return count_;
     }
 
 private:
     static constexpr int pause = 20; ///< milliseconds between two looks at what jobs use
 
+    bool may_start() const { return next_ < jobs_.size() && !interrupted() && !failure_; }
+
     /// Gives work to those who have none.
     void fill()
     {
         for (auto& w : workers_)
-            if (!w.at_work) start(w);
-        while (workers_.size() < options_.at_once && next_ < jobs_.size() && !interrupted())
-            start(workers_.emplace_back());
+            if (!w.at_work && count_.running < at_once_) start(w);
+        while (workers_.size() < at_once_ && may_start()) start(workers_.emplace_back());
     }
 
     void start(worker& w)
     {
-        while (next_ < jobs_.size() && !interrupted())
+        while (may_start())
         {
             const job& j = jobs_[next_++];
             auto files = arguments_.files(j.args);
             if (skipped(j, files)) continue;
-            if (!w.cache)
+            try
             {
-                w.cache = std::make_unique<kernel_cache>(options_.caches);
-                w.environment = environment_of(*w.cache, std::max<std::size_t>(1, processors() / options_.at_once));
+                if (!w.cache)
+                {
+                    w.cache = std::make_unique<kernel_cache>(options_.caches);
+                    w.environment = environment_of(*w.cache, std::max<std::size_t>(1, processors() / options_.at_once));
+                }
+                w.at_work = std::make_unique<running_job>(j, std::move(files), w.environment, options_.bounds);
+                ++count_.running;
             }
-            w.at_work = std::make_unique<running_job>(j, std::move(files), w.environment, options_.bounds);
-            ++count_.running;
+            catch (const std::system_error& e) // the system has no room for one more; when one ends, it has
+            {
+                if (count_.running == 0) throw usage_error(std::string("no job can be started: ") + e.what());
+                at_once_ = count_.running;
+                --next_;
+            }
+            catch (const error&) // once those at work have ended
+            {
+                failure_ = std::current_exception();
+            }
             return;
         }
     }
@@ -238,14 +272,28 @@ private:
     result_file& results_;
     const run_options& options_;
     const std::function<void(const tally&)>& tell_;
-    std::map<std::string, result> before_;
+    std::map<std::string, earlier_result> before_;
     argument_reader arguments_;
     std::vector<worker> workers_;
+    std::size_t at_once_ = options_.at_once;
+    std::exception_ptr failure_; ///< why no more jobs are started
     std::size_t next_ = 0;
     tally count_;
 };
 
 } // namespace
+
+std::size_t most_jobs_at_once(std::size_t wanted)
+{
+    const std::size_t needed = open_files() + files_of_batch + files_of_job * wanted;
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= needed) return wanted;
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, needed);
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+    ::getrlimit(RLIMIT_NOFILE, &limit);
+    const std::size_t lacking = needed - std::min<std::size_t>(needed, limit.rlim_cur);
+    return wanted - std::min(wanted, (lacking + files_of_job - 1) / files_of_job);
+}
 
 tally run_jobs(const std::vector<job>& jobs, result_file& results, const run_options& options,
                const std::function<void(const tally&)>& tell)

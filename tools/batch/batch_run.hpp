@@ -30,10 +30,15 @@ struct tally
     std::size_t failed_before = 0; ///< of those skipped
 };
 
+/// As many of the jobs at once that are wanted as this process may open files for, having raised that limit as far as
+/// it may; perhaps none.
+std::size_t most_jobs_at_once(std::size_t wanted);
+
 /// Runs jobs, each in a process of its own, and appends a result for each as it ends.
 /// tell: how far it is, from time to time
-/// Interrupted, it asks the jobs at work to end and waits for them; they get no result. Throws io_error if a result
-/// cannot be written, and std::system_error if no process can be made.
+/// Where the system refuses one more process, it goes on with those it has. Interrupted, it asks the jobs at work to
+/// end and waits for them; they get no result. Throws io_error if a result cannot be written, and usage_error if not
+/// even one job can be started.
 tally run_jobs(const std::vector<job>& jobs, result_file& results, const run_options& options,
                const std::function<void(const tally&)>& tell);
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <istream>
 #include <map>
 #include <utility>
 
@@ -85,10 +86,8 @@ private:
 
 } // namespace
 
-std::vector<job> read_manifest(const std::string& path)
+std::vector<job> parse_manifest(std::istream& in, const std::string& path)
 {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw io::io_error(path, "cannot be read");
     std::vector<job> jobs;
     std::map<std::string, std::size_t> line_of;
     std::string text;
@@ -102,6 +101,13 @@ std::vector<job> read_manifest(const std::string& path)
     }
     if (in.bad()) throw io::io_error(path, "cannot be read");
     return jobs;
+}
+
+std::vector<job> read_manifest(const std::string& path)
+{
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw io::io_error(path, "cannot be read");
+    return parse_manifest(in, path);
 }
 
 std::optional<shard> parse_shard(const std::string& text)

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct job
 /// Throws io::io_error with the line: what is no such object, has another key, an id twice, no argument, or a command
 /// that is no job (`batch` itself, and `view`, which waits for a person).
 std::vector<job> read_manifest(const std::string& path);
+std::vector<job> parse_manifest(std::istream& text, const std::string& path);
 
 /// A part of the jobs of a manifest, number `index` of `count`, from 1: every count-th job, so that parts are equally
 /// long and no job is in two of them.

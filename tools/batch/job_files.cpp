@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "job_files.hpp"
 
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <string_view>
 
 #include <CLI/CLI.hpp>
 
+#include "../command_line.hpp"
 #include "../commands.hpp"
-#include "../outputs.hpp"
 
 namespace taut::tools::batch
 {
 
 struct argument_reader::program
 {
-    CLI::App app;
+    command_line app;
     std::vector<command> commands; // they own what options are written to
 };
 
@@ -30,7 +27,6 @@ argument_reader::~argument_reader() = default;
 
 job_files argument_reader::files(const std::vector<std::string>& args)
 {
-    constexpr std::array<std::string_view, 5> written = {"output", "stats", "picture", "render", "report"};
     job_files found;
     try
     {
@@ -41,20 +37,12 @@ job_files argument_reader::files(const std::vector<std::string>& args)
         return found;
     }
     for (const auto* command : program_->app.get_subcommands())
-        for (const auto* option : command->get_options())
+        for (const auto& file : files_of(*command))
         {
-            const auto& names = option->get_lnames();
-            const bool output = std::any_of(names.begin(), names.end(),
-                                            [&](const std::string& name) {
-                                                return std::find(written.begin(), written.end(), name) != written.end();
-                                            });
-            if (!output && !option->get_type_name().starts_with("FILE")) continue;
-            for (const auto& path : option->results())
-            {
-                if (path != standard_input && path != standard_output)
-                    (output ? found.outputs : found.inputs).push_back(path);
-                if (option->check_lname("stats")) found.stats = path;
-            }
+            const auto path = file.path.string();
+            if (file.option->check_lname("stats")) found.stats = path;
+            if (path != standard_input && path != standard_output)
+                (file.is_read() ? found.inputs : found.outputs).push_back(path);
         }
     return found;
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "../failure.hpp"
+#include "../private_folder.hpp"
 
 namespace taut::tools::batch
 {
@@ -42,20 +43,19 @@ kernel_cache::kernel_cache(const fs::path& caches)
         throw usage_error("--cache " + caches.string() + ": " + std::generic_category().message(number) +
                           "; name another folder");
     };
-    std::error_code failure;
-    fs::create_directories(caches, failure);
-    if (failure) refuse(failure.value());
+    make_private(caches, "--cache");
     for (int k = 0;; ++k)
     {
         folder_ = caches / std::to_string(k);
         const auto lock = caches / (std::to_string(k) + ".lock");
-        lock_ = io::detail::descriptor(::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+        lock_ = io::detail::descriptor(::open(lock.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
+        if (!lock_ && (errno == EMFILE || errno == ENFILE))
+            throw std::system_error(errno, std::generic_category(), "no kernel cache");
         if (!lock_) refuse(errno);
         if (::flock(*lock_, LOCK_EX | LOCK_NB) == 0) break;
         if (errno != EWOULDBLOCK && errno != EINTR) refuse(errno);
     }
-    fs::create_directories(folder_, failure);
-    if (failure) refuse(failure.value());
+    make_private(folder_, "--cache");
 }
 
 } // namespace taut::tools::batch

@@ -17,7 +17,8 @@ class kernel_cache
 {
 public:
     /// The first folder below `caches` that is free, made if need be: in the next run it is warm. Throws usage_error
-    /// if none can be made.
+    /// if none can be made, or if others than this user may have put something there, which would be run as code;
+    /// std::system_error where no more files can be opened.
     explicit kernel_cache(const std::filesystem::path& caches);
 
     const std::filesystem::path& folder() const noexcept { return folder_; }

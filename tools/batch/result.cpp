@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <istream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -15,6 +18,7 @@
 #include <unistd.h>
 
 #include "../exit_codes.hpp"
+#include "../failure.hpp"
 #include "content_hash.hpp"
 
 namespace taut::tools::batch
@@ -90,10 +94,23 @@ private:
     int file_;
 };
 
-nlohmann::ordered_json to_json(const hashes& files)
+bool is_result(const earlier_result& r)
 {
-    auto all = nlohmann::ordered_json::object();
-    for (const auto& [path, hash] : files) all[path] = hash ? nlohmann::ordered_json(*hash) : nullptr;
+    const auto has = [&](const char* key, auto is) { return r.contains(key) && (r[key].*is)(); };
+    return r.is_object() && has("id", &earlier_result::is_string) && has("args", &earlier_result::is_array) &&
+           has("code", &earlier_result::is_number);
+}
+
+earlier_result parsed_line(const std::string& line)
+{
+    return earlier_result::parse(line, nullptr, false);
+}
+
+template <class Json>
+Json to_json(const hashes& files)
+{
+    auto all = Json::object();
+    for (const auto& [path, hash] : files) all[path] = hash ? Json(*hash) : nullptr;
     return all;
 }
 
@@ -125,8 +142,8 @@ result make_result(const job& done, const child_end& end, const hashes& inputs, 
     r["seconds"] = end.seconds;
     r["cpu_seconds"] = end.cpu_seconds;
     r["peak_memory"] = end.peak_memory;
-    r["inputs"] = to_json(inputs);
-    r["outputs"] = to_json(outputs);
+    r["inputs"] = to_json<result>(inputs);
+    r["outputs"] = to_json<result>(outputs);
     if (end.code != 0) r["error"] = last_words(end.complaints);
     if (stats)
         r["stats"] = *stats;
@@ -135,18 +152,14 @@ result make_result(const job& done, const child_end& end, const hashes& inputs, 
     return r;
 }
 
-bool succeeded(const result& r)
+bool stands(const earlier_result& r, const job& wanted, const job_files& files)
 {
-    const auto code = r.find("code");
-    return code != r.end() && (*code == to_int(exit_code::valid) || *code == to_int(exit_code::time_limit));
-}
-
-bool stands(const result& r, const job& wanted, const job_files& files)
-{
-    if (!r.contains("args") || r["args"] != wanted.args) return false;
-    const auto no_files = nlohmann::ordered_json::object();
+    if (r["args"] != wanted.args) return false;
+    const auto no_files = earlier_result::object();
     const auto inputs = r.value("inputs", no_files), outputs = r.value("outputs", no_files);
-    const auto found = to_json(hashes_of(files.inputs));
+    if (!inputs.is_object() || !outputs.is_object()) return false;
+    const auto found = to_json<earlier_result>(hashes_of(files.inputs));
+    if (found.size() != inputs.size()) return false; // a part of an input has come or gone
     for (const auto& [path, now] : found.items())
         if (now != inputs.value(path, no_files) && (now.is_null() || now != outputs.value(path, no_files)))
             return false;
@@ -155,31 +168,68 @@ bool stands(const result& r, const job& wanted, const job_files& files)
     return true;
 }
 
+result_ending ending_of(std::istream& text)
+{
+    static constexpr std::string_view begin = R"({"id":)"; // as append() writes it
+    std::string first, last, line;
+    result_ending found;
+    bool ended = true;
+    std::uintmax_t at = 0;
+    for (; std::getline(text, line); at += line.size() + 1)
+    {
+        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+        found.last_begins = at;
+        found.several = !first.empty();
+        if (!found.several) first = line;
+        last = line;
+        ended = !text.eof();
+    }
+    if (first.empty()) return found;
+    const bool broken = !ended && !earlier_result::accept(last);
+    const bool begun = last.starts_with(begin) || (found.several && begin.starts_with(last));
+    const bool ours = (broken && !found.several) || is_result(parsed_line(first));
+    if (!ours || (broken && !begun))
+        found.needs = result_ending::other_file;
+    else if (!ended)
+        found.needs = broken ? result_ending::cut : result_ending::line_end;
+    return found;
+}
+
+std::map<std::string, earlier_result> parse_results(std::istream& text)
+{
+    std::map<std::string, earlier_result> last;
+    for (std::string line; std::getline(text, line);)
+    {
+        auto r = parsed_line(line);
+        if (!is_result(r)) continue;
+        for (const char* long_one : {"stats", "printed"}) r.erase(long_one);
+        const auto id = r["id"].get<std::string>();
+        last[id] = std::move(r);
+    }
+    return last;
+}
+
 result_file::result_file(const std::string& path) : path_(path)
 {
     if (io::is_stream(path)) return;
     file_ = io::detail::descriptor(::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
     if (!file_) io::detail::cannot_write(path, errno);
     const file_lock held(*file_);
-    const off_t before = ::lseek(*file_, 0, SEEK_END);
-    off_t length = before;
-    for (char last = 0; length > 0 && ::pread(*file_, &last, 1, length - 1) == 1 && last != '\n';) --length;
-    if (length < before && ::ftruncate(*file_, length) != 0) io::detail::cannot_write(path, errno);
+    std::ifstream in(path, std::ios::binary);
+    const auto found = ending_of(in);
+    if (found.needs == result_ending::other_file)
+        throw usage_error("--out " + path + ": is there already, and its " +
+                          (found.several ? "first or last" : "only") +
+                          " line is no result of a batch; name another file, or move it away");
+    if ((found.needs == result_ending::line_end && ::write(*file_, "\n", 1) != 1) ||
+        (found.needs == result_ending::cut && ::ftruncate(*file_, static_cast<off_t>(found.last_begins)) != 0))
+        io::detail::cannot_write(path, errno);
 }
 
-std::map<std::string, result> result_file::read() const
+std::map<std::string, earlier_result> result_file::read() const
 {
-    std::map<std::string, result> last;
     std::ifstream in(path_, std::ios::binary);
-    for (std::string line; std::getline(in, line);)
-    {
-        result r = result::parse(line, nullptr, false);
-        if (!r.is_object() || !r.contains("id") || !r["id"].is_string()) continue;
-        for (const char* long_one : {"stats", "printed"}) r.erase(long_one);
-        const auto id = r["id"].get<std::string>();
-        last[id] = std::move(r);
-    }
-    return last;
+    return parse_results(in);
 }
 
 void result_file::append(const result& r)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <iosfwd>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include <taut/io/atomic_file.hpp>
 
 #include "../child.hpp"
+#include "../exit_codes.hpp"
 #include "job.hpp"
 #include "job_files.hpp"
 
@@ -32,22 +35,50 @@ std::string outcome_of(const child_end& end);
 result make_result(const job& done, const child_end& end, const hashes& inputs, const hashes& outputs,
                    const std::optional<nlohmann::ordered_json>& stats);
 
+/// One that was read back, whose keys have another order. (An ordered object looks through all keys for each.)
+using earlier_result = nlohmann::json;
+
 /// Whether a result is one of success: a map that was asked for is there.
-bool succeeded(const result& r);
+template <class Json>
+bool succeeded(const Json& r)
+{
+    return r["code"] == to_int(exit_code::valid) || r["code"] == to_int(exit_code::time_limit);
+}
 
 /// Whether a result still stands: the same arguments, inputs with the same content as then, or as the job left them,
 /// and outputs that exist.
-bool stands(const result& r, const job& wanted, const job_files& files);
+bool stands(const earlier_result& r, const job& wanted, const job_files& files);
+
+/// What a file needs before results can be appended to it.
+struct result_ending
+{
+    enum need
+    {
+        nothing,
+        line_end,  ///< the last line is whole, but for its end
+        cut,       ///< the last line is the beginning of a result: a run was cut off
+        other_file ///< it is no file of results
+    };
+    need needs = nothing;
+    std::uintmax_t last_begins = 0; ///< the last line that is not empty: byte of the file
+    bool several = false;           ///< lines
+};
+
+result_ending ending_of(std::istream& text);
+
+/// The last result of each id, without what it printed. Lines that are none are passed over.
+std::map<std::string, earlier_result> parse_results(std::istream& text);
 
 /// The lines of results, to which several runs may append at once.
 class result_file
 {
 public:
-    /// Cuts off a last line that was not finished. Throws io_error.
+    /// Cuts off a result that was not finished, as a machine that went down leaves it. Throws usage_error for a file
+    /// that has other lines, which stays as it is; io_error.
     explicit result_file(const std::string& path);
 
-    /// The last result of each id, without what it printed. Lines that are none are passed over.
-    std::map<std::string, result> read() const;
+    /// Its parse_results().
+    std::map<std::string, earlier_result> read() const;
 
     /// Appends a line and brings it to the disk: it is there as a whole or not at all. Throws io_error.
     void append(const result& r);

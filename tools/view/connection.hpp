@@ -36,7 +36,8 @@ namespace websocket = beast::websocket;
 using tcp = asio::ip::tcp;
 using error_code = boost::system::error_code;
 
-constexpr std::size_t most_connections = 16;
+constexpr std::size_t most_pages = 16;
+constexpr std::size_t most_strangers = 64;       // that have not shown the token, which any user of the machine can be
 constexpr std::size_t longest_message = 8 << 20; // a region of two million faces
 constexpr double messages_a_second = 1000;
 constexpr int most_faults = 100; // of one connection, then it is closed
@@ -59,21 +60,33 @@ struct service
     std::optional<gate> entrance; ///< once the port is known
     std::function<bool(message)> wish;
     std::shared_ptr<const state> shown;
-    std::vector<connection*> pages; ///< with an open socket, in the order in which they came
-    std::size_t connections = 0;
+    std::vector<connection*> pages;    ///< with an open socket, in the order in which they came
+    std::vector<connection*> admitted; ///< that have shown the token: these, and those whose socket is opening
+    std::deque<connection*> strangers; ///< that have not, the oldest first
 };
 
 /// One client, from its request to the end of its socket.
 class connection : public std::enable_shared_from_this<connection>
 {
 public:
-    connection(service& h, tcp::socket socket) : service_(h), stream_(std::move(socket)) { ++service_.connections; }
+    connection(service& h, tcp::socket socket) : service_(h), stream_(std::move(socket))
+    {
+        service_.strangers.push_back(this);
+    }
     connection(const connection&) = delete;
     connection& operator=(const connection&) = delete;
     ~connection()
     {
         leave();
-        --service_.connections;
+        std::erase(service_.strangers, this);
+        std::erase(service_.admitted, this);
+    }
+
+    /// Ends a stranger, to make room.
+    void drop()
+    {
+        std::erase(service_.strangers, this);
+        stream_.close();
     }
 
     void read_request()
@@ -149,6 +162,10 @@ private:
             if (request.target() != "/live" ||
                 !service_.entrance->has_token(text(request[http::field::sec_websocket_protocol])))
                 return respond(http::status::forbidden, "forbidden\n", "text/plain");
+            if (service_.admitted.size() >= most_pages)
+                return respond(http::status::service_unavailable, "too many pages\n", "text/plain");
+            std::erase(service_.strangers, this);
+            service_.admitted.push_back(this);
             return open(request);
         }
         if (request.method() != http::verb::get && request.method() != http::verb::head)

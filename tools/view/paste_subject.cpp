@@ -11,6 +11,7 @@
 #include <taut/io/detail/obj_output.hpp>
 #include <taut/io/read_surface.hpp>
 
+#include "../paste_check.hpp"
 #include "floats.hpp"
 #include "subjects.hpp"
 
@@ -88,6 +89,7 @@ public:
     void keep() override
     {
         if (!paste_) throw error("the feature is nowhere: click where it is to be");
+        tools::require_sound(*paste_);
         auto kept = std::make_shared<const mesh<triangle>>(paste_->surface());
         paste_.reset();
         target_ = std::move(kept);
@@ -129,7 +131,9 @@ public:
 
     saved write() const override
     {
-        return {std::filesystem::path(name_).stem().string() + "-pasted.obj", obj_of(points(), cells())};
+        saved file{std::filesystem::path(name_).stem().string() + "-pasted.obj", obj_of(points(), cells()), {}};
+        if (paste_) file.notes = tools::notes_of(tools::require_sound(*paste_), paste_->self_intersections());
+        return file;
     }
 
     void pin(std::span<const place>) override { throw error(no_pins); }

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include <fcntl.h>
+
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 
@@ -18,9 +20,10 @@ class server::body
 {
 public:
     body(unsigned short port, page what, std::string model_message)
-        : service_{what, std::move(model_message), {}, {}, {}, {}, 0},
+        : service_{what, std::move(model_message), {}, {}, {}, {}, {}, {}},
           acceptor_(io_, {asio::ip::make_address("127.0.0.1"), port})
     {
+        ::fcntl(acceptor_.native_handle(), F_SETFD, FD_CLOEXEC);
         service_.entrance.emplace(acceptor_.local_endpoint().port());
     }
 
@@ -76,10 +79,14 @@ private:
         acceptor_.async_accept(
             [this](error_code e, tcp::socket socket)
             {
-                if (!e && service_.connections < most_connections)
+                // No more of them, or none where the process may open no more files.
+                if (!service_.strangers.empty() && (e || service_.strangers.size() >= most_strangers))
+                    service_.strangers.front()->drop();
+                if (!e)
                 {
                     error_code ignored;
-                    socket.set_option(tcp::no_delay(true), ignored); // what is small waits for no acknowledgement
+                    ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC); // no child keeps it open
+                    socket.set_option(tcp::no_delay(true), ignored);      // what is small waits for no acknowledgement
                     std::make_shared<connection>(service_, std::move(socket))->read_request();
                 }
                 if (acceptor_.is_open()) accept();

@@ -55,12 +55,13 @@ public:
     virtual std::shared_ptr<const memory> remember() const = 0;
     virtual void go_back(const memory& before) = 0;
 
-    /// The name and the bytes of the file that `taut` would write.
+    /// The name and the bytes of the file that `taut` would write, and what there is to tell of it.
     struct saved
     {
         std::string name, bytes;
+        std::vector<std::string> notes = {};
     };
-    virtual saved write() const = 0;
+    virtual saved write() const = 0; ///< throws where `taut` would write none
 };
 
 } // namespace taut::view

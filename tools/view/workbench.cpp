@@ -147,6 +147,7 @@ void workbench::grant(const message& m)
                 {
                     const auto file = subject_->write();
                     listener_.tell(encode_file(file.name, file.bytes));
+                    for (const auto& note : file.notes) listener_.tell(encode_note(note));
                 }
             },
             m.what);

@@ -174,10 +174,6 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
 
 exit_code evaluate_volume(const eval_volume_options& options)
 {
-    outputs files;
-    files.add("--picture", options.picture, {".png", ".svg"});
-    files.protect("the input", options.input);
-    if (!options.rest.empty()) files.protect("the shape at rest", options.rest);
     const auto file = read_volume_at_rest(options.input, options.rest);
     const drawing_options drawing{options.picture, options.cut, file.rest.empty()};
     require_drawable(file, drawing);

@@ -2,10 +2,12 @@
 #include "volume/group_targets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include <taut/constrain/constraints.hpp>
@@ -17,6 +19,23 @@
 
 namespace taut::tools
 {
+
+namespace
+{
+
+/// The ways to transform a group, and how many numbers each takes.
+constexpr std::array<std::pair<const char*, std::size_t>, 3> transforms = {
+    {{":translate:", 3}, {":rotate:", 4}, {":scale:", 1}}};
+
+} // namespace
+
+std::string file_of_move(const std::string& text)
+{
+    for (const auto& [key, count] : transforms)
+        if (text.find(key) != text.npos) return {};
+    const auto at = text.rfind('=');
+    return at == text.npos ? std::string() : text.substr(at + 1);
+}
 
 std::vector<double> numbers_of(const std::string& text, std::size_t count, const std::string& option)
 {
@@ -51,14 +70,10 @@ void group_targets::fix(const std::string& name)
 
 void group_targets::move(const std::string& text)
 {
-    for (const auto& [word, count] : {std::pair{"translate", 3}, std::pair{"rotate", 4}, std::pair{"scale", 1}})
-    {
-        const std::string key = std::string(":") + word + ":";
-        const auto at = text.rfind(key);
-        if (at == text.npos) continue;
-        const auto n = numbers_of(text.substr(at + key.size()), static_cast<std::size_t>(count), "--move " + text);
-        return transform(text.substr(0, at), count, n);
-    }
+    for (const auto& [key, count] : transforms)
+        if (const auto at = text.rfind(key); at != text.npos)
+            return transform(text.substr(0, at), count,
+                             numbers_of(text.substr(at + std::string_view(key).size()), count, "--move " + text));
     const auto at = text.rfind('=');
     if (at == text.npos)
         throw usage_error("--move " + text +
@@ -78,7 +93,7 @@ void group_targets::move(const std::string& text)
     }
 }
 
-void group_targets::transform(const std::string& name, int kind, const std::vector<double>& n)
+void group_targets::transform(const std::string& name, std::size_t kind, const std::vector<double>& n)
 {
     const auto& members = group(name).vertices;
     vec3 middle(0.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,7 +34,7 @@ public:
 private:
     const io::volume_group& group(const std::string& name) const { return file_.find_group(name); }
     const vec3& point(idx v) const { return file_.points[static_cast<std::size_t>(v)]; }
-    void transform(const std::string& name, int kind, const std::vector<double>& numbers);
+    void transform(const std::string& name, std::size_t kind, const std::vector<double>& numbers);
     void take(idx v, const vec3& x, const std::string& name);
 
     const io::volume_file& file_;
@@ -42,6 +43,9 @@ private:
     double rounding_ = 0; ///< distance of places that are the same
     std::vector<idx> settled_;
 };
+
+/// The file of GROUP=FILE.csv; nothing for other moves.
+std::string file_of_move(const std::string& text);
 
 /// Numbers between commas; throws usage_error that begins with `option` unless there are `count`.
 std::vector<double> numbers_of(const std::string& text, std::size_t count, const std::string& option);

@@ -10,6 +10,7 @@
 #include "choices.hpp"
 #include "shared_options.hpp"
 #include "shell_run.hpp"
+#include "volume/group_targets.hpp"
 #include "volume/volume_case.hpp"
 
 namespace taut::tools
@@ -21,14 +22,13 @@ namespace
 /// What both commands have. usual: the tolerance without an option
 void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
 {
-    app.add_option("MESH", o.input,
-                   std::string("Tetrahedra, or triangles of the plane: .mesh .msh .vtk .vtu .node .su2 .prob") +
-                       (o.smoothing ? "" : "; or a surface in space: .obj .off .ply .stl"))
-        ->required()
-        ->type_name("FILE");
-    add_path(app, "-o,--output", o.output, standard_output,
-             "Mesh to write, in the format of the input: the same file with other coordinates" +
-                 std::string(o.smoothing ? "" : "; of a surface in space .obj, - is standard output"))
+    add_input(app, "MESH", o.input, "the input",
+              std::string("Tetrahedra, or triangles of the plane: .mesh .msh .vtk .vtu .node .su2 .prob") +
+                  (o.smoothing ? "" : "; or a surface in space: .obj .off .ply .stl"))
+        ->required();
+    add_output(app, "-o,--output", o.output, {.made_of = "MESH"},
+               "Mesh to write, in the format of the input: the same file with other coordinates" +
+                   std::string(o.smoothing ? "" : "; of a surface in space .obj, - is standard output"))
         ->required()
         ->type_name("OUT");
     add_fix(app, o.fixed);
@@ -40,7 +40,7 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
         ->check(number_that([](double x) { return x >= 0 && x < 1; }, "must be at least 0 and below 1"));
     add_time_limit(app, o.time_limit, "Stop after S seconds, with the best mesh by then");
     add_device(app, o.device);
-    add_path(app, "--stats", o.stats, standard_output, "Write numbers as JSON")->type_name("FILE.json");
+    add_stats(app, o.stats);
     add_drawing(app, o.picture, o.cut, "Draw the mesh before and after");
     add_progress(app, o.progress, o.quiet);
     app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
@@ -53,14 +53,18 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
 void declare_deform(CLI::App& app, shape_options& o)
 {
     declare_shared(app, o, "1e-6");
-    app.add_option("--pins", o.pins, "Vertices to hold or draw: vertex,x,y,z[,weight], vertices from 0")
+    add_input(app, "--pins", o.pins, "the file of pins",
+              "Vertices to hold or draw: vertex,x,y,z[,weight], vertices from 0")
         ->type_name("FILE.csv");
-    app.add_option("--move", o.moves,
-                   "Move a group: GROUP=FILE.csv (vertex,x,y,z), GROUP:translate:x,y,z, GROUP:rotate:ax,ay,az,degrees "
-                   "or GROUP:scale:factor, about its middle")
-        ->type_name("MOVE");
-    app.add_option("--rest", o.rest, "The mesh at rest, if the input is not: the same vertices and cells")
-        ->type_name("FILE");
+    auto* const moves =
+        app.add_option(
+               "--move", o.moves,
+               "Move a group: GROUP=FILE.csv (vertex,x,y,z), GROUP:translate:x,y,z, GROUP:rotate:ax,ay,az,degrees "
+               "or GROUP:scale:factor, about its middle")
+            ->type_name("MOVE");
+    declare_files(app, moves, {.read_as = "the file of --move", .file_in = file_of_move});
+    add_input(app, "--rest", o.rest, "the shape at rest",
+              "The mesh at rest, if the input is not: the same vertices and cells");
     add_choice(app, "--energy", o.energy,
                std::vector<choice<shape_energy>>{{"isometric", shape_energy::isometric},
                                                  {"shape", shape_energy::shape},
@@ -96,18 +100,9 @@ void declare_smooth(CLI::App& app, shape_options& o)
         ->check(CLI::Range(1, 8));
 }
 
-outputs check(const shape_options& o)
+void check(const shape_options& o)
 {
-    outputs files;
     if (o.smoothing || !names_surface(o.input)) require_file(o.output);
-    files.add("-o", o.output, {});
-    files.add("--stats", o.stats, {".json"});
-    files.add("--picture", o.picture, {".png", ".svg"});
-    files.add("--refined-map", o.refined_map, {".csv"});
-    files.protect("the input", o.input);
-    if (!o.pins.empty()) files.protect("the file of pins", o.pins);
-    if (!o.rest.empty()) files.protect("the shape at rest", o.rest);
-    return files;
 }
 
 any_energy energy_of(shape_energy choice)

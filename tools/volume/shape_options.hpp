@@ -10,8 +10,6 @@
 
 #include <taut/map/smooth.hpp>
 
-#include "outputs.hpp"
-
 namespace taut::tools
 {
 
@@ -54,8 +52,8 @@ inline constexpr const char* nothing_held =
 void declare_deform(CLI::App& app, shape_options& options);
 void declare_smooth(CLI::App& app, shape_options& options);
 
-/// Throws usage_error for outputs that could not be written.
-outputs check(const shape_options& options);
+/// Throws usage_error for an output that is no file where it has to be one.
+void check(const shape_options& options);
 
 /// The energy to minimise while a mesh deforms.
 any_energy energy_of(shape_energy choice);

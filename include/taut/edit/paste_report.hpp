@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <taut/core/types.hpp>
+#include <taut/mesh/detail/manifold.hpp>
 #include <taut/mesh/facets.hpp>
 
 namespace taut
@@ -43,7 +44,7 @@ struct paste_report
 struct seam_quality
 {
     idx boundary_edges = 0;    ///< of the whole surface: 0 where it is watertight
-    bool manifold = false;     ///< edges, and neighbours oriented alike
+    bool manifold = false;     ///< at edges and vertices, and neighbours oriented alike
     idx degenerate = 0;        ///< triangles of no area
     idx folded = 0;            ///< edges of gap and feature whose triangles turn back by more than 150 degrees
     double smallest_angle = 0; ///< of the triangles of the gap, degrees
@@ -86,7 +87,7 @@ inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx fir
 {
     seam_quality q;
     const auto sides = facets(m);
-    q.manifold = sides.oriented();
+    q.manifold = sides.oriented() && detail::pinched_vertices(m, sides).empty();
     q.boundary_edges = static_cast<idx>(std::count(sides.twin.begin(), sides.twin.end(), facet_table::boundary));
     std::vector<vec3> normals;
     double smallest = 180;
