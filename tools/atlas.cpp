@@ -5,7 +5,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -97,7 +96,6 @@ public:
         try
         {
             report_.read = clock_.timed([&] { read(); });
-            keep_companions(outputs);
             make();
         }
         catch (const mesh_error& e)
@@ -132,44 +130,6 @@ private:
             if (options_.inputs.size() > 1) require_valid(s.surface(), options_.inputs[i]);
         }
         joined_.emplace(join(sources_));
-    }
-
-    /// What is written beside outputs must not replace what was read beside inputs, unless that belongs to the surface
-    /// which is replaced as a whole. Throws usage_error.
-    void keep_companions(const outputs& files) const
-    {
-        for (std::size_t i = 0; i < sources_.size(); ++i)
-            for (const auto& companion : sources_[i]->companions)
-                files.protect("the data of " + options_.inputs[i], companion);
-        if (options_.outputs.size() < sources_.size()) return;
-        std::set<std::filesystem::path> data;
-        std::error_code unknown;
-        const auto same = [&](const auto& a, const auto& b) { return std::filesystem::equivalent(a, b, unknown); };
-        for (std::size_t i = 0; i < sources_.size(); ++i)
-        {
-            const std::string& output = options_.outputs[i];
-            const auto own = data_file(i);
-            if (own && !data.insert(*own).second)
-                throw usage_error("-o " + output + ": " + own->string() + " is also written beside another output");
-            for (std::size_t j = 0; j < sources_.size(); ++j)
-                for (const auto& companion : sources_[j]->companions)
-                    if (own && same(*own, companion) && !same(output, options_.inputs[j]))
-                        throw usage_error("-o " + output + ": " + own->string() + " would overwrite the data of " +
-                                          options_.inputs[j] + "; choose another name");
-        }
-    }
-
-    /// The file that is written beside an output.
-    std::optional<std::filesystem::path> data_file(std::size_t i) const
-    {
-        try
-        {
-            return sources_[i]->data_file(options_.outputs[i]);
-        }
-        catch (const io::io_error& e)
-        {
-            throw usage_error(std::string("-o: ") + e.what());
-        }
     }
 
     /// As make_atlas() does for all surfaces together, with the numbers of one file.

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "companions.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <fstream>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 
-#include <nlohmann/json.hpp>
-
-#include <taut/gltf/detail/uri.hpp>
-#include <taut/io/detail/byte_order.hpp>
-#include <taut/io/read_file.hpp>
+#include <taut/gltf/gltf.hpp>
 
 #include "outputs.hpp"
 
@@ -57,80 +46,17 @@ bool has_faces(const fs::path& mesh)
     return is_there(named(mesh, ".face"));
 }
 
-bool names_gltf(const fs::path& file)
-{
-    const auto e = extension(file);
-    return e == ".gltf" || e == ".glb";
-}
-
-/// The JSON of a glTF document: all of its file, or the first chunk of GLB.
-std::string json_of(const fs::path& document)
-{
-    std::error_code failure;
-    std::uintmax_t length = fs::file_size(document, failure);
-    std::ifstream in(document, std::ios::binary);
-    std::array<char, 20> head{};
-    if (failure || !in) return {};
-    in.read(head.data(), head.size());
-    if (in && std::string_view(head.data(), 4) == "glTF")
-        length = std::min<std::uintmax_t>(io::detail::load<std::uint32_t>(head.data() + 12, std::endian::little),
-                                          length - head.size());
-    else
-    {
-        in.clear();
-        in.seekg(0);
-    }
-    if (length > io::most_bytes_to_read()) return {}; // nor does anybody else read it
-    std::string text(length, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(length));
-    return text;
-}
-
-/// The uri of each buffer of a glTF document, empty where it has none. Nothing for what is no document.
-std::vector<std::string> buffer_uris(const fs::path& document)
-{
-    using json = nlohmann::json;
-    std::vector<std::string> uris;
-    if (!is_there(document)) return uris;
-    bool wanted = false; // all else is passed over
-    const auto buffers_alone = [&](int depth, json::parse_event_t event, const json& parsed)
-    {
-        if (depth == 1 && event == json::parse_event_t::key) wanted = parsed == "buffers";
-        return depth == 0 || wanted;
-    };
-    const auto root = json::parse(json_of(document), buffers_alone, false);
-    const auto buffers = root.is_object() ? root.find("buffers") : root.end();
-    if (buffers == root.end() || !buffers->is_array()) return uris;
-    for (const json& buffer : *buffers)
-        uris.push_back(buffer.is_object() && buffer.contains("uri") && buffer["uri"].is_string()
-                           ? buffer["uri"].get<std::string>()
-                           : std::string());
-    return uris;
-}
-
-/// A file that a document names, if it lies in the document's folder: others are none of its.
-std::optional<fs::path> beside(const fs::path& document, const std::string& uri)
-{
-    if (uri.empty() || io::detail::has_scheme(uri)) return {};
-    std::error_code failure;
-    const auto folder = document.parent_path();
-    const auto file = folder / io::detail::percent_decoded(uri);
-    const auto base = fs::weakly_canonical(folder.empty() ? "." : folder, failure);
-    const auto full = fs::weakly_canonical(file, failure);
-    const bool inside =
-        !failure && std::mismatch(base.begin(), base.end(), full.begin(), full.end()).first == base.end();
-    return inside ? std::optional(file) : std::nullopt;
-}
-
 } // namespace
 
 std::vector<fs::path> companions_of(const fs::path& mesh)
 {
     std::vector<fs::path> files;
     if (is_tetgen(mesh)) files = tetgen_files(mesh, has_faces(mesh));
-    if (names_gltf(mesh))
-        for (const auto& uri : buffer_uris(mesh))
-            if (auto file = beside(mesh, uri)) files.push_back(std::move(*file));
+    if (io::is_gltf(mesh))
+    {
+        const auto buffers = io::gltf_companions(mesh);
+        files.assign(buffers.begin(), buffers.end());
+    }
     std::erase(files, mesh);
     return files;
 }
@@ -138,11 +64,8 @@ std::vector<fs::path> companions_of(const fs::path& mesh)
 std::vector<fs::path> written_as(const fs::path& output, const fs::path& source)
 {
     if (is_tetgen(source)) return tetgen_files(output, has_faces(source));
-    const auto uris = extension(output) == ".gltf" ? buffer_uris(source) : std::vector<std::string>();
-    const auto is_data = [](const std::string& uri) { return uri.starts_with("data:"); };
-    const bool one_file =
-        extension(output) != ".gltf" || (!uris.empty() && std::all_of(uris.begin(), uris.end(), is_data));
-    return one_file ? std::vector{output} : std::vector{output, named(output, ".bin")};
+    const bool inside = io::is_gltf(source) && io::detail::places_of_buffers(source).data_uris;
+    return extension(output) == ".gltf" && !inside ? std::vector{output, named(output, ".bin")} : std::vector{output};
 }
 
 fs::path stray_companion(const fs::path& output, const fs::path& source)

@@ -129,7 +129,6 @@ public:
         file_vertices = static_cast<idx>(model_.points.size());
         file_triangles = static_cast<idx>(model_.triangles.size());
         notes = model_.notes;
-        companions = model_.source.files;
         if (options.repair)
         {
             const auto bodies = point_meshes();
@@ -150,11 +149,6 @@ public:
                                          std::vector<std::string>& changes) const override
     {
         return gltf_files(path, model_, map, set_, numbers, changes);
-    }
-
-    std::optional<std::filesystem::path> data_file(const std::string& path) const override
-    {
-        return io::gltf_data_file(path, model_.source);
     }
 
 private:

@@ -3,10 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -67,15 +65,8 @@ public:
     virtual std::vector<io::file_to_write> files(const std::string& path, const corner_map& map,
                                                  io::gltf_numbers numbers, std::vector<std::string>& changes) const = 0;
 
-    /// The file that is written beside `path`. Throws as io::gltf_data_file() does.
-    virtual std::optional<std::filesystem::path> data_file(const std::string& path) const
-    {
-        return io::is_gltf(path) ? io::gltf_data_file(path, {}) : std::nullopt;
-    }
-
     idx file_vertices = 0, file_triangles = 0;
-    std::vector<std::string> notes;             ///< what was changed in reading, in sentences
-    std::set<std::filesystem::path> companions; ///< files that were read beside it
+    std::vector<std::string> notes; ///< what was changed in reading, in sentences
     std::string texcoord_fault; ///< why the texture coordinates of the file are none here; empty: they are as it says
 
 protected:

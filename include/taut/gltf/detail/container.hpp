@@ -206,27 +206,42 @@ inline gltf_source gltf_source_of(std::string_view bytes, const std::string& pat
     return source;
 }
 
-/// The files that hold the buffers of a document, which is read but for them; none where they cannot be told.
-inline std::set<std::filesystem::path> files_of_buffers(const std::filesystem::path& path)
+/// Where the buffers of a document lie.
+struct buffer_places
 {
-    std::set<std::filesystem::path> files;
+    std::set<std::filesystem::path> files; ///< beside it
+    bool data_uris = false;                ///< all in the document itself, as data URIs
+};
+
+/// The document is read but for its buffers; nothing where they cannot be told.
+inline buffer_places places_of_buffers(const std::filesystem::path& path)
+{
+    buffer_places places;
     std::error_code unknown;
-    if (!std::filesystem::is_regular_file(path, unknown)) return files; // a pipe would be waited for
+    if (!std::filesystem::is_regular_file(path, unknown)) return places; // a pipe would be waited for
     try
     {
         const std::string bytes = read_file(path);
         const glb_chunks chunks = is_glb(bytes) ? split_glb(bytes, path.string()) : glb_chunks{bytes};
         const gltf_source source{path.string(), parse_gltf_json(chunks.json, path.string())};
-        for (std::size_t i = 0; i < root_of(source).items("buffers").size(); ++i)
+        const std::size_t count = root_of(source).items("buffers").size();
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < count; ++i)
             if (const gltf_object buffer = item_of(source, "buffers", i); buffer.find("uri"))
-                if (const std::string& uri = buffer.text("uri"); !is_data_uri(uri))
-                    files.insert(file_of_buffer(source, buffer, uri));
+            {
+                const std::string& uri = buffer.text("uri");
+                if (is_data_uri(uri))
+                    ++inside;
+                else
+                    places.files.insert(file_of_buffer(source, buffer, uri));
+            }
+        places.data_uris = count > 0 && inside == count;
     }
     catch (const io_error&)
     {
         // It is no document, or not one that can be read: whatever lies beside it is not known to be its own.
     }
-    return files;
+    return places;
 }
 
 } // namespace taut::io::detail

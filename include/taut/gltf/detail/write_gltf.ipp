@@ -225,7 +225,7 @@ inline std::optional<std::filesystem::path> gltf_data_file(const std::filesystem
 
 inline std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& path)
 {
-    return detail::files_of_buffers(path);
+    return detail::places_of_buffers(path).files;
 }
 
 inline std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
