@@ -287,7 +287,7 @@ private:
                     static_cast<idx>(k);
         const auto energy = triangle_energies(*atlas_);
         report::atlas_page page{.title = title(),
-                                .command = command_line(options_),
+                                .command = as_command_line(options_),
                                 .points = m.points(),
                                 .cells = m.cells(),
                                 .uv = uv,

@@ -137,7 +137,7 @@ void check(const atlas_options& o)
                 throw usage_error("-o " + o.outputs[i] + ": a model of glTF is written as .glb or .gltf");
 }
 
-std::string command_line(const atlas_options& o)
+std::string as_command_line(const atlas_options& o)
 {
     std::string line = "taut atlas";
     const auto word = [&](const std::string& text)

@@ -36,7 +36,7 @@ void declare(CLI::App& app, atlas_options& options);
 void check(const atlas_options& options);
 
 /// What to type to have the same again.
-std::string command_line(const atlas_options& options);
+std::string as_command_line(const atlas_options& options);
 
 /// atlas_params::origin for these outputs.
 vec2 origin_of(const atlas_options& options);
