@@ -45,9 +45,9 @@ inline std::vector<idx> equal_places(std::span<const vec3> points, std::span<con
         n, std::max<std::size_t>(n, 1),
         [&](std::size_t i) { return hash_place(point(some[i]), body_of(bodies, some[i])) % n; },
         [&](std::size_t i, std::size_t at) { order[at] = some[i]; });
-    for (std::size_t b = 0; b + 1 < start.size(); ++b)
+    for (std::size_t bucket = 0; bucket + 1 < start.size(); ++bucket)
     {
-        const auto first = order.begin() + start[b], last = order.begin() + start[b + 1];
+        const auto first = order.begin() + start[bucket], last = order.begin() + start[bucket + 1];
         std::sort(first, last,
                   [&](idx i, idx j)
                   {
