@@ -54,8 +54,10 @@ std::vector<fs::path> companions_of(const fs::path& mesh)
     if (is_tetgen(mesh)) files = tetgen_files(mesh, has_faces(mesh));
     if (io::is_gltf(mesh))
     {
-        const auto buffers = io::gltf_companions(mesh);
-        files.assign(buffers.begin(), buffers.end());
+        std::error_code unknown;
+        const auto folder = mesh.parent_path();
+        for (const auto& file : io::gltf_companions(mesh)) // named as the document is
+            files.push_back(folder / fs::relative(file, folder.empty() ? "." : folder, unknown));
     }
     std::erase(files, mesh);
     return files;

@@ -26,9 +26,9 @@ std::string statement(dice& random, std::size_t vertices, std::size_t coords, co
                                    : std::to_string(random.between(1, n));
     };
     if (random.one_in(4))
-        return std::string(
-                   random.pick({"usemtl wood", "g a b", "o thing", "s 1", "# note", "#\\", "l 1 2", "mtllib c:\\x\\",
-                                "vn 0 0 1", "vt 0.5 0.5 0", "v 1 2 3 c", "v 0 0 1 1 1 1 # c", "", "p 1", "curv \\"})) +
+        return std::string(random.pick({"usemtl wood", "g a b", "o thing", "s 1", "# note", "#\\", "l 1 2", "l 1/1 2/2",
+                                        "v 0 0 0 # c:\\", "mtllib c:\\x\\", "vn 0 0 1", "vt 0.5 0.5 0", "v 1 2 3 c",
+                                        "v 0 0 1 1 1 1 # c", "", "p 1", "curv \\"})) +
                end;
     std::string text = random.one_in(30) ? " f" : "f";
     const std::size_t size = random.one_in(40) ? random.between(0, 9) : random.between(3, 5),
@@ -90,9 +90,9 @@ std::string without_texcoords(const std::string& text)
                 word += text[at++];
             ended = word.empty();
             words.emplace_back(blanks, word);
-            if (of_numbers.contains(words[0].second)) continue;
+            if (of_numbers.contains(words[0].second) && word.find('#') == word.npos) continue;
             ended = true; // names and comments end with their line
-            while (at < text.size() && text[at] != '\n' && text[at] != '\r') words[0].second += text[at++];
+            while (at < text.size() && text[at] != '\n' && text[at] != '\r') words.back().second += text[at++];
         }
         std::string end;
         if (at < text.size()) end = text[at];
@@ -105,7 +105,7 @@ std::string without_texcoords(const std::string& text)
             if (word.starts_with('#')) corners = false;
             const auto slash = word.find('/');
             if (corners && slash != word.npos) word.erase(slash, word.find('/', slash + 1) - slash);
-            if (&word == &words[0].second) corners = word == "f";
+            if (&word == &words[0].second) corners = word == "f" || word == "l" || word == "surf";
             result += blanks + word;
         }
         result += end;

@@ -105,7 +105,7 @@ def check(name, key=None, names=None):
     cells = [[NAMES[block.type]] + [int(v) for v in c] for block in before.cells for c in block.data]
     mine = [[r[1]] + [int(v) for v in r[2:]] for r in read if r and r[0] == "cell"]
     for c in cells:
-        if c[0] == "wedge" and not name.endswith(".su2"): # meshio has them as gmsh does, but for SU2 as they stand
+        if c[0] == "wedge": # meshio has them as gmsh does; in SU2 it writes them so, too, and they are read turned over
             c[1:] = [c[1], c[3], c[2], c[4], c[6], c[5]]
     if name.endswith(".su2"): # meshio sorts by kind
         cells.sort()

@@ -286,7 +286,7 @@ def opened(path):
     told = f"{scripts}/told"
     with open(f"{scripts}/xdg-open", "w") as f:
         f.write(f"""#!/bin/sh
-{{ printf '%s\\n' "$#" "$1"; stat -c %a "$1" "$(dirname "$1")"; ls -l "/proc/$$/fd" | grep -c 'socket:'; grep SigBlk /proc/$$/status; cat "$1"; }} >{told}.new 2>&1
+{{ printf '%s\\n' "$#" "$1"; stat -c %a "$1" "$(dirname "$1")"; ls -l "/proc/$$/fd" | grep -c 'socket:'; grep SigBlk /proc/self/status; cat "$1"; }} >{told}.new 2>&1
 mv {told}.new {told}
 """)
     os.chmod(f"{scripts}/xdg-open", 0o755)

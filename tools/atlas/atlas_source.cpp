@@ -6,8 +6,10 @@
 #include <map>
 #include <string_view>
 
+#include <taut/core/disjoint_sets.hpp>
 #include <taut/io/detail/obj_statements.hpp>
 #include <taut/io/write_obj.hpp>
+#include <taut/mesh/describe.hpp>
 
 #include "../failure.hpp"
 #include "../repair_report.hpp"
@@ -34,6 +36,18 @@ std::vector<idx> face_materials(std::string_view text)
                 now = numbers.emplace(in.rest_of_line(), static_cast<idx>(numbers.size())).first->second;
         });
     return numbers.size() > 1 ? materials : std::vector<idx>();
+}
+
+/// Whether triangles are one piece, by common corners.
+bool hang_together(std::span<const std::array<idx, 3>> cells)
+{
+    disjoint_sets pieces(static_cast<idx>(cells.size()));
+    std::map<idx, idx> at_corner; // the first triangle
+    std::size_t left = cells.size();
+    for (idx c = 0; c < static_cast<idx>(cells.size()); ++c)
+        for (const idx v : cells[static_cast<std::size_t>(c)])
+            if (const auto [at, first] = at_corner.try_emplace(v, c); !first && pieces.join(at->second, c)) --left;
+    return left <= 1;
 }
 
 /// OBJ, OFF, PLY or STL; written as OBJ, or as a new glTF document.
@@ -89,6 +103,7 @@ public:
                                        " is bent too far to be in one chart; write the surface as triangles");
                 t = map.cells[c][k];
             }
+        leave_out_parted(map, texcoords, changes);
         std::vector<vec2> uv(map.uv.begin(), map.uv.end());
         for (vec2& x : uv) x = to_obj(x);
         return {{path, [this, texcoords = std::move(texcoords), uv = std::move(uv)](io::atomic_file& out)
@@ -96,6 +111,31 @@ public:
     }
 
 private:
+    /// A polygon of which repair has left pieces apart has no place in the map that a program could cut from any
+    /// corner.
+    void leave_out_parted(const corner_map& map, std::vector<idx>& texcoords, std::vector<std::string>& changes) const
+    {
+        if (file_.faces.triangles.empty()) return;
+        const auto face = faces();
+        std::vector<idx> parted;
+        for (std::size_t first = 0, last = 0; first < face.size(); first = last)
+        {
+            while (last < face.size() && face[last] == face[first]) ++last;
+            if (last - first < 2 || hang_together(map.cells.subspan(first, last - first))) continue;
+            parted.push_back(face[first]);
+            for (std::size_t c = first; c < last; ++c)
+                for (std::size_t k = 0; k < 3; ++k)
+                {
+                    const auto [cell, corner] = origin(c, k);
+                    texcoords[file_.faces.corner(cell, corner)] = -1;
+                }
+        }
+        if (!parted.empty())
+            changes.push_back(
+                taut::detail::list_ids("face", "faces", parted) +
+                " of which repair has left pieces apart: without texture coordinates; write as triangles");
+    }
+
     /// The face of the file that each triangle is of.
     std::vector<idx> faces() const
     {

@@ -59,7 +59,11 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
     if (!thin.empty())
         report_mesh(report,
                     {mesh_fault::degenerate_cell, thin,
-                     list_cells(input, thin) + " flat; collapse an edge or move a vertex of each"},
+                     list_cells(input, thin) +
+                         (std::includes(state.inverted.begin(), state.inverted.end(), thin.begin(), thin.end())
+                              ? " flat"
+                              : " flat, or positive but too thin to be a shape at rest") +
+                         "; collapse an edge or move a vertex of each"},
                     true);
 }
 

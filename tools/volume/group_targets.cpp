@@ -102,8 +102,9 @@ void group_targets::transform(const std::string& name, std::size_t kind, const s
     if (kind == 4)
     {
         const vec3 axis(n[0], n[1], n[2]);
-        if (!(glm::length(axis) > 0)) throw usage_error("--move " + name + ": the axis of a rotation has no length");
-        motion.axis = glm::normalize(axis);
+        const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+        if (!(largest > 0)) throw usage_error("--move " + name + ": the axis of a rotation has no length");
+        motion.axis = glm::normalize(axis / largest); // whose length may be beyond the range of numbers
         motion.angle = n[3] * std::numbers::pi / 180;
     }
     if (kind == 3) motion.to += vec3(n[0], n[1], n[2]);

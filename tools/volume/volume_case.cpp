@@ -49,11 +49,10 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
     if (other.points.size() != file.points.size())
         throw unsuitable_input(rest + " has " + count(other.points.size(), "point", "points") + ", not " +
                                count(file.points.size()) + " as " + path);
-    // Which cells are turned, the shape at rest says.
+    // Which cells are turned, the shape at rest says, where the two files have the same order of corners.
     std::vector<idx> differing;
     std::set_symmetric_difference(file.turned.begin(), file.turned.end(), other.turned.begin(), other.turned.end(),
                                   std::back_inserter(differing));
-    io::turn_cells(file, differing);
     const auto cells_of = [](const io::volume_file& f)
     {
         std::vector<std::pair<io::cell_kind, std::vector<idx>>> cells;
@@ -62,6 +61,7 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
                           { cells.emplace_back(kind, std::vector<idx>(corners.begin(), corners.end())); });
         return cells;
     };
+    if (other.dimension == file.dimension && cells_of(other) != cells_of(file)) io::turn_cells(file, differing);
     if (other.dimension != file.dimension || cells_of(other) != cells_of(file))
         throw unsuitable_input(rest + " has other cells than " + path + "; give the same mesh at rest");
     file.rest = std::move(other.points);

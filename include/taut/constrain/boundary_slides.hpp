@@ -142,7 +142,8 @@ public:
                 else
                     return glm::cross(at(v[(k + 1) % n]) - at(v[k]), at(v[(k + n - 1) % n]) - at(v[k]));
             };
-            for (std::size_t k = 0; k < n; ++k) hold(v[k], normal(k));
+            for (std::size_t k = 0; k < n; ++k)
+                for (const idx corner : v) hold(corner, normal(k)); // a quad may be warped
             for_ends(facet,
                      [&](const std::array<idx, 2>& end, std::size_t k)
                      {

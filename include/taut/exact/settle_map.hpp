@@ -46,12 +46,18 @@ namespace detail
 inline double spacing_at(const vec2& p, vec2 (*stored)(vec2))
 {
     const double size = std::max({std::abs(p.x), std::abs(p.y), std::numeric_limits<double>::min()});
-    double step = std::exp2(std::floor(std::log2(size)) - 52);
-    if (stored == nullptr) return step;
+    const double least = std::exp2(std::floor(std::log2(size)) - 52);
+    if (stored == nullptr) return least;
     const vec2 x = stored(p);
-    for (int k = 0; k < 52; ++k, step *= 2)
-        if (const vec2 y = stored(x + step); y == x + step && y != x) return step;
-    return step;
+    double spacing = 0;
+    for (int c = 0; c < 2; ++c)
+    {
+        double change = 0;
+        for (double step = least; change == 0 && step < 2 * size; step *= 2)
+            change = std::abs(stored(x + step)[c] - x[c]);
+        spacing = std::max(spacing, change);
+    }
+    return std::max(spacing, least);
 }
 
 /// One run of settle_piece().
@@ -93,7 +99,9 @@ public:
             for (std::size_t k = 0; k < corners_.size(); ++k)
                 if (turn(corners_[k]) <= 0) any = make_convex(corners_[k]) || any;
             if (!any) break;
+            const std::size_t before = faults.concave;
             faults = look();
+            if (faults.concave >= before) break; // corners take turns: the polygon is too small for the digits
         }
         return faults;
     }

@@ -155,7 +155,7 @@ std::vector<idx> region_numbers(const volume_file& file)
     {
         const std::set<long long> values(label.values.begin(), label.values.end());
         const bool many = (file.format == "VTK" || file.format == "VTU") &&
-                          (values.size() > 256 || 4 * values.size() > label.values.size());
+                          (values.size() > 256 || (values.size() > 16 && 2 * values.size() > label.values.size()));
         if (!label.of_cells || label.values.size() != cells || many || values == std::set<long long>{0}) continue;
         labels.push_back(&label);
         if (label.name == "physical") break;
@@ -195,7 +195,10 @@ std::vector<kept_facet> kept_facets(const volume_file& file, bool boundary)
             if (shape_of(block.kind).dimension == file.dimension)
                 regions.push_back(numbers[number]);
             else if (shape_of(block.kind).dimension == file.dimension - 1)
-                faces.try_emplace(key_of(block.cell(c)), numbers[number]);
+            {
+                auto& label = faces[key_of(block.cell(c))]; // of copies, that of one that has any
+                label = label == 0 ? numbers[number] : label;
+            }
 
     const auto sides = cell_faces_of(file);
     std::vector<kept_facet> kept;
@@ -258,8 +261,9 @@ std::vector<mesh_finding> check_sides(const volume_file& file)
                          pairs(copies) + " of cells with the same corners; remove one of each"});
     if (!clashing.empty())
         found.push_back({mesh_fault::inconsistent_orientation, clashing,
-                         pairs(clashing) + " of cells oriented differently; swap two corners of one of each, so that "
-                                           "all agree"});
+                         pairs(clashing) +
+                             " of cells oriented differently, in whatever order their corners are; cut the "
+                             "mesh open there, or remove cells"});
     if (!crowded.empty())
         found.push_back({mesh_fault::non_manifold_facet, crowded,
                          (named == 2 ? taut::detail::list_ids("edge", "edges", crowded, named)

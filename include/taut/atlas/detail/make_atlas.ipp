@@ -86,7 +86,7 @@ private:
         params.observer = asking("pack");
         params.densities = densities_of(*charts_);
         const idx rows = (params.tiles + 9) / 10;
-        const double step = spacing_at(vec2(std::min(params.tiles, 10), rows) - 0.25, params_.stored);
+        const double step = spacing_at(params_.origin + vec2(std::min(params.tiles, 10), rows) - 0.25, params_.stored);
         params.rounding = std::max(params.rounding, 4 * step); // so far vertices may be moved
         outlines_ = find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
         layout_ = pack_outlined(flat_, outlines_, params);

@@ -119,7 +119,7 @@ inline std::string_view line_end_of(std::string_view text)
 }
 
 /// Appends statements without those that say vt; corners of faces get the texture coordinates that `texcoord` points
-/// at, in their order; -1: none.
+/// at, in their order; -1: none. Corners of lines and free-form surfaces, which have none in a map, get none.
 inline void append_rewritten(std::string& out, std::string_view statements, const idx* texcoord)
 {
     out.reserve(out.size() + statements.size() + statements.size() / 2);
@@ -151,6 +151,17 @@ inline void append_rewritten(std::string& out, std::string_view statements, cons
                                    copied = corner.texcoord_end;
                                    if (t >= 0 || (copied != end && *copied == '/')) out += '/';
                                    if (t >= 0) append_number(out, t + 1);
+                               }
+                           else if (key == "l" || key == "surf")
+                               while (!in.content_ends())
+                               {
+                                   const std::string_view corner = in.word();
+                                   const auto slash = corner.find('/');
+                                   if (slash == corner.npos) continue;
+                                   copy(corner.data() + slash);
+                                   const auto normal = corner.find('/', slash + 1);
+                                   copied = corner.data() + std::min(normal, corner.size());
+                                   if (normal != corner.npos) out += '/';
                                }
                        });
     copy(end);
@@ -226,8 +237,10 @@ void write_converted(Out& out, const File& file, std::span<const idx> texcoords,
                 [&](std::string& text, std::size_t f)
                 {
                     const std::size_t size = first[f + 1] - first[f];
-                    append_face(text, corners.subspan(first[f], size), texcoords.subspan(first[f], size),
-                                !normals.empty());
+                    const auto vertices = corners.subspan(first[f], size);
+                    if (size < 3 || std::find(vertices.begin(), vertices.end(), -1) != vertices.end())
+                        return; // no face of OBJ
+                    append_face(text, vertices, texcoords.subspan(first[f], size), !normals.empty());
                 });
 }
 

@@ -42,7 +42,7 @@ public:
         std::size_t some = first_; // of the corners that are left
         const auto look = [&](std::size_t i)
         {
-            const int rank = rank_of(i) + (crowded(before_[i], after_[i]) ? 3 : 0);
+            const int own = rank_of(i), rank = own == none || !crowded(before_[i], after_[i]) ? own : own + 2;
             ears_.emplace_back(rank, length(i), vertices_[i], i, ++stamp_[i]);
             std::push_heap(ears_.begin(), ears_.end(), std::greater<>());
         };
@@ -103,7 +103,7 @@ public:
     }
 
 private:
-    static constexpr int none = 2;                                    // the rank of a corner that is no ear
+    static constexpr int none = 4;                                    // the rank of a corner that is no ear
     static constexpr std::size_t gone = static_cast<std::size_t>(-1); // the stamp of a corner that was cut off
 
     /// Flattens the polygon along the main axis of its normal, so that it turns counter-clockwise.
@@ -204,7 +204,8 @@ private:
     /// Whether the outline goes to corner i and back.
     bool returns(std::size_t i) const { return vertices_[before_[i]] == vertices_[after_[i]]; }
 
-    /// 0: corner i is an ear. 1: one that is thin, or leaves corners on its diagonal. 2: it is none.
+    /// 0: corner i is an ear. 1: one that is thin, or leaves corners on its diagonal. Those with a crowded diagonal
+    /// come after them, and what is no ear, whose triangle would lie over others, comes last.
     int rank_of(std::size_t i)
     {
         constexpr double thin = 1e-8; // of what would be left, or is cut off

@@ -83,7 +83,7 @@ public:
         for (;;)
         {
             const char* p = at_;
-            while (p != end_ && !is_line_end(*p)) ++p;
+            for (; p != end_ && !is_line_end(*p); ++p) joined = joined && *p != '#'; // a comment ends with its line
             at_ = p;
             const bool goes_on = joined && at_ != begin_ && at_ != end_ && at_[-1] == '\\';
             skip_line_end();

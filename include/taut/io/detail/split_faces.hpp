@@ -224,7 +224,7 @@ private:
                     f, [&](std::size_t a, std::size_t c) { return beside.on_edge(vertices[a], vertices[c]); }, found);
                 const auto hand_over = [&](std::size_t g, bool)
                 {
-                    if (is_polygon(g)) open.push_back(g);
+                    if (is_polygon(g) && unusable_corner(g) == u(sizes_[g])) open.push_back(g);
                     return false;
                 };
                 any_diagonal(f, found, [&](idx v, idx w) { return beside.any(v, w, hand_over); });

@@ -342,7 +342,8 @@ protected:
     /// Whether it ended by rounding, and not where it should.
     bool stalled(const solve::report& r) const
     {
-        constexpr double of_rounding = 1e-8; // a tolerance that is larger is meant
+        constexpr double of_rounding = 1e-8;                      // a tolerance that is larger is meant
+        if (r.stop == solve::stop::not_finite_start) return true; // in float, of a shape that is certified
         return r.gradient_norm > solve_.stopping.gradient_tolerance &&
                (r.stop == solve::stop::line_search || r.stop == solve::stop::barrier ||
                 (r.stop == solve::stop::decrease && solve_.stopping.decrease_tolerance < of_rounding));
