@@ -243,6 +243,32 @@ def doublets(taut):
         taut("eval", "out.obj")
 
 
+def forced_diagonals(taut):
+    """A concave polygon is cut along its one inner diagonal even where that is an edge of another face."""
+    dart = [(0, 1, 0), (-1, -1, 0), (0, -0.5, 0), (1, -1, 0)]
+    leaf = obj(dart, [(0, 1, 2, 3), (0, 2, 1), (0, 3, 2)])
+    taut.write("leaf.obj", leaf)
+    taut("atlas", "leaf.obj", "-o", "out.obj", code=4)
+    fin = obj(dart + [(0, 0, 1)], [(0, 1, 2, 3), (0, 2, 4)])
+    taut.write("fin.obj", fin)
+    taut("atlas", "fin.obj", "-o", "out.obj", "--repair")
+    _, faces, maps = read_obj(taut.read("out.obj").decode())
+    distances = lambda face: [math.dist(face[i], face[j]) for i in range(4) for j in range(i)]
+    ratios = [a / b for a, b in zip(distances(maps[0]), distances([p[:2] for p in dart]))]
+    assert max(ratios) < min(ratios) * (1 + 1e-6), ratios  # it comes out as it is
+    require_valid([[maps[0][k] for k in t] for t in ((0, 1, 2), (0, 2, 3))])
+
+
+def parted_polygons(taut):
+    """A polygon of which repair leaves pieces apart has no place in the map, and is told."""
+    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (-1, 0, 0), (-1, -1, 0), (3, 0, 0), (4, 0, 0), (3, 1, 0)]
+    taut.write("eight.obj", obj(points, [(0, 1, 2, 0, 3, 4), (5, 6, 7)]))
+    run = taut("atlas", "eight.obj", "-o", "out.obj", "--repair")
+    _, faces, maps = read_obj(taut.read("out.obj").decode())
+    assert [None in m for m in maps] == [True, False], maps
+    assert "1 face (0) of which repair has left pieces apart" in run.stderr, run.stderr
+
+
 def slit(outer, holes):
     """One face of an outline and holes, which it runs into along slits from its first corner."""
     points, face = list(outer), list(range(len(outer)))
@@ -324,4 +350,4 @@ def pinned_charts_hold(taut):
 
 
 if __name__ == "__main__":
-    main(rounding_is_settled, doublets, faces_with_holes, polygons_stay_convex, pinned_charts_hold)
+    main(rounding_is_settled, doublets, forced_diagonals, parted_polygons, faces_with_holes, polygons_stay_convex, pinned_charts_hold)

@@ -194,5 +194,26 @@ def counts_times_counts(run):
     run("atlas", "in.obj", "-o", "out.obj", "--seams", "seams.txt", timeout=120)
 
 
+def what_faces_are_not(run):
+    """Lines lose the texture coordinates that are gone; faces of vertices that are not there, or of fewer than three, are
+    no faces of OBJ; comments end with their line."""
+    run.write("lines.obj", obj(before="vt 0 0\nvt 1 0\nvt 1 1\n" * 99, after="l 1/297 2/296 3/295\nsurf 0 1 0 1 1/2/3 2//4 3\n"))
+    for command in ("atlas", "unwrap"):
+        run(command, "lines.obj", "-o", "out.obj")
+        lines = run.read("out.obj").decode().splitlines()
+        assert "l 1 2 3" in lines and "surf 0 1 0 1 1//3 2//4 3" in lines, lines[-3:]
+    run.write("faces.off", "OFF\n%d %d 0\n" % (len(POINTS), len(FACES) + 3) + "".join("%g %g %g\n" % p for p in POINTS)
+              + "".join("3 %d %d %d\n" % f for f in FACES) + "3 0 1 -1\n2 0 1\n1 0\n")
+    run("atlas", "faces.off", "-o", "out.obj", "--repair")
+    assert sum(line.startswith("f ") for line in run.read("out.obj").decode().splitlines()) == len(FACES)
+    run("eval", "out.obj")
+    first, *rest = FACES
+    text = obj(faces=[(*map(lambda v: str(v + 1), first), "# c:\\a\\"), *rest])
+    run.write("comment.obj", text)
+    run("atlas", "comment.obj", "-o", "out.obj")
+    assert all(line.split()[1].count("/") == 1 for line in run.read("out.obj").decode().splitlines()
+               if line.startswith("f "))
+
+
 if __name__ == "__main__":
-    main(names_with_backslash, old_texture_coordinates, left_out, far_pins, encodings, counts_times_counts)
+    main(names_with_backslash, what_faces_are_not, old_texture_coordinates, left_out, far_pins, encodings, counts_times_counts)

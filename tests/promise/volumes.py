@@ -562,5 +562,58 @@ def any_size(taut):
             assert all(math.dist(p, q) < 1e-6 for p, q in zip(back, best)), (kind, exponent)
 
 
+def interfaces_of_any_kind(taut):
+    """Named lines with copies, few cells a region, and warped faces: interfaces all the same."""
+    square = split(quads(4, 2), "triangle")
+    moved = Mesh([(x + 0.1 * (x == 0.25 and y == 0.5), y - 0.05 * (x == y == 0.5)) for x, y in square.points],
+                 square.cells)
+    edges = "".join(f"{a} {b} {label}\n" for a, b in ((3, 8), (8, 13)) for label in (0, 7))
+    taut.write("copies.mesh", moved.medit()[:-4] + "Edges\n4\n" + edges + "End\n")
+    taut("smooth", "copies.mesh", "-o", "out.mesh")
+    assert all(read_points(taut, "out.mesh")[v][0] == 0.5 for v in (2, 7, 12))
+
+    columns = quads(3, 3)
+    shaken = Mesh([(x + 0.05 * (0.3 < x < 0.4), y + 0.04 * (0 < y < 1 and 0.6 < x < 0.7)) for x, y in columns.points],
+                  columns.cells)
+    labels = [1 + c % 3 for c in range(9)]
+    taut.write("few.vtk", shaken.vtk(binary=False) + b"CELL_DATA 9\nSCALARS material int 1\nLOOKUP_TABLE default\n"
+               + "\n".join(map(str, labels)).encode() + b"\n")
+    taut("smooth", "few.vtk", "-o", "out.vtk")
+    points = read_points(taut, "out.vtk")
+    assert all(points[v][0] == shaken.points[v][0] for v in range(16) if v % 4 in (1, 2))
+
+    cubes = hexahedra((2, 2, 2))
+    middle = next(v for v, p in enumerate(cubes.points) if p == (0.5, 0.5, 0.5))
+    warped = Mesh([(0.58, 0.56, 0.48) if v == middle else p for v, p in enumerate(cubes.points)], cubes.cells)
+    material = [1 if sum(cubes.points[v][0] for v in c) / 8 < 0.5 else 2 for _, c in cubes.cells]
+    taut.write("warped.mesh", warped.medit(material))
+    taut("smooth", "warped.mesh", "-o", "out.mesh")
+    points = read_points(taut, "out.mesh")
+    assert all(points[v] == warped.points[v] for v, p in enumerate(cubes.points) if p[0] == 0.5), points
+
+
+def long_axes(taut):
+    """A rotation has an axis, of whatever length."""
+    cube = split(hexahedra((1, 1, 1)), "tetrahedron")
+    sides = [[v + 1 for v in c] for c in ([k for k, p in enumerate(cube.points) if p[0] == 0],)]
+    text = cube.medit()[:-4] + f"RequiredVertices\n{len(sides[0])}\n" + "\n".join(map(str, sides[0])) + "\nEnd\n"
+    taut.write("in.mesh", text)
+    wanted = None
+    for length in ("1", "1e300", "1e-170"):
+        taut("deform", "in.mesh", "-o", "out.mesh", "--move", f"required_vertices:rotate:{length},0,0,30")
+        points = read_points(taut, "out.mesh")
+        wanted = wanted or points
+        assert all(math.dist(p, q) < 1e-9 for p, q in zip(points, wanted)), length
+
+
+def beside_the_boundary(taut):
+    """Where single precision of the device sees no area, smoothing goes on in double."""
+    square = split(quads(2, 2), "triangle")
+    taut.write("in.mesh", Mesh([(1e-15 if p == (0.5, 0.5) else p[0], p[1]) for p in square.points], square.cells).medit())
+    taut("smooth", "in.mesh", "-o", "out.mesh")
+    assert read_points(taut, "out.mesh")[4][0] > 0.1
+    taut("check", "out.mesh")
+
+
 main(single_precision, pins_in_single_precision, page_saves, pins_of_untangle, winding, turned_cells, tangled_is_not_turned,
-     what_no_turning_mends, problems, clockwise_su2, interfaces, any_size)
+     what_no_turning_mends, problems, clockwise_su2, interfaces, interfaces_of_any_kind, long_axes, beside_the_boundary, any_size)
