@@ -712,13 +712,15 @@ TEST_CASE("gltf: a new model lies about its middle where floats do not hold it, 
     const auto node_of = [](const io::gltf_model& model) { return model.source.document["nodes"][0]; };
     CHECK(node_of(io::gltf_of(grown(vec3(0), 1), triangles)) == gltf_json{{"mesh", 0}});
     CHECK(node_of(io::gltf_of(grown(vec3(7, 0, 0), 1), triangles)) == gltf_json{{"mesh", 0}});
-    for (const auto& [shift, size] : {std::pair(vec3(500000.1, 5400000.3, 12), 1.0),
-                                      {vec3(0), 1e60},
-                                      {vec3(0), 1e-80},
-                                      {vec3(1e9, 0, -1e9), 1e-3},
-                                      {vec3(3e307), 2e307},
-                                      {vec3(0), 1e-307}})
+    using place = std::pair<vec3, double>;
+    for (const auto& [shift, times] : {place(vec3(500000.1, 5400000.3, 12), 1.0),
+                                       {vec3(0), 1e60},
+                                       {vec3(0), 1e-80},
+                                       {vec3(1e9, 0, -1e9), 1e-3},
+                                       {vec3(3e307), 2e307},
+                                       {vec3(0), 1e-307}})
     {
+        const double size = times; // which lambdas may capture
         CAPTURE(size);
         const auto points = grown(shift, size);
         const auto model = io::gltf_of(points, triangles);
