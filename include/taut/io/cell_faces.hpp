@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -94,8 +96,11 @@ std::span<const std::array<int, 4>> face_table(cell_kind kind)
 template <class = void>
 cell_faces cell_faces_of(const volume_file& file)
 {
+    std::size_t n = 0;
+    for (const auto& block : file.cells)
+        if (shape_of(block.kind).dimension == file.dimension) n += block.size() * detail::face_table(block.kind).size();
     cell_faces result;
-    std::vector<std::array<idx, 4>> keys;
+    result.faces.reserve(n);
     for_each_cell(file, file.dimension,
                   [&](cell_kind kind, idx number, std::span<const idx> corners)
                   {
@@ -104,39 +109,56 @@ cell_faces cell_faces_of(const volume_file& file)
                           auto& face = result.faces.emplace_back(cell_face{number, {-1, -1, -1, -1}});
                           for (std::size_t k = 0; k < 4; ++k)
                               if (side[k] >= 0) face.vertices[k] = corners[static_cast<std::size_t>(side[k])];
-                          keys.push_back(face.vertices);
-                          std::sort(keys.back().begin(), keys.back().end());
                       }
                   });
-    const auto key = [&](idx side) -> const auto&
+
+    struct entry
     {
-        return keys[static_cast<std::size_t>(side)];
+        std::uint64_t others; // the two largest corners
+        idx between, side;    // of a quad the corner between them and the smallest, else -1
+
+        bool same(const entry& e) const { return others == e.others && between == e.between; }
+        bool operator<(const entry& e) const
+        {
+            return std::tie(others, between, side) < std::tie(e.others, e.between, e.side);
+        }
     };
-    std::vector<idx> order(keys.size());
+    std::vector<entry> order(n);
     const auto smallest = [&](std::size_t side)
     {
         const auto corners = result.faces[side].corners();
         return *std::min_element(corners.begin(), corners.end());
     };
-    const auto start = taut::detail::counting_sort(keys.size(), file.points.size(), smallest,
-                                                   [&](std::size_t side, std::size_t position)
-                                                   { order[position] = static_cast<idx>(side); });
+    const auto start = taut::detail::counting_sort(
+        n, file.points.size(), smallest,
+        [&](std::size_t side, std::size_t position)
+        {
+            auto key = result.faces[side].vertices; // -1 in front when sorted: the smallest corner is left out below
+            std::sort(key.begin(), key.end());
+            const bool quad = key[0] >= 0;
+            const idx low = key[1] >= 0 ? key[2] : -1; // of an edge in the plane there is one other corner
+            order[position] = {(static_cast<std::uint64_t>(static_cast<std::uint32_t>(low)) << 32) |
+                                   static_cast<std::uint32_t>(key[3]),
+                               quad ? key[1] : -1, static_cast<idx>(side)};
+        });
     parallel_for(file.points.size(),
                  [&](std::size_t begin, std::size_t end)
                  {
                      for (std::size_t v = begin; v < end; ++v)
-                         std::sort(order.begin() + start[v], order.begin() + start[v + 1],
-                                   [&](idx a, idx b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+                         std::sort(order.begin() + start[v], order.begin() + start[v + 1]);
                  });
-    result.twin.assign(keys.size(), cell_faces::boundary);
-    for (std::size_t first = 0, last = 0; first < order.size(); first = last)
-    {
-        while (last < order.size() && key(order[last]) == key(order[first])) ++last;
-        if (last - first == 1) continue;
-        for (std::size_t k = first; k < last; ++k)
-            result.twin[static_cast<std::size_t>(order[k])] =
-                last - first > 2 ? cell_faces::crowded : order[k == first ? last - 1 : first];
-    }
+    result.twin.assign(n, cell_faces::boundary);
+    for (std::size_t v = 0; v < file.points.size(); ++v)
+        for (auto first = static_cast<std::size_t>(start[v]), last = first,
+                  end = static_cast<std::size_t>(start[v + 1]);
+             first < end; first = last)
+        {
+            while (last < end && order[last].same(order[first])) ++last;
+            if (last - first == 1) continue;
+            for (std::size_t k = first; k < last; ++k)
+                result.twin[static_cast<std::size_t>(order[k].side)] =
+                    last - first > 2 ? cell_faces::crowded : order[k == first ? last - 1 : first].side;
+        }
     return result;
 }
 

@@ -53,17 +53,19 @@ struct cell_shape
     const char *name, *names;
 };
 
-constexpr cell_shape shape_of(cell_kind kind)
+/// By cell_kind.
+inline constexpr std::array<cell_shape, 8> cell_shapes = {{{0, 1, "vertex", "vertices"},
+                                                           {1, 2, "line", "lines"},
+                                                           {2, 3, "triangle", "triangles"},
+                                                           {2, 4, "quad", "quads"},
+                                                           {3, 4, "tetrahedron", "tetrahedra"},
+                                                           {3, 5, "pyramid", "pyramids"},
+                                                           {3, 6, "wedge", "wedges"},
+                                                           {3, 8, "hexahedron", "hexahedra"}}};
+
+constexpr const cell_shape& shape_of(cell_kind kind)
 {
-    constexpr std::array<cell_shape, 8> shapes = {{{0, 1, "vertex", "vertices"},
-                                                   {1, 2, "line", "lines"},
-                                                   {2, 3, "triangle", "triangles"},
-                                                   {2, 4, "quad", "quads"},
-                                                   {3, 4, "tetrahedron", "tetrahedra"},
-                                                   {3, 5, "pyramid", "pyramids"},
-                                                   {3, 6, "wedge", "wedges"},
-                                                   {3, 8, "hexahedron", "hexahedra"}}};
-    return shapes[static_cast<std::size_t>(kind)];
+    return cell_shapes[static_cast<std::size_t>(kind)];
 }
 
 /// Cells of one kind that follow each other in a file.

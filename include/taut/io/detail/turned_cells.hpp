@@ -32,12 +32,9 @@ std::vector<double> corner_measures(const volume_file& file)
     }
     const bool has_signs = Element::dimension == 3 || flat;
     const int exponent = most > 0 ? -std::ilogb(most) : 0;
-    const auto place = [&](idx v)
-    {
-        vec<Element::dimension> p(x[static_cast<std::size_t>(v)]);
-        for (int k = 0; k < Element::dimension; ++k) p[k] = std::ldexp(p[k], exponent);
-        return p;
-    };
+    const double up = std::ldexp(1.0, exponent / 2),
+                 on = std::ldexp(1.0, exponent - exponent / 2); // one could overflow
+    const auto place = [&](idx v) { return vec<Element::dimension>(x[static_cast<std::size_t>(v)]) * up * on; };
     std::vector<double> measures;
     for_each_cell(file, Element::dimension,
                   [&](cell_kind, idx, std::span<const idx> corners)
