@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(taut_config_dir ${CMAKE_INSTALL_DATADIR}/cmake/taut)
 
-install(TARGETS taut EXPORT taut-targets)
+install(TARGETS taut_headers EXPORT taut-targets)
 install(DIRECTORY include/taut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT taut-targets NAMESPACE taut:: DESTINATION ${taut_config_dir})
 configure_package_config_file(cmake/taut-config.cmake.in ${PROJECT_BINARY_DIR}/taut-config.cmake
@@ -11,7 +11,7 @@ configure_package_config_file(cmake/taut-config.cmake.in ${PROJECT_BINARY_DIR}/t
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/taut-config-version.cmake
                                  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(DIRECTORY src DESTINATION ${taut_config_dir})
-install(FILES cmake/dependencies.cmake cmake/compiled.cmake
+install(FILES cmake/dependencies.cmake cmake/bodies.cmake
               ${PROJECT_BINARY_DIR}/taut-config.cmake
               ${PROJECT_BINARY_DIR}/taut-config-version.cmake
         DESTINATION ${taut_config_dir})

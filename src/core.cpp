@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// The bodies of core/, compute/ and energy/ for the compiled form.
 #include <taut/compute/detail/choose_device.ipp>
 #include <taut/compute/detail/device.ipp>
 #include <taut/compute/detail/queue.ipp>

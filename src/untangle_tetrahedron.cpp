@@ -1,7 +1,2 @@
 // SPDX-License-Identifier: MIT
-// untangle() for the compiled form.
-#include <taut/untangle/untangle.hpp>
-#include <taut/untangle/untangle_on_device.hpp>
-
-template taut::untangle_result<taut::tetrahedron> taut::untangle(const queue&, const untangle_problem<tetrahedron>&,
-                                                                 const untangle_params&);
+#include <taut/untangle/detail/untangle_tetrahedron.ipp>

@@ -100,6 +100,6 @@ flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatte
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/atlas/detail/flatten_charts.ipp>
 #endif

@@ -52,6 +52,6 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params =
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/atlas/detail/make_atlas.ipp>
 #endif

@@ -167,6 +167,6 @@ segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& fl
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/atlas/detail/segment.ipp>
 #endif

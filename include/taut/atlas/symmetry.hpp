@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <taut/config.hpp>
 #include <taut/core/csr.hpp>
 #include <taut/core/error.hpp>
 #include <taut/mesh/facets.hpp>
@@ -77,6 +76,6 @@ mirror_symmetry find_symmetry(const mesh<triangle>& m, const facet_table& f, std
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/atlas/detail/symmetry/find_symmetry.ipp>
 #endif

@@ -7,7 +7,6 @@
 
 #include <taut/compute/device.hpp>
 #include <taut/compute/errors.hpp>
-#include <taut/config.hpp>
 
 namespace taut
 {
@@ -30,20 +29,20 @@ struct listed_device
 std::string refusal(const device& d, const device_requirements& needs = {});
 
 /// Every device of every platform, in the order of the driver loader: TAUT_DEVICE counts them in this order, from 0.
-TAUT_ON_USE std::vector<listed_device> devices(const device_requirements& needs = {});
+std::vector<listed_device> devices(const device_requirements& needs = {});
 
 /// The device that a wish names: an index into devices(), or a part of a device's, vendor's or platform's name, in any
 /// case. Of several that fit, and for an empty wish, the best one: double precision before none, then GPU before CPU,
 /// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits; what the message then
 /// calls the wish is `said` and the wish.
-TAUT_ON_USE device find_device(const std::string& wish, const device_requirements& needs = {},
+device find_device(const std::string& wish, const device_requirements& needs = {},
                                const std::string& said = "the wish ");
 
 /// The device that TAUT_DEVICE names if it is set, else the best one; see find_device.
-TAUT_ON_USE device choose_device(const device_requirements& needs = {});
+device choose_device(const device_requirements& needs = {});
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/compute/detail/choose_device.ipp>
 #endif

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <taut/compute/detail/cl.hpp>
-#include <taut/config.hpp>
 
 namespace taut
 {
@@ -84,6 +83,6 @@ private:
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/compute/detail/device.ipp>
 #endif

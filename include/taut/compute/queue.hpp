@@ -90,6 +90,6 @@ private:
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/compute/detail/queue.ipp>
 #endif

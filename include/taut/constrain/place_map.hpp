@@ -41,8 +41,7 @@ inline std::array<std::complex<double>, 3> images_of_axes(const mesh<triangle>& 
 }
 
 /// The direction of a map's longer principal axis, from the broad end to the thin one, as a complex number.
-template <class = void>
-std::complex<double> principal_direction(const mesh<triangle>& m, std::span<const vec2> uv)
+inline std::complex<double> principal_direction(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     struct lump
     {
@@ -72,8 +71,7 @@ std::complex<double> principal_direction(const mesh<triangle>& m, std::span<cons
 /// along y from above is that of a map. Where none is seen (a torus cut open), the longer principal axis comes to lie
 /// along u. It follows from the surface and the map alone, and changes continuously with them but where the choice of
 /// the axis is even.
-template <class = void>
-std::complex<double> upright_turn(const mesh<triangle>& m, std::span<const vec2> uv)
+inline std::complex<double> upright_turn(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     const auto images = images_of_axes(m, uv);
     double area = 0, seen = 0;
@@ -116,8 +114,7 @@ inline placed_map in_corner(std::vector<vec2> uv, double side)
 }
 
 /// A map of m, put upright.
-template <class = void>
-std::vector<vec2> turned_up(const mesh<triangle>& m, std::vector<vec2> uv)
+inline std::vector<vec2> turned_up(const mesh<triangle>& m, std::vector<vec2> uv)
 {
     const auto turn = upright_turn(m, uv);
     for (vec2& p : uv)

@@ -5,7 +5,6 @@
 #include <memory>
 #include <type_traits>
 
-#include <taut/config.hpp>
 
 namespace taut
 {
@@ -38,6 +37,6 @@ void parallel_for(std::size_t n, Body&& body, unsigned threads = 0, std::size_t 
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/core/detail/parallel.ipp>
 #endif

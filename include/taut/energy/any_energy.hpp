@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <taut/config.hpp>
 #include <taut/energy/eigenvalue_filter.hpp>
 #include <taut/energy/element.hpp>
 #include <taut/energy/symmetric_matrix.hpp>
@@ -170,6 +169,6 @@ any_energy default_energy();
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/energy/detail/default_energy.ipp>
 #endif

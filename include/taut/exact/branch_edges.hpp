@@ -100,8 +100,7 @@ private:
 /// cells: #T by 4 vertex indices, in range; x: one image point a vertex. owners: where tetrahedra are the corners of
 /// other cells, the cell of each; a cell is then an edge of the links of its own edges alone. Smaller vertex first,
 /// ascending.
-template <class = void>
-std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x,
+inline std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x,
                                              std::span<const idx> owners = {})
 {
     const detail::edge_turns turns(cells, x, owners);

@@ -91,8 +91,7 @@ inline std::size_t most_curved_axis(const jacobian_polynomial& p)
 }
 
 /// By bounds and halving; boxes: how many parts may be looked at.
-template <class = void>
-cell_validity validity_of(const jacobian_polynomial& whole, std::size_t boxes)
+inline cell_validity validity_of(const jacobian_polynomial& whole, std::size_t boxes)
 {
     std::vector<jacobian_polynomial> open{whole};
     for (; !open.empty(); --boxes)
@@ -162,8 +161,7 @@ inline jacobian_polynomial pyramid_jacobian(std::span<const vec3> x)
 }
 
 /// Whether a simplex at a corner of the cell is not positive, by exact signs.
-template <class = void>
-bool has_bad_corner(std::span<const vec3> x)
+inline bool has_bad_corner(std::span<const vec3> x)
 {
     const auto all = corner_tetrahedra(x.size());
     return std::any_of(all.begin(), all.end(),
@@ -182,8 +180,7 @@ bool has_bad_corner(std::span<const vec3> x)
 /// Bernstein coefficients are its values at the four corners.
 ///
 /// boxes: how many parts may be looked at before it is left undecided
-template <class = void>
-cell_validity validity_of_cell(std::span<const vec3> corners, std::size_t boxes = 2000)
+inline cell_validity validity_of_cell(std::span<const vec3> corners, std::size_t boxes = 2000)
 {
     if (!std::all_of(corners.begin(), corners.end(), [](const vec3& p) { return detail::finite(p); }))
         return cell_validity::invalid;

@@ -82,7 +82,6 @@ struct edge_box
 
 /// A binary tree of boxes about edges: halves along the longer side of what a node holds. Of edges in groups, as the
 /// borders of charts are, each group is a tree by itself, and the tree of all is one of groups.
-template <class = void>
 class edge_tree
 {
 public:
@@ -339,7 +338,7 @@ bool for_each_meeting(std::span<const std::array<idx, 2>> edges, std::span<const
     };
     if (edges.size() > few)
     {
-        edge_tree<>(edges, x).for_each_pair(look);
+        edge_tree(edges, x).for_each_pair(look);
         return all;
     }
     std::array<edge_box, few> boxes;
@@ -366,8 +365,7 @@ inline std::vector<std::array<idx, 2>> edges_of(std::span<const std::vector<idx>
 /// and overlaps. Exact. 0 together with a clean certificate means that a disk's map is injective.
 ///
 /// loops: boundary loops as vertex indices, each of at least two; x: #V image points, finite.
-template <class = void>
-std::size_t boundary_crossings(std::span<const std::vector<idx>> loops, std::span<const vec2> x)
+inline std::size_t boundary_crossings(std::span<const std::vector<idx>> loops, std::span<const vec2> x)
 {
     std::size_t count = 0;
     detail::for_each_meeting(detail::edges_of(loops), x,
@@ -388,8 +386,7 @@ struct crossing_count
 
 /// boundary_crossings() that ends at `most` crossings, or where there is too much to look at: charts that lie on each
 /// other have as many crossings as pairs of edges.
-template <class = void>
-crossing_count count_boundary_crossings(std::span<const std::vector<idx>> loops, std::span<const vec2> x,
+inline crossing_count count_boundary_crossings(std::span<const std::vector<idx>> loops, std::span<const vec2> x,
                                         std::size_t most = 100'000)
 {
     const auto edges = detail::edges_of(loops);

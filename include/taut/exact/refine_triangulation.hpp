@@ -42,8 +42,7 @@ inline std::optional<vec2> off_centre(const std::array<vec2, 3>& x)
 /// that is possible without a point on an edge that is fixed. Triangles that are chosen and others are parted by fixed
 /// edges. Graded: triangles become as large as their distance from small edges allows.
 /// chosen: one flag a triangle; triangles that are added are chosen ones. most: so many points at most.
-template <class = void>
-void refine(planar_triangulation& t, std::span<const char> chosen, std::size_t most)
+inline void refine(planar_triangulation& t, std::span<const char> chosen, std::size_t most)
 {
     std::deque<idx> bad;
     for (std::size_t c = 0; c < chosen.size(); ++c)

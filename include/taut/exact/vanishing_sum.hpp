@@ -25,8 +25,7 @@ struct nonnegative_fit
 };
 
 /// The least squares of target - sum weights column over weights >= 0: Lawson and Hanson's active sets.
-template <class = void>
-nonnegative_fit fit_nonnegative(std::span<const std::vector<double>> columns, const std::vector<double>& target)
+inline nonnegative_fit fit_nonnegative(std::span<const std::vector<double>> columns, const std::vector<double>& target)
 {
     constexpr double tolerance = 1e-12;
     const std::size_t n = columns.size();
@@ -112,8 +111,7 @@ nonnegative_fit fit_nonnegative(std::span<const std::vector<double>> columns, co
 
 /// True if weights, none negative and not all 0, make the sum of the columns vanish, exact; the weights are the only
 /// ones but for a factor. False where there are none or too many to tell. Elimination without fractions (Bareiss).
-template <class = void>
-bool vanishes(std::vector<std::vector<big_integer>> columns)
+inline bool vanishes(std::vector<std::vector<big_integer>> columns)
 {
     if (columns.empty()) return false;
     // Those of small numbers first: what follows grows from them.

@@ -108,5 +108,7 @@ void write_gltf(const std::filesystem::path& path, const gltf_model& model,
 
 } // namespace taut::io
 
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/gltf/detail/read_gltf.ipp>
 #include <taut/gltf/detail/write_gltf.ipp>
+#endif

@@ -30,14 +30,13 @@ struct coarser_volume
 /// proceed: asked between rounds: go on?
 ///
 /// Throws parameter_error. About 10 us a vertex.
-template <class = void>
-coarser_volume make_coarser(const mesh<tetrahedron>& m, std::span<const char> kept = {}, double factor = 8,
+inline coarser_volume make_coarser(const mesh<tetrahedron>& m, std::span<const char> kept = {}, double factor = 8,
                             const std::function<bool()>& proceed = {})
 {
     const std::size_t n = m.points().size();
     if (!kept.empty() && kept.size() != n) throw parameter_error("kept", "must have one flag a vertex, or none");
     if (!(factor >= 2)) throw parameter_error("factor", "must be at least 2");
-    detail::volume_thinning<> thinning(m, kept);
+    detail::volume_thinning thinning(m, kept);
     double left = double(kept.empty() ? n : static_cast<std::size_t>(std::count(kept.begin(), kept.end(), 0)));
     const double enough = left / factor;
     using rules = detail::volume_collapse_rules;

@@ -25,8 +25,7 @@ namespace taut
 /// A surface that cannot be thinned has one level. Linear time, about 1 us a triangle on two cores; the result takes 70
 /// bytes a triangle, 160 while it is built.
 /// Throws mesh_error (non_manifold_vertex) if the triangles of a vertex do not form one oriented fan, parameter_error.
-template <class = void>
-hierarchy<triangle> make_hierarchy(const mesh<triangle>& m, std::span<const char> keep = {},
+inline hierarchy<triangle> make_hierarchy(const mesh<triangle>& m, std::span<const char> keep = {},
                                    const hierarchy_params& params = {})
 {
     params.validate();

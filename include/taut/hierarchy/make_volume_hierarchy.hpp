@@ -71,8 +71,7 @@ point_cloud cloud_of(const mesh<Element>& m, std::span<const char> held)
 /// boundary: the faces of the boundary, where the cells overlap, so that their own do not say it; else empty
 ///
 /// Linear time, about 5 us a vertex on two cores. Throws parameter_error.
-template <class = void>
-hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<const char> held = {},
+inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<const char> held = {},
                                       const hierarchy_params& params = {},
                                       std::span<const std::array<idx, 3>> boundary = {})
 {
@@ -85,8 +84,7 @@ hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<cons
 }
 
 /// The same of the hinges of a surface: none of its vertices stands out.
-template <class = void>
-hierarchy<hinge> make_hierarchy(const mesh<hinge>& m, std::span<const char> held = {},
+inline hierarchy<hinge> make_hierarchy(const mesh<hinge>& m, std::span<const char> held = {},
                                 const hierarchy_params& params = {})
 {
     params.validate();

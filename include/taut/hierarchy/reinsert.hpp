@@ -119,8 +119,7 @@ inline bool place(const removals<triangle>& removed, std::size_t r, std::span<co
 /// coarse: one image a vertex of level + 1
 ///
 /// Throws parameter_error if an argument has the wrong size.
-template <class = void>
-reinsertion reinsert(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
+inline reinsertion reinsert(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
                      std::span<const vec2> coarse, const reinsert_params& params = {})
 {
     params.validate();

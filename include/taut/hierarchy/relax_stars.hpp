@@ -27,7 +27,6 @@ struct relaxed_energy
 
 /// A map of a surface whose vertices are improved one at a time, where triangles are badly distorted.
 /// Every step keeps all triangles surely positive.
-template <class = void>
 class star_relaxation
 {
 public:

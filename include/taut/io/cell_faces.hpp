@@ -58,8 +58,7 @@ namespace detail
 {
 
 /// Corners of the sides of a cell, by VTK's numbers; -1 behind the last.
-template <class = void>
-std::span<const std::array<int, 4>> face_table(cell_kind kind)
+inline std::span<const std::array<int, 4>> face_table(cell_kind kind)
 {
     using face = std::array<int, 4>;
     static constexpr std::array<face, 3> triangle = {{{0, 1, -1, -1}, {1, 2, -1, -1}, {2, 0, -1, -1}}};
@@ -93,8 +92,7 @@ std::span<const std::array<int, 4>> face_table(cell_kind kind)
 } // namespace detail
 
 /// Time O(n log(largest valence)).
-template <class = void>
-cell_faces cell_faces_of(const volume_file& file)
+inline cell_faces cell_faces_of(const volume_file& file)
 {
     std::size_t n = 0;
     for (const auto& block : file.cells)
@@ -167,8 +165,7 @@ namespace detail
 
 /// Numbers of the cells of a file by what they are labelled with, 0: with nothing. Of gmsh files physical groups or
 /// else entities count, of VTK arrays those that are no numbers of single cells.
-template <class = void>
-std::vector<idx> region_numbers(const volume_file& file)
+inline std::vector<idx> region_numbers(const volume_file& file)
 {
     std::size_t cells = 0;
     for (const auto& block : file.cells) cells += block.size();
@@ -198,8 +195,7 @@ std::vector<idx> region_numbers(const volume_file& file)
 /// The sides between cells of different labels, references or regions, those inside that a labelled face of the file
 /// lies on (in the plane a line), and, if boundary says so, the sides of the boundary: what a mesh keeps while it is
 /// smoothed. A piece has the same labels on both sides and on its faces.
-template <class = void>
-std::vector<kept_facet> kept_facets(const volume_file& file, bool boundary)
+inline std::vector<kept_facet> kept_facets(const volume_file& file, bool boundary)
 {
     const auto numbers = detail::region_numbers(file);
     const auto key_of = [](std::span<const idx> corners)
@@ -246,8 +242,7 @@ std::vector<kept_facet> kept_facets(const volume_file& file, bool boundary)
 /// What keeps the cells of a file from being a mesh whose cells can all be positive and not overlap: pairs with the
 /// same corners (duplicate_cell), neighbours oriented differently (inconsistent_orientation), and sides that three
 /// cells or more share (non_manifold_facet), each with all of its kind. Cells count as for_each_cell() does.
-template <class = void>
-std::vector<mesh_finding> check_sides(const volume_file& file)
+inline std::vector<mesh_finding> check_sides(const volume_file& file)
 {
     const auto sides = cell_faces_of(file);
     const auto twin_cell = [&](std::size_t s) { return sides.faces[static_cast<std::size_t>(sides.twin[s])].cell; };

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <taut/config.hpp>
 #include <taut/io/surface_file.hpp>
 #include <vector>
 
@@ -24,10 +23,10 @@ struct cut_surface
 /// Cuts a surface open along the edges where the texture coordinates of neighbours disagree in value; many programs
 /// write one vt a corner. Nothing if every vertex has one texture coordinate.
 /// Throws texcoord_error if a corner has none.
-TAUT_ON_USE std::optional<cut_surface> cut_seams(const surface_file& file);
+std::optional<cut_surface> cut_seams(const surface_file& file);
 
 } // namespace taut::io
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/io/detail/cut_seams.ipp>
 #endif

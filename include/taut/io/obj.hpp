@@ -21,7 +21,6 @@ namespace detail
 {
 
 /// Reads OBJ statements into a soup. A reader of a piece of a file takes in those of the following pieces.
-template <class = void>
 class obj_reader
 {
 public:
@@ -149,7 +148,7 @@ private:
         const long long n = i > 0 ? i - 1 : static_cast<long long>(soup_.normals.size()) + i;
         soup_.corner_normals.resize(soup_.corners.size() - 1, -1);
         soup_.corner_normals.push_back(
-            i == 0 || n < 0 || n > static_cast<long long>(polygon_soup<>::limit) ? -1 : static_cast<idx>(n));
+            i == 0 || n < 0 || n > static_cast<long long>(polygon_soup::limit) ? -1 : static_cast<idx>(n));
     }
 
     /// A number counted from 1, or back from -1, the last of `count`. The result is counted from 0; nothing if it
@@ -158,7 +157,7 @@ private:
     {
         absolute_ = absolute_ && i > 0;
         const long long zero_based = i > 0 ? i - 1 : static_cast<long long>(count) + i;
-        if (i == 0 || zero_based < 0 || zero_based > static_cast<long long>(polygon_soup<>::limit)) return std::nullopt;
+        if (i == 0 || zero_based < 0 || zero_based > static_cast<long long>(polygon_soup::limit)) return std::nullopt;
         if (zero_based >= most.number) most = {zero_based + 1, position, soup_.sizes.size()};
         return static_cast<idx>(zero_based);
     }
@@ -207,7 +206,7 @@ private:
     }
 
     scanner in_;
-    polygon_soup<> soup_;
+    polygon_soup soup_;
     largest vertices_, coords_;
     const char* body_ = nullptr;
     bool absolute_ = true;
@@ -215,12 +214,11 @@ private:
 
 /// Reads the pieces of a large file at the same time. Nothing where that is not possible, or the file is faulty: the
 /// place of a fault is known to who reads from the start.
-template <class = void>
-std::optional<surface_soup> read_pieces(std::string_view text, const std::string& path, bool strict)
+inline std::optional<surface_soup> read_pieces(std::string_view text, const std::string& path, bool strict)
 {
     const auto pieces = cut_statements(text, std::max<std::size_t>(text.size() / 32, 1 << 16));
     if (pieces.size() == 1) return std::nullopt;
-    std::vector<obj_reader<>> readers;
+    std::vector<obj_reader> readers;
     for (const auto piece : pieces)
     {
         // Where a line starts with a byte order mark, it is none.
@@ -243,7 +241,7 @@ std::optional<surface_soup> read_pieces(std::string_view text, const std::string
     }
     for (const auto& reader : readers)
         if (!reader.absolute() || reader.faulty()) return std::nullopt;
-    obj_reader<> whole({}, path, strict);
+    obj_reader whole({}, path, strict);
     whole.reserve(readers);
     obj_text found;
     const char* body = nullptr;
@@ -260,10 +258,9 @@ std::optional<surface_soup> read_pieces(std::string_view text, const std::string
     return file;
 }
 
-template <class = void>
-surface_soup read_obj(std::string text, const std::string& path, bool strict)
+inline surface_soup read_obj(std::string text, const std::string& path, bool strict)
 {
-    obj_reader<> reader(text, path, strict);
+    obj_reader reader(text, path, strict);
     reader.require_text();
     auto file = read_pieces(text, path, strict);
     if (!file)
@@ -283,15 +280,13 @@ surface_soup read_obj(std::string text, const std::string& path, bool strict)
 /// Reads OBJ text: v, vt and f (with any of v, v/vt, v//vn, v/vt/vn, from 1 or from the end by negative numbers), lines
 /// joined by a backslash. All else is kept for write_obj. Polygons are split into triangles, which the notes say.
 /// `path` is named in errors. Throws io_error, mesh_error.
-template <class = void>
-surface_file parse_obj(std::string text, const std::string& path = "OBJ text")
+inline surface_file parse_obj(std::string text, const std::string& path = "OBJ text")
 {
     return to_surface_file(detail::read_obj(std::move(text), path, true), path);
 }
 
 /// The same as it is, with the normals that faces name. Throws io_error.
-template <class = void>
-surface_soup parse_obj_soup(std::string text, const std::string& path = "OBJ text")
+inline surface_soup parse_obj_soup(std::string text, const std::string& path = "OBJ text")
 {
     return detail::read_obj(std::move(text), path, false);
 }

@@ -17,7 +17,6 @@ namespace detail
 {
 
 /// Reads OFF text into a soup.
-template <class = void>
 class off_reader
 {
 public:
@@ -28,7 +27,7 @@ public:
         soup_.strict = strict;
     }
 
-    polygon_soup<> read()
+    polygon_soup read()
     {
         read_header();
         const std::size_t vertices = read_count("the number of vertices"), faces = read_count("the number of faces");
@@ -153,7 +152,7 @@ private:
     }
 
     scanner in_;
-    polygon_soup<> soup_;
+    polygon_soup soup_;
     std::vector<double> values_; // of a vertex, behind its position
     bool has_texcoords_ = false, has_colours_ = false, has_normals_ = false;
 };
@@ -163,17 +162,15 @@ private:
 /// Reads OFF text: OFF, COFF, NOFF, STOFF and their combinations, one vertex a line, with comments, and with the counts
 /// beside or below the header. Normals, colours and comments are kept for write_obj. Polygons are split into triangles,
 /// which the notes say. `path` is named in errors. Throws io_error, mesh_error.
-template <class = void>
-surface_file parse_off(std::string_view text, const std::string& path = "OFF text")
+inline surface_file parse_off(std::string_view text, const std::string& path = "OFF text")
 {
-    return detail::off_reader<>(text, path, true).read().finish(path);
+    return detail::off_reader(text, path, true).read().finish(path);
 }
 
 /// The same as it is. Throws io_error.
-template <class = void>
-surface_soup parse_off_soup(std::string_view text, const std::string& path = "OFF text")
+inline surface_soup parse_off_soup(std::string_view text, const std::string& path = "OFF text")
 {
-    return detail::off_reader<>(text, path, false).read().finish();
+    return detail::off_reader(text, path, false).read().finish();
 }
 
 } // namespace taut::io

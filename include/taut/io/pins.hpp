@@ -46,7 +46,6 @@ inline std::string_view trim(std::string_view s)
 }
 
 /// Reads lines of comma-separated cells; # starts a comment. Lines end with LF, CR LF or CR.
-template <class = void>
 class pin_reader
 {
 public:
@@ -116,7 +115,7 @@ std::string pin_columns()
 
 /// A header stands for the columns of this format: their number, and the weight last.
 template <int D>
-void require_header(const pin_reader<>& in)
+void require_header(const pin_reader& in)
 {
     const auto& cells = in.cells();
     const bool weight_last = cells.size() != D + 2 || cells.back() == "weight";
@@ -125,7 +124,7 @@ void require_header(const pin_reader<>& in)
 }
 
 template <int D>
-pin<D> read_pin(const pin_reader<>& in)
+pin<D> read_pin(const pin_reader& in)
 {
     const auto& cells = in.cells();
     if (cells.size() < D + 1 || cells.size() > D + 2)
@@ -160,7 +159,7 @@ template <int D>
 std::vector<pin<D>> parse_pins(std::string_view text, const std::string& path = "pins",
                                idx vertices = std::numeric_limits<idx>::max())
 {
-    detail::pin_reader<> in(text, path);
+    detail::pin_reader in(text, path);
     std::vector<pin<D>> pins;
     std::map<idx, std::pair<std::uint8_t, std::size_t>> given; // bits, and the last line
     for (bool first = true; in.next(); first = false)

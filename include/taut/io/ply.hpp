@@ -29,7 +29,7 @@ public:
         soup_.strict = strict;
     }
 
-    polygon_soup<> read(ply_header& header)
+    polygon_soup read(ply_header& header)
     {
         soup_.carried.comments = std::move(header.comments);
         for (const ply_element& e : header.elements)
@@ -242,12 +242,11 @@ private:
 
     Source in_;
     const std::string& path_;
-    polygon_soup<> soup_;
+    polygon_soup soup_;
     std::vector<double> coords_;
 };
 
-template <class = void>
-polygon_soup<> read_ply(std::string_view bytes, const std::string& path, bool strict)
+inline polygon_soup read_ply(std::string_view bytes, const std::string& path, bool strict)
 {
     scanner in(bytes, path);
     auto header = read_ply_header(in);
@@ -269,15 +268,13 @@ polygon_soup<> read_ply(std::string_view bytes, const std::string& path, bool st
 /// lists vertex_indices (or vertex_index) and perhaps texcoord, and triangle strips. Normals, colours and comments are
 /// kept for write_obj; other elements and properties are skipped. Polygons are split into triangles, which the notes
 /// say. `path` is named in errors. Throws io_error, mesh_error.
-template <class = void>
-surface_file parse_ply(std::string_view bytes, const std::string& path = "PLY data")
+inline surface_file parse_ply(std::string_view bytes, const std::string& path = "PLY data")
 {
     return detail::read_ply(bytes, path, true).finish(path);
 }
 
 /// The same as it is. Throws io_error.
-template <class = void>
-surface_soup parse_ply_soup(std::string_view bytes, const std::string& path = "PLY data")
+inline surface_soup parse_ply_soup(std::string_view bytes, const std::string& path = "PLY data")
 {
     return detail::read_ply(bytes, path, false).finish();
 }

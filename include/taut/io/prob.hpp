@@ -223,8 +223,7 @@ prob_file<Element> read_prob(const std::filesystem::path& path)
 }
 
 /// A problem of triangles or of tetrahedra, whichever the file holds.
-template <class = void>
-std::variant<prob_file<triangle>, prob_file<tetrahedron>> read_any_prob(const std::filesystem::path& path)
+inline std::variant<prob_file<triangle>, prob_file<tetrahedron>> read_any_prob(const std::filesystem::path& path)
 {
     const std::string text = read_file(path);
     detail::prob_reader reader(text, path.string());

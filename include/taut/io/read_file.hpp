@@ -61,8 +61,7 @@ inline std::uint64_t most_bytes_to_read()
 
 /// All bytes of a file, of a pipe or of what is open as /dev/stdin. most: more than that is an error.
 /// Throws io_error.
-template <class = void>
-std::string read_file(const std::filesystem::path& path, std::uint64_t most = most_bytes_to_read())
+inline std::string read_file(const std::filesystem::path& path, std::uint64_t most = most_bytes_to_read())
 {
     const auto fail = [&](int number)
     { throw io_error(path.string(), std::generic_category().message(number != 0 ? number : EIO)); };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <taut/config.hpp>
 #include <taut/io/surface_file.hpp>
 
 namespace taut::io
@@ -21,19 +20,19 @@ enum class surface_format
 
 /// Reads a surface with its texture coordinates and notes.
 /// Throws io_error (unreadable, unknown or malformed, with line or byte), mesh_error (empty, NaN, ...).
-TAUT_ON_USE surface_file read_surface_file(const std::filesystem::path& path,
+surface_file read_surface_file(const std::filesystem::path& path,
                                            surface_format format = surface_format::automatic);
 
 /// Reads a file as it is, for repair_surface(). Throws io_error.
-TAUT_ON_USE surface_soup read_surface_soup(const std::filesystem::path& path,
+surface_soup read_surface_soup(const std::filesystem::path& path,
                                            surface_format format = surface_format::automatic);
 
 /// The surface alone.
-TAUT_ON_USE mesh<triangle> read_surface(const std::filesystem::path& path,
+mesh<triangle> read_surface(const std::filesystem::path& path,
                                         surface_format format = surface_format::automatic);
 
 } // namespace taut::io
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/io/detail/read_surface.ipp>
 #endif

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include <taut/config.hpp>
 #include <taut/io/volume_file.hpp>
 
 namespace taut::io
@@ -13,22 +12,22 @@ namespace taut::io
 /// Reads a volume mesh, or a planar mesh, with its groups.
 /// Throws io_error with line or byte: unreadable, unknown, malformed, or what coordinates alone cannot be exchanged in
 /// (higher order, polyhedra, compressed or base64 data, partitions, several pieces).
-TAUT_ON_USE volume_file read_volume_file(const std::filesystem::path& path,
+volume_file read_volume_file(const std::filesystem::path& path,
                                          volume_format format = volume_format::automatic);
 
 /// The tetrahedra alone. Throws mesh_error as tetrahedra_of().
-TAUT_ON_USE mesh<tetrahedron> read_volume(const std::filesystem::path& path,
+mesh<tetrahedron> read_volume(const std::filesystem::path& path,
                                           volume_format format = volume_format::automatic);
 
 /// The same from the bytes of a file. name: in errors. Of any format but TetGen.
-TAUT_ON_USE volume_file parse_volume(std::string bytes, volume_format format, const std::string& name = "volume data");
+volume_file parse_volume(std::string bytes, volume_format format, const std::string& name = "volume data");
 
 /// The same from the text of a .node file, of its .ele file and, unless that is empty, of its .face file.
-TAUT_ON_USE volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces = {},
+volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces = {},
                                      const std::string& name = "volume data");
 
 } // namespace taut::io
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/io/detail/volume/read_volume.ipp>
 #endif

@@ -36,7 +36,6 @@ inline bool is_binary_stl(std::string_view bytes)
 }
 
 /// Reads an STL file, text or binary, into a soup.
-template <class = void>
 class stl_reader
 {
 public:
@@ -152,7 +151,7 @@ private:
 
     std::string_view bytes_;
     scanner in_;
-    polygon_soup<> soup_;
+    polygon_soup soup_;
     point_numbers numbers_;
     std::size_t left_over_ = 0;
 };
@@ -162,17 +161,15 @@ private:
 /// Reads STL, text or binary, which its length and its first lines tell apart. Corners of equal coordinates are one
 /// vertex, numbered in the order in which they first appear, which a note says; triangles keep their order. Normals,
 /// names and attributes are left out. `path` is named in errors. Throws io_error, mesh_error.
-template <class = void>
-surface_file parse_stl(std::string_view bytes, const std::string& path = "STL file")
+inline surface_file parse_stl(std::string_view bytes, const std::string& path = "STL file")
 {
-    return to_surface_file(detail::stl_reader<>(bytes, path, true).read(), path);
+    return to_surface_file(detail::stl_reader(bytes, path, true).read(), path);
 }
 
 /// The same as it is, for repair_surface(). Throws io_error.
-template <class = void>
-surface_soup parse_stl_soup(std::string_view bytes, const std::string& path = "STL file")
+inline surface_soup parse_stl_soup(std::string_view bytes, const std::string& path = "STL file")
 {
-    return detail::stl_reader<>(bytes, path, false).read();
+    return detail::stl_reader(bytes, path, false).read();
 }
 
 } // namespace taut::io

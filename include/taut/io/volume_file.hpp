@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <taut/config.hpp>
 #include <taut/core/error.hpp>
 #include <taut/mesh/mesh.hpp>
 
@@ -168,18 +167,18 @@ void for_each_cell(const volume_file& file, int dimension, const F& f)
 }
 
 /// Puts the corners of cells of the file's dimension, ascending, in the other order, and says so in `turned`.
-TAUT_ON_USE void turn_cells(volume_file& file, std::span<const idx> cells);
+void turn_cells(volume_file& file, std::span<const idx> cells);
 
 /// "12 cells (3, 5, ...) have their corners in the other order than ...": of `turned`; empty: there are none.
-TAUT_ON_USE std::string describe_turned(const volume_file& file);
+std::string describe_turned(const volume_file& file);
 
 /// The tetrahedra at rest, cells in the order of the file. Some may be inverted: which, validate() tells.
 /// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty).
-TAUT_ON_USE mesh<tetrahedron> tetrahedra_of(const volume_file& file);
+mesh<tetrahedron> tetrahedra_of(const volume_file& file);
 
 /// The triangles of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
 /// are no triangles, or the file is of dimension 3.
-TAUT_ON_USE mesh<triangle> triangles_of(const volume_file& file);
+mesh<triangle> triangles_of(const volume_file& file);
 
 /// The cells of a file as simplices: tetrahedra, or triangles of a planar file, for themselves; others as the simplices
 /// at their corners, which overlap.
@@ -206,6 +205,6 @@ corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span
 
 } // namespace taut::io
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/io/detail/volume/volume_file.ipp>
 #endif

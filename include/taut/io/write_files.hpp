@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <span>
-#include <taut/config.hpp>
 #include <taut/io/atomic_file.hpp>
 
 namespace taut::io
@@ -20,10 +19,10 @@ struct file_to_write
 /// Writes several files that appear together or not at all: all are written in their order, then what are devices and
 /// pipes, then the files get their names. Throws io_error; then no file has changed, but for the rare case that the
 /// system refuses to rename a finished file, where the message says which files have been replaced.
-TAUT_ON_USE void write_files(std::span<const file_to_write> files);
+void write_files(std::span<const file_to_write> files);
 
 } // namespace taut::io
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/io/detail/write_files.ipp>
 #endif

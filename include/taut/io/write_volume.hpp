@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <taut/config.hpp>
 #include <taut/io/volume_file.hpp>
 #include <taut/io/write_files.hpp>
 #include <taut/mesh/refine_elements.hpp>
@@ -17,23 +16,23 @@ namespace taut::io
 /// The points as a reader gets them who keeps to the precision that the file declares: rounded to single where it
 /// does, else as they are. Text itself holds every digit in any case.
 /// points: one a point of the file.
-TAUT_ON_USE std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points);
+std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points);
 
 /// The bytes of the file with other coordinates. A coordinate that has not changed, bit for bit, keeps its bytes;
 /// others are the shortest decimal that reads back the same double, or binary as the file has it.
 /// points: one a point of the file; z = that of the file where it has two coordinates.
 /// Throws parameter_error: another number of points, a coordinate that is not finite (also after rounding), a z that
 /// the file has no place for.
-TAUT_ON_USE std::string with_points(const volume_file& file, std::span<const vec3> points);
+std::string with_points(const volume_file& file, std::span<const vec3> points);
 
 /// The files that make up a mesh with other coordinates, for write_files: one, for TetGen PATH.node and its companions
 /// PATH.ele, PATH.face. Both arguments must outlive the result.
 /// Throws parameter_error as with_points(); io_error where an output is an input, or the extension another format's.
-TAUT_ON_USE std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
+std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
                                                       std::span<const vec3> points);
 
 /// Writes them; they appear together or not at all. Throws io_error, parameter_error.
-TAUT_ON_USE void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);
+void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);
 
 /// The file with cells subdivided, as its own format has it, written anew as text: `bytes` and all else as a reader of
 /// that finds it, `path` as it was, `rest` subdivided, too. Points come first as they were, and parts of a cell follow
@@ -43,11 +42,11 @@ TAUT_ON_USE void write_volume(const std::filesystem::path& path, const volume_fi
 /// not in the result, which its notes say.
 /// Throws io_error for other formats, and for cells other than vertices, lines, triangles and tetrahedra;
 /// parameter_error for a subdivision of another number of points.
-TAUT_ON_USE volume_file subdivided(const volume_file& file, const subdivision& how);
+volume_file subdivided(const volume_file& file, const subdivision& how);
 
 } // namespace taut::io
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/io/detail/volume/subdivided.ipp>
 #include <taut/io/detail/volume/write_volume.ipp>
 #endif

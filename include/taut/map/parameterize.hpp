@@ -2,7 +2,6 @@
 #pragma once
 
 #include <taut/compute/queue.hpp>
-#include <taut/config.hpp>
 #include <taut/map/map_result.hpp>
 #include <taut/map/parameterize_params.hpp>
 #include <taut/mesh/mesh.hpp>
@@ -17,17 +16,11 @@ namespace taut
 /// open, and the map then has the area of the surface. A map that nothing holds comes to lie by `placement`. On a stop
 /// for any reason (limits, observer) the map is the best one so far, which is as valid as any, or there is none yet
 /// (outcome::stopped).
-/// Element is triangle.
 /// Throws mesh_error (not a disk, degenerate triangle, ...), parameter_error, device_error.
-template <class Element>
-map_result parameterize(queue& q, const mesh<Element>& m, const parameterize_params& params);
-
-/// The same with the defaults. Header-only it takes less to compile, as it leaves out what parameters alone ask for.
-template <class Element>
-map_result parameterize(queue& q, const mesh<Element>& m);
+map_result parameterize(queue& q, const mesh<triangle>& m, const parameterize_params& params = {});
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
-#include <taut/map/detail/parameterization.hpp>
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/map/detail/parameterize.ipp>
 #endif

@@ -136,8 +136,7 @@ private:
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
-#include <taut/map/detail/session/map_session.hpp>
-#include <taut/map/detail/session/open_shape.hpp>
-#include <taut/map/detail/session/shell_session.hpp>
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/map/detail/session/map_session.ipp>
+#include <taut/map/detail/session/shape_session.ipp>
 #endif

@@ -40,8 +40,7 @@ struct rigid_motion
 
 /// The rigid motion that brings points closest to their images, in the sum of squares. Points on a line leave the turn
 /// about it open: of all that are as close it is the one that turns least. The two are of one length, at least 1.
-template <class = void>
-rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<const vec2> images)
+inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<const vec2> images)
 {
     rigid_motion<2> m;
     const auto n = static_cast<double>(points.size());
@@ -59,8 +58,7 @@ rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<const v
 
 /// In space by Horn, "Closed-form solution of absolute orientation using unit quaternions" (1987): the eigenvector of
 /// the largest eigenvalue of a symmetric 4 x 4 matrix, found by squaring it again and again.
-template <class = void>
-rigid_motion<3> fit_rigid_motion(std::span<const vec3> points, std::span<const vec3> images)
+inline rigid_motion<3> fit_rigid_motion(std::span<const vec3> points, std::span<const vec3> images)
 {
     rigid_motion<3> m;
     const auto n = static_cast<double>(points.size());

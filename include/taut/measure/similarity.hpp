@@ -36,8 +36,7 @@ struct similarity_fit
 };
 
 /// At least one anchor; weights are positive.
-template <class = void>
-similarity_fit fit_similarity(std::span<const anchor> anchors)
+inline similarity_fit fit_similarity(std::span<const anchor> anchors)
 {
     using complex = std::complex<double>;
     const auto at = [](const vec2& p) { return complex(p.x, p.y); };

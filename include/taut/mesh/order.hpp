@@ -100,8 +100,7 @@ inline std::uint64_t morton(const vec3& p)
 }
 
 /// Vertices along the Morton curve of their rest positions.
-template <class = void>
-std::vector<idx> along_curve(const std::vector<vec3>& points)
+inline std::vector<idx> along_curve(const std::vector<vec3>& points)
 {
     vec3 low = points[0], high = points[0];
     for (const vec3& p : points)

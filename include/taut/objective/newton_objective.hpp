@@ -208,7 +208,7 @@ private:
     multigrid cycle_;
     block_assembly assemble_;
     std::optional<vertex_relaxation<Element>> relaxation_;
-    std::optional<nonlinear_elimination<>> elimination_;
+    std::optional<nonlinear_elimination> elimination_;
     std::optional<block_matrix> indefinite_;
     bool exact_ = false;
 };

@@ -30,7 +30,6 @@ namespace taut
 /// kernels of the mesh. The energy falls, no element flips, and what patches do not move stays bit for bit.
 ///
 /// Costs two or three waits a step, and some tenths of a microsecond a triangle of the patches.
-template <class = void>
 class nonlinear_elimination
 {
     static constexpr int D = triangle::dimension;
@@ -100,7 +99,7 @@ public:
 private:
     using patch = detail::patch<triangle>;
     using patch_cells = detail::patch_cells<triangle>;
-    using solver = detail::front_cholesky<>;
+    using solver = detail::front_cholesky;
     static constexpr int most_steps = 15;
     static constexpr std::size_t trials = patch_cells::trials;
 

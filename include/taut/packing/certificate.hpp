@@ -63,7 +63,7 @@ inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<
     packing_certificate sealed;
     overlap_search search(uv, cells, outlines, 100'000);
     const auto chart = search.chart_of_edge();
-    const edge_tree<> tree(outlines.edges, uv, outlines.first);
+    const edge_tree tree(outlines.edges, uv, outlines.first);
     const auto find_gap = [&]
     {
         tree.for_each_pair_within(sealed.gap,

@@ -72,7 +72,7 @@ public:
     std::span<const idx> chart_of_edge() const { return chart_; }
 
     /// Charts whose borders meet.
-    void crossing(const edge_tree<>& tree)
+    void crossing(const edge_tree& tree)
     {
         tree.for_each_pair(
             [&](std::size_t i, std::size_t j)
@@ -80,7 +80,7 @@ public:
     }
 
     /// Charts within the triangles of another: one point of each connected part of a border is asked.
-    void nested(const edge_tree<>& tree)
+    void nested(const edge_tree& tree)
     {
         const auto within = [&](idx inner, idx outer)
         {
@@ -228,7 +228,7 @@ inline chart_overlaps find_chart_overlaps(std::span<const vec2> uv, std::span<co
     detail::check_charts(uv, cells, first_cell, first_vertex);
     const auto outlines = detail::find_outlines(uv, cells, first_cell, first_vertex);
     detail::overlap_search search(uv, cells, outlines, most);
-    const detail::edge_tree<> tree(outlines.edges, uv, outlines.first);
+    const detail::edge_tree tree(outlines.edges, uv, outlines.first);
     search.crossing(tree);
     search.nested(tree);
     return search.found();

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include <taut/config.hpp>
 #include <taut/core/types.hpp>
 #include <taut/packing/pack_params.hpp>
 #include <taut/packing/packing_error.hpp>
@@ -75,6 +74,6 @@ packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/packing/detail/pack.ipp>
 #endif

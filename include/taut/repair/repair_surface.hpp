@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include <taut/config.hpp>
 #include <taut/mesh/mesh.hpp>
 #include <taut/repair/repair_finding.hpp>
 
@@ -69,6 +68,6 @@ repaired_surface repair_surface(std::span<const vec3> points, std::span<const st
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
+#ifdef TAUT_IMPLEMENTATION
 #include <taut/repair/detail/repair_surface.ipp>
 #endif

@@ -23,7 +23,6 @@ namespace taut::detail
 /// Direct solver of H x = b for a sum H of positive semi-definite matrices of triangles, two unknowns a vertex: a
 /// multifrontal Cholesky factorization (L D L^T). A triangle enters with the first of its vertices that is eliminated,
 /// so that H is never assembled. Made for some thousand vertices.
-template <class = void>
 class front_cholesky
 {
 public:

@@ -91,8 +91,7 @@ inline std::array<int, 4> flat_sides(const std::array<std::size_t, 5>& corner,
 
 /// Positions on the square [-1, 1]^2, corners at vertices. The start is the vertex that leaves the fewest interior
 /// edges with both ends on one side; the sides that keep some are bent outwards to a parabola, strictly convex.
-template <class = void>
-std::vector<vec2> on_square(std::span<const double> gaps, std::span<const std::pair<std::size_t, std::size_t>> dividing)
+inline std::vector<vec2> on_square(std::span<const double> gaps, std::span<const std::pair<std::size_t, std::size_t>> dividing)
 {
     const std::size_t n = gaps.size();
     auto corner = square_corners(gaps, 0);
@@ -168,8 +167,7 @@ inline bool convex(std::span<const vec2> p, bool straight_allowed)
 /// On a circle the polygon is strictly convex; tiny gaps that rounding would flatten are evened out, just enough. A
 /// square needs four vertices, three are laid on a circle; its sides are straight unless a dividing edge has both ends
 /// on one, which would map triangles to nothing.
-template <class = void>
-std::vector<vec2> boundary_polygon(std::span<const vec3> loop, const boundary_params& params, double area,
+inline std::vector<vec2> boundary_polygon(std::span<const vec3> loop, const boundary_params& params, double area,
                                    std::span<const std::pair<std::size_t, std::size_t>> dividing = {})
 {
     if (loop.size() < 3) throw parameter_error("loop", "a boundary loop has at least three vertices");

@@ -37,10 +37,9 @@ namespace detail
 
 /// Conformal energy of each triangle, its area times the squared length of the part of S that is not a similarity, as a
 /// quadratic form of its corners.
-template <class = void>
-std::vector<front_cholesky<>::block> conformal_blocks(const ideal_elements<triangle>& ideal)
+inline std::vector<front_cholesky::block> conformal_blocks(const ideal_elements<triangle>& ideal)
 {
-    std::vector<front_cholesky<>::block> blocks(ideal.inverse.size());
+    std::vector<front_cholesky::block> blocks(ideal.inverse.size());
     for (std::size_t c = 0; c < blocks.size(); ++c)
     {
         const mat2& w = ideal.inverse[c];
@@ -64,8 +63,7 @@ std::vector<front_cholesky<>::block> conformal_blocks(const ideal_elements<trian
 /// The map of least conformal energy among those whose boundary has a given moment of inertia: the eigenvector to the
 /// smallest eigenvalue that is not a translation, by inverse iteration (Mullen, Tong, Alliez, Desbrun 2008, "Spectral
 /// conformal parameterization"). It needs no pinned vertices, whose choice would show. It may flip triangles.
-template <class = void>
-std::vector<vec2> spectral_conformal_map(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
+inline std::vector<vec2> spectral_conformal_map(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
                                          std::span<const idx> outline, int iterations)
 {
     const auto u = [](idx v) { return static_cast<std::size_t>(v); };
@@ -116,8 +114,7 @@ std::vector<vec2> spectral_conformal_map(const mesh<triangle>& m, const ideal_el
 ///
 /// m: a surface that has passed validate() with `one_boundary` false; f: its facets. uv: in units of the surface, at
 /// the scale with the least isometric energy. Throws mesh_error (closed_surface, degenerate_cell), parameter_error.
-template <class = void>
-start_map conformal_start(const mesh<triangle>& m, const facet_table& f, const conformal_start_params& params = {})
+inline start_map conformal_start(const mesh<triangle>& m, const facet_table& f, const conformal_start_params& params = {})
 {
     params.validate();
     const auto loops = boundary_loops(m, f);

@@ -23,7 +23,6 @@ namespace taut::detail
 
 /// energy::isometric of a small surface, summed over triangles by area, and Newton's method on it with the Hessian of
 /// each triangle projected to positive semi-definite and a direct solver.
-template <class = void>
 class isometric_newton
 {
 public:
@@ -103,8 +102,8 @@ private:
     std::vector<mat2> inverse_;
     std::vector<double> area_;
     double total_ = 0;
-    front_cholesky<> solver_;
-    std::vector<front_cholesky<>::block> blocks_;
+    front_cholesky solver_;
+    std::vector<front_cholesky::block> blocks_;
 };
 
 } // namespace taut::detail

@@ -17,8 +17,7 @@ namespace taut::detail
 
 /// An injective map of the surface itself, without regard to what is held: the surface if it is plane, else a
 /// barycentric map. Nothing if the surface has none.
-template <class = void>
-std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
+inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
 {
     const auto& points = m.points();
     if (std::all_of(points.begin(), points.end(), [](const vec3& p) { return p.z == 0; }))
@@ -40,8 +39,7 @@ std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
 /// The draft if there is one, else that map, moved by the similarity that brings pinned vertices nearest to their
 /// places in x (least squares). With fewer than two it gets the measure expected. Held coordinates are not put to their
 /// places.
-template <class = void>
-std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem, const std::vector<vec2>& x,
+inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem, const std::vector<vec2>& x,
                                             const std::vector<vec2>& draft)
 {
     if (!draft.empty()) return draft;

@@ -19,13 +19,11 @@ namespace detail
 {
 
 /// A map without flips, for want of a better one.
-template <class = void>
-std::vector<vec2> some_map(const mesh<triangle>& m)
+inline std::vector<vec2> some_map(const mesh<triangle>& m)
 {
     return barycentric_map(m, facets(m), {}).uv;
 }
-template <class = void>
-std::vector<vec3> some_map(const mesh<tetrahedron>& m)
+inline std::vector<vec3> some_map(const mesh<tetrahedron>& m)
 {
     return m.points();
 }

@@ -67,7 +67,6 @@ struct nested_params
 /// reinserted without flips, the worst elements relaxed, and the map minimised again. It needs no map of the fine mesh
 /// to begin with and hands the fine level one that lacks detail only (the paper's coarse-to-fine scheme, its section
 /// 5).
-template <class = void>
 class nested_iteration
 {
 public:

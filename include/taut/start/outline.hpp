@@ -18,8 +18,7 @@ namespace detail
 {
 
 /// Interior edges with both ends on one loop, as positions in it.
-template <class = void>
-std::vector<std::pair<std::size_t, std::size_t>> dividing_edges(const mesh<triangle>& m, const facet_table& f,
+inline std::vector<std::pair<std::size_t, std::size_t>> dividing_edges(const mesh<triangle>& m, const facet_table& f,
                                                                 const std::vector<idx>& loop)
 {
     std::vector<idx> position(m.points().size(), -1);
@@ -37,8 +36,7 @@ std::vector<std::pair<std::size_t, std::size_t>> dividing_edges(const mesh<trian
 }
 
 /// Spans a hole by a cone: an apex above the loop's centroid, so that no triangle of it is flat.
-template <class = void>
-void span_hole(const std::vector<idx>& loop, std::vector<vec3>& points, std::vector<std::array<idx, 3>>& cells)
+inline void span_hole(const std::vector<idx>& loop, std::vector<vec3>& points, std::vector<std::array<idx, 3>>& cells)
 {
     const auto at = [&points](idx v) { return points[static_cast<std::size_t>(v)]; };
     vec3 centre(0);

@@ -25,8 +25,7 @@ struct raise_params
 
 /// Scales a map of a level, all triangles of which are positive, to the least isometric energy. Where rounding would
 /// turn a triangle over, to the nearest power of two.
-template <class = void>
-void scale_to_fit(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points, std::vector<vec2>& uv,
+inline void scale_to_fit(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points, std::vector<vec2>& uv,
                   unsigned threads = 0)
 {
     const double scale = isometric_scale(h, level, points, uv, threads);
@@ -51,8 +50,7 @@ struct raised_map
 /// A map of a level from one of the next coarser level: vertices come back, then those of the worst triangles, old and
 /// new, are improved one by one. Where no place is found for some, the coarse map is improved as a whole and it is
 /// tried again; the last attempt is returned.
-template <class = void>
-raised_map raise_map(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
+inline raised_map raise_map(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
                      std::vector<vec2> coarse, const raise_params& params)
 {
     const auto relax = [&](std::size_t at, std::vector<vec2>& uv, double factor, int sweeps)

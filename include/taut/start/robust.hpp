@@ -81,8 +81,7 @@ inline void scale_outline(const hierarchy<triangle>& h, std::size_t level, std::
 }
 
 /// Newton's method on the isometric energy of a level, from a map without flips. Returns the energy, as area mean.
-template <class = void>
-double optimize_level(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> rest,
+inline double optimize_level(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> rest,
                       std::span<const char> fixed, const robust_start_params& params, std::vector<vec2>& uv)
 {
     std::vector<vec3> points;
@@ -106,8 +105,7 @@ double optimize_level(const hierarchy<triangle>& h, std::size_t level, std::span
 /// A map made on a coarsest surface of a few vertices, optimised and refined in turns. Where a long tube shrinks
 /// beyond the resolution of numbers on the fine surface, it does not on the coarse one, and it is spread out before
 /// the next vertices come back.
-template <class = void>
-start_map nested_start(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::span<const char> fixed,
+inline start_map nested_start(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::span<const char> fixed,
                        const descent_plan& plan, const robust_start_params& params)
 {
     const auto h =
@@ -143,8 +141,7 @@ start_map nested_start(const mesh<triangle>& m, const ideal_elements<triangle>& 
 ///
 /// start_map::flips tells whether it is valid, exactly. Throws mesh_error (closed_surface, degenerate_cell),
 /// parameter_error.
-template <class = void>
-start_map robust_start(const mesh<triangle>& m, const robust_start_params& params = {})
+inline start_map robust_start(const mesh<triangle>& m, const robust_start_params& params = {})
 {
     params.validate();
     const double unit = unit_scale(m);

@@ -126,8 +126,7 @@ std::vector<T> evaluate(const std::vector<sym<T>>& outputs, std::span<const bind
     return evaluator(tape::current(), bindings)(std::span<const sym<T>>(outputs));
 }
 
-template <class = void>
-bool evaluate(sym_bool f, std::initializer_list<binding> bindings = {})
+inline bool evaluate(sym_bool f, std::initializer_list<binding> bindings = {})
 {
     return evaluator(tape::current(), {bindings.begin(), bindings.size()})(f);
 }

@@ -27,7 +27,6 @@ namespace taut
 /// Untangles a coarse level of the mesh, where steps take milliseconds, and puts the vertices that were left out back
 /// into its map, which flips nothing. What is held is on all levels. Where a level cannot be untangled, or is
 /// infeasible, which the mesh itself need not be, the next finer one is, as long as that is small.
-template <class = void>
 class coarse_stage final : public untangle_stage<triangle>
 {
 public:
@@ -73,7 +72,7 @@ private:
         untangle_stages<triangle> chosen;
         if (!outline_pinned)
         {
-            chosen.push_back(std::make_unique<pull_stage<>>(pull_stage_params{"pull"}));
+            chosen.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"}));
             return chosen;
         }
         chosen.push_back(std::make_unique<harmonic_stage<triangle>>());
@@ -101,7 +100,7 @@ private:
         how.observer = [&state](const progress& p) { return state.proceed(p); };
         how.first_round = steps;
         how.rounds = 1;
-        untangle_state<triangle> coarse(part, how, newton_maker<triangle>(detail::direct_newton<>));
+        untangle_state<triangle> coarse(part, how, newton_maker<triangle>(detail::direct_newton));
         if (!coarse.injective() && !find_infeasibility(part))
         {
             coarse.ended("proofs", "");

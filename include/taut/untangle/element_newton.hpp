@@ -23,7 +23,6 @@ namespace taut::detail
 {
 
 /// Newton's steps in the plane with a direct solver.
-template <class = void>
 class triangle_newton final : public regularized_newton<triangle>
 {
 public:
@@ -148,16 +147,15 @@ private:
     }
 
     const held_marks<2>& held_;
-    front_cholesky<> solver_;
-    std::vector<front_cholesky<>::block> blocks_;
+    front_cholesky solver_;
+    std::vector<front_cholesky::block> blocks_;
     std::vector<std::array<vec2, 3>> forces_;
     std::vector<std::size_t> first_cell_; // of a vertex
 };
 
-template <class = void>
-std::unique_ptr<regularized_newton<triangle>> direct_newton(const regularized_problem<triangle>& problem)
+inline std::unique_ptr<regularized_newton<triangle>> direct_newton(const regularized_problem<triangle>& problem)
 {
-    return std::make_unique<triangle_newton<>>(problem);
+    return std::make_unique<triangle_newton>(problem);
 }
 
 } // namespace taut::detail

@@ -13,8 +13,7 @@ namespace taut::detail
 /// Moves the injective map of the state away from the edge of what is injective, so that an energy with a barrier can
 /// start from it: at most `steps` of Newton's method on |S|^2 / det S + det S + 1 / det S, which keep all determinants
 /// positive, until one gains less than 1 %.
-template <class = void>
-void improve_margin(untangle_state<triangle>& state, int steps)
+inline void improve_margin(untangle_state<triangle>& state, int steps)
 {
     if (steps == 0) return;
     const auto& problem = state.problem();

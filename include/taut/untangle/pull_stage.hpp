@@ -37,7 +37,6 @@ struct pull_stage_params
 /// Starts from an injective map and stays injective: springs pull the held vertices to their places, stronger with
 /// every step, against an energy with a barrier. No triangle flattens on the way, so no branch point comes about
 /// either. The start holds the boundary alone, where that is injective, and nothing otherwise.
-template <class = void>
 class pull_stage final : public untangle_stage<triangle>
 {
 public:

@@ -34,20 +34,19 @@ namespace taut
 ///
 /// in the order that pays where all of the outline is pinned, so that a map without flips has no branch points; else
 /// those come first that make none.
-template <class = void>
-untangle_stages<triangle> host_stages(bool outline_pinned)
+inline untangle_stages<triangle> host_stages(bool outline_pinned)
 {
     using enum untangle_start;
     using enum wanted_shapes;
     untangle_stages<triangle> stages;
     const auto follow = [&](newton_stage_params p)
     { stages.push_back(std::make_unique<newton_stage<triangle>>(std::move(p))); };
-    const auto pull = [&] { stages.push_back(std::make_unique<pull_stage<>>(pull_stage_params{"pull"})); };
+    const auto pull = [&] { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"})); };
     const auto stretch = [&](int share) {
-        stages.push_back(std::make_unique<pull_stage<>>(pull_stage_params{"stretch", regular, 0.1, true, share}));
+        stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", regular, 0.1, true, share}));
     };
     const auto harmonic_map = [&] { stages.push_back(std::make_unique<harmonic_stage<triangle>>()); };
-    stages.push_back(std::make_unique<coarse_stage<>>());
+    stages.push_back(std::make_unique<coarse_stage>());
     if (outline_pinned)
     {
         harmonic_map();
@@ -75,12 +74,11 @@ untangle_stages<triangle> host_stages(bool outline_pinned)
 }
 
 /// The stages in space that need no device.
-template <class = void>
-untangle_stages<tetrahedron> solid_host_stages()
+inline untangle_stages<tetrahedron> solid_host_stages()
 {
     untangle_stages<tetrahedron> stages;
     stages.push_back(std::make_unique<harmonic_stage<tetrahedron>>());
-    stages.push_back(std::make_unique<proof_stage<>>());
+    stages.push_back(std::make_unique<proof_stage>());
     stages.push_back(std::make_unique<lbfgs_stage<tetrahedron>>());
     return stages;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <taut/compute/queue.hpp>
-#include <taut/config.hpp>
 #include <taut/constrain/untangle_problem.hpp>
 #include <taut/untangle/params.hpp>
 #include <taut/untangle/result.hpp>
@@ -25,6 +24,7 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
 
 } // namespace taut
 
-#ifndef TAUT_COMPILED
-#include <taut/untangle/untangle_on_device.hpp>
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/untangle/detail/untangle_tetrahedron.ipp>
+#include <taut/untangle/detail/untangle_triangle.ipp>
 #endif

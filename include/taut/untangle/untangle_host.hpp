@@ -114,14 +114,12 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
 }
 
 /// The same with all stages that need no device.
-template <class = void>
-untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {})
+inline untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {})
 {
-    return untangle(problem, host_stages(problem.outline_pinned()), newton_maker<triangle>(detail::direct_newton<>),
+    return untangle(problem, host_stages(problem.outline_pinned()), newton_maker<triangle>(detail::direct_newton),
                     params);
 }
-template <class = void>
-untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem, const untangle_params& params = {})
+inline untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem, const untangle_params& params = {})
 {
     return untangle(problem, solid_host_stages(), newton_maker<tetrahedron>(), params);
 }

@@ -55,7 +55,7 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
         untangle_stages<Element> stages;
         stages.push_back(std::make_unique<harmonic_stage<Element>>());
         stages.push_back(std::move(on_device));
-        stages.push_back(std::make_unique<proof_stage<>>());
+        stages.push_back(std::make_unique<proof_stage>());
         stages.push_back(
             std::make_unique<newton_stage<Element>>(newton_stage_params{"newton", untangle_start::harmonic}));
         stages.push_back(std::make_unique<lead_stage<Element>>(q));

@@ -12,7 +12,7 @@ namespace
 {
 
 using taut::vec2;
-using block = taut::detail::front_cholesky<>::block;
+using block = taut::detail::front_cholesky::block;
 
 /// J^T J with random 6 x 6 entries: positive definite.
 std::vector<block> random_blocks(std::size_t count)
@@ -83,7 +83,7 @@ TEST_CASE("front Cholesky: once the caller says no, there are no factors; the ne
 
 TEST_CASE("front Cholesky: several are factorized together as each is by itself, and which are not definite is told")
 {
-    using solver = taut::detail::front_cholesky<>;
+    using solver = taut::detail::front_cholesky;
     const std::vector<taut::mesh<taut::triangle>> meshes{taut::test::bumpy(40), taut::test::grid(12, 9),
                                                          taut::test::fan(6, true), taut::test::single_triangle()};
     std::vector<std::vector<char>> fixed;

@@ -18,7 +18,7 @@
 namespace taut
 {
 
-TAUT_INLINE void flatten_params::validate() const
+void flatten_params::validate() const
 {
     if (!(tolerance >= 1e-12 && tolerance <= 1)) throw parameter_error("tolerance", "must be 1e-12 to 1");
     if (max_iterations < 0) throw parameter_error("max_iterations", "must not be negative");
@@ -287,7 +287,7 @@ private:
 
 } // namespace detail
 
-TAUT_INLINE flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params)
+flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params)
 {
     params.validate();
     if (!params.initial.empty() && params.initial.size() != charts.surface.points().size())

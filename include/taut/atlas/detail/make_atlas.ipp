@@ -244,7 +244,7 @@ private:
 namespace taut
 {
 
-TAUT_INLINE atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
+atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
 {
     // Beyond these sizes areas, or products of them, would be no numbers.
     if (const double unit = unit_scale(m); unit > 1e70 || unit < 1e-70)

@@ -20,7 +20,7 @@
 namespace taut
 {
 
-TAUT_INLINE std::string refusal(const device& d, const device_requirements& needs)
+std::string refusal(const device& d, const device_requirements& needs)
 {
     if (!d.available()) return "not available (in use, or disabled)";
     if (!d.has_compiler()) return "its driver has no compiler";
@@ -30,7 +30,7 @@ TAUT_INLINE std::string refusal(const device& d, const device_requirements& need
     return {};
 }
 
-TAUT_ON_USE_BODY std::vector<listed_device> devices(const device_requirements& needs)
+std::vector<listed_device> devices(const device_requirements& needs)
 {
     detail::refuse_fork("listing devices");
     std::vector<listed_device> all;
@@ -118,7 +118,7 @@ inline device in_wanted_form(const device& d)
 
 } // namespace detail
 
-TAUT_ON_USE_BODY device find_device(const std::string& wish, const device_requirements& needs, const std::string& said)
+device find_device(const std::string& wish, const device_requirements& needs, const std::string& said)
 {
     const auto all = devices(needs);
     const std::string wanted = detail::lower(wish);
@@ -138,7 +138,7 @@ TAUT_ON_USE_BODY device find_device(const std::string& wish, const device_requir
     detail::refuse("no OpenCL device fits" + (wanted.empty() ? "" : ' ' + said + wish), all);
 }
 
-TAUT_ON_USE_BODY device choose_device(const device_requirements& needs)
+device choose_device(const device_requirements& needs)
 {
     const char* wish = std::getenv("TAUT_DEVICE");
     return find_device(wish ? wish : "", needs, "TAUT_DEVICE=");

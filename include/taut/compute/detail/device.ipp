@@ -23,7 +23,7 @@ inline std::string trimmed(const std::string& text)
 
 } // namespace detail
 
-TAUT_INLINE device::device(cl_device_id id) : id_(id)
+device::device(cl_device_id id) : id_(id)
 {
     const boost::compute::device handle(id);
     platform_id_ = handle.platform().id();
@@ -46,7 +46,7 @@ TAUT_INLINE device::device(cl_device_id id) : id_(id)
         opencl_version_ = 100 * (version[7] - '0') + 10 * (version[9] - '0');
 }
 
-TAUT_INLINE std::ostream& operator<<(std::ostream& out, const device& d)
+std::ostream& operator<<(std::ostream& out, const device& d)
 {
     return out << d.name_ << " ("
                << (d.is_gpu()   ? "GPU"

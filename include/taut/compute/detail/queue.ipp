@@ -61,19 +61,19 @@ std::shared_ptr<queue_state> open(const taut::device& device, queue_options opti
 
 } // namespace detail
 
-TAUT_INLINE queue::queue(const taut::device& device, queue_options options)
+queue::queue(const taut::device& device, queue_options options)
     : state_(detail::open(device, std::move(options),
                           [&] { return boost::compute::context(boost::compute::device(device.native())); }))
 {
 }
 
-TAUT_INLINE queue::queue(cl_context context, queue_options options)
+queue::queue(cl_context context, queue_options options)
 {
     auto adopted = detail::adopt([&] { return boost::compute::context(context); });
     state_ = detail::open(taut::device(adopted.get_device().id()), std::move(options), [&] { return adopted; });
 }
 
-TAUT_INLINE queue::queue(cl_command_queue native)
+queue::queue(cl_command_queue native)
 {
     const auto adopted = detail::adopt([&] { return boost::compute::command_queue(native); });
     state_ = std::make_shared<detail::queue_state>(taut::device(adopted.get_device().id()), adopted.get_context(),
@@ -83,18 +83,18 @@ TAUT_INLINE queue::queue(cl_command_queue native)
         state_->fail("adopting a command queue", "it is out of order; taut relies on the order of commands");
 }
 
-TAUT_INLINE const taut::device& queue::device() const noexcept
+const taut::device& queue::device() const noexcept
 {
     return state_->device;
 }
 
-TAUT_INLINE void queue::finish()
+void queue::finish()
 {
     ++state_->counters.waits;
     state_->run("finishing the queue", [&] { state_->commands.finish(); });
 }
 
-TAUT_INLINE queue_counters queue::counters() const
+queue_counters queue::counters() const
 {
     queue_counters now = state_->counters;
     now.builds = state_->cache.builds();
@@ -102,16 +102,16 @@ TAUT_INLINE queue_counters queue::counters() const
     return now;
 }
 
-TAUT_INLINE std::uint64_t queue::allocated() const noexcept
+std::uint64_t queue::allocated() const noexcept
 {
     return state_->live_bytes;
 }
 
-TAUT_INLINE cl_command_queue queue::native() const
+cl_command_queue queue::native() const
 {
     return state_->commands.get();
 }
-TAUT_INLINE cl_context queue::native_context() const
+cl_context queue::native_context() const
 {
     return state_->context.get();
 }

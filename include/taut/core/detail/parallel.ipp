@@ -17,7 +17,7 @@ namespace taut::detail
 {
 
 /// As many as $TAUT_THREADS says, or as the machine runs at once.
-TAUT_INLINE unsigned threads_at_once()
+unsigned threads_at_once()
 {
     unsigned wished = 0;
     if (const char* wish = std::getenv("TAUT_THREADS"))
@@ -28,7 +28,7 @@ TAUT_INLINE unsigned threads_at_once()
     return wished > 0 ? wished : std::max(1U, std::thread::hardware_concurrency());
 }
 
-TAUT_INLINE void run_pieces(std::size_t n, void* body, void (*call)(void* body, std::size_t begin, std::size_t end),
+void run_pieces(std::size_t n, void* body, void (*call)(void* body, std::size_t begin, std::size_t end),
                             unsigned threads, std::size_t grain)
 {
     if (n == 0) return;

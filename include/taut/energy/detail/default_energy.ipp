@@ -7,7 +7,7 @@
 namespace taut
 {
 
-TAUT_INLINE any_energy default_energy()
+any_energy default_energy()
 {
     return energy::isometric{};
 }

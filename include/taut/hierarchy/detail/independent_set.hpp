@@ -58,7 +58,6 @@ inline float star_size(const thinning_surface& m, idx v, std::span<const idx> ri
 }
 
 /// Chooses the vertices of a round.
-template <class = void>
 class independent_set
 {
 public:

@@ -52,8 +52,7 @@ inline std::vector<idx> maximal_independent_set(const point_cloud& cloud)
 
 /// Interpolation from the chosen points to all: each from chosen ones at most two edges away. Linear functions are
 /// reproduced but near the boundary, where the row is affine_search's best. Rows of held vertices are 0.
-template <class = void>
-prolongation<4> interpolate(const point_cloud& cloud, std::span<const idx> chosen, unsigned threads)
+inline prolongation<4> interpolate(const point_cloud& cloud, std::span<const idx> chosen, unsigned threads)
 {
     const std::size_t n = cloud.points.size();
     std::vector<idx> number(n, -1);
@@ -109,8 +108,7 @@ prolongation<4> interpolate(const point_cloud& cloud, std::span<const idx> chose
 
 /// The chosen points as a cloud of their own: neighbours are those that some vertex is interpolated from, as the
 /// corners of a tetrahedron are.
-template <class = void>
-point_cloud thinned(const point_cloud& cloud, std::span<const idx> chosen, const prolongation<4>& P, unsigned threads)
+inline point_cloud thinned(const point_cloud& cloud, std::span<const idx> chosen, const prolongation<4>& P, unsigned threads)
 {
     const std::size_t n = chosen.size();
     point_cloud coarse;

@@ -56,8 +56,7 @@ inline bool consecutive(int i, int j, int n, bool open)
 using spoke_pair = std::pair<idx, idx>;
 
 /// Puts the triangles around a vertex in order. Returns false if they do not form one fan.
-template <class = void>
-bool order_fan(std::span<spoke_pair> fan, bool& open)
+inline bool order_fan(std::span<spoke_pair> fan, bool& open)
 {
     const std::size_t n = fan.size();
     constexpr std::size_t few = 24; // beyond, look-ups by sorting: hubs may have thousands
@@ -118,8 +117,7 @@ bool order_fan(std::span<spoke_pair> fan, bool& open)
 
 /// The rings of a surface of `count` vertices, and which vertices are on the boundary.
 /// Throws mesh_error (non_manifold_vertex) if the triangles of a vertex do not form one oriented fan.
-template <class = void>
-ring_table make_rings(std::span<const std::array<idx, 3>> cells, std::size_t count, std::vector<char>& open,
+inline ring_table make_rings(std::span<const std::array<idx, 3>> cells, std::size_t count, std::vector<char>& open,
                       unsigned threads)
 {
     std::vector<spoke_pair> fans(3 * cells.size());

@@ -21,7 +21,6 @@ namespace taut::detail
 /// Thins a surface in rounds of independent half-edge collapses (Dobkin, Kirkpatrick 1985), following each removed
 /// vertex on the surface that is left (MAPS: Lee, Sweldens, Schroeder, Cowsar, Dobkin 1998). Numbers stay those of the
 /// surface at the start. Nothing depends on the number of threads.
-template <class = void>
 class thinning
 {
 public:
@@ -328,7 +327,7 @@ private:
     std::vector<float> size_;    // area of each star
     std::vector<char> stubborn_; // no target was found and the star is still the same
     double whole_ = 0;           // sum of the sizes at the start
-    independent_set<> set_;
+    independent_set set_;
     collapse_round round_;
     std::vector<char> given_up_;
     ring_table spare_;

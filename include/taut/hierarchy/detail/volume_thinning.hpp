@@ -38,7 +38,6 @@ struct volume_collapse_rules
 /// A volume that is being decimated: vertices are pulled into a neighbour each (half-edge collapses), those of the
 /// boundary along the boundary. All cells stay positive and the boundary stays a surface (the link condition: Dey et
 /// al. 1999, "Topology preserving edge contraction").
-template <class = void>
 class volume_thinning
 {
 public:

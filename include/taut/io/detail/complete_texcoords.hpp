@@ -17,8 +17,7 @@ namespace taut::io::detail
 /// and after them, by the way along the face; a corner at the place of one of these gets the same.
 /// texcoords: one a corner of `faces`, into uv; -1: none. What is new is appended to uv.
 /// points:    one a vertex
-template <class = void>
-void complete_texcoords(const file_faces& faces, std::span<const vec3> points, std::vector<idx>& texcoords,
+inline void complete_texcoords(const file_faces& faces, std::span<const vec3> points, std::vector<idx>& texcoords,
                         std::vector<vec2>& uv)
 {
     std::size_t first = 0;

@@ -61,7 +61,7 @@ inline disjoint_sets joined_corners(const surface_file& file)
 
 } // namespace detail
 
-TAUT_ON_USE_BODY std::optional<cut_surface> cut_seams(const surface_file& file)
+std::optional<cut_surface> cut_seams(const surface_file& file)
 {
     const auto at = [](idx i) { return static_cast<std::size_t>(i); };
     auto points = file.surface.points();

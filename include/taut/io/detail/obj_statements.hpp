@@ -65,8 +65,7 @@ inline obj_corner read_obj_corner(scanner& in)
 }
 
 /// The text in pieces of about `size` bytes that end with a statement.
-template <class = void>
-std::vector<std::string_view> cut_statements(std::string_view text, std::size_t size)
+inline std::vector<std::string_view> cut_statements(std::string_view text, std::size_t size)
 {
     std::vector<std::string_view> pieces;
     std::size_t begin = 0;

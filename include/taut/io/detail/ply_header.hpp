@@ -62,8 +62,7 @@ struct ply_header
     text_list comments;
 };
 
-template <class = void>
-ply_type read_ply_type(scanner& in)
+inline ply_type read_ply_type(scanner& in)
 {
     constexpr std::array<std::pair<std::string_view, ply_type>, 16> names = {{{"char", ply_type::int8},
                                                                               {"uchar", ply_type::uint8},
@@ -87,8 +86,7 @@ ply_type read_ply_type(scanner& in)
     return found->second;
 }
 
-template <class = void>
-ply_property read_ply_property(scanner& in)
+inline ply_property read_ply_property(scanner& in)
 {
     ply_property p{};
     const scanner before = in;
@@ -102,8 +100,7 @@ ply_property read_ply_property(scanner& in)
 }
 
 /// Reads up to and including the line end_header. Throws io_error.
-template <class = void>
-ply_header read_ply_header(scanner& in)
+inline ply_header read_ply_header(scanner& in)
 {
     if (in.word() != "ply") in.fail("not a PLY file: it does not start with 'ply'");
     std::optional<ply_header::encoding> format;

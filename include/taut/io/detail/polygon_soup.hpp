@@ -20,7 +20,6 @@ namespace taut::io::detail
 {
 
 /// What the readers collect, and what they share in turning it into a surface.
-template <class = void>
 struct polygon_soup
 {
     std::vector<vec3> points;
@@ -152,7 +151,7 @@ struct polygon_soup
         const bool polygons = std::any_of(sizes.begin(), sizes.end(), [](idx n) { return n != 3; });
         if (polygons)
         {
-            auto split = face_splitting<>(points, corners, sizes).run();
+            auto split = face_splitting(points, corners, sizes).run();
             if (split.polygons > 0)
                 result.notes.push_back(
                     std::to_string(split.polygons) + (split.polygons == 1 ? " polygon was" : " polygons were") +

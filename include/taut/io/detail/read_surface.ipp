@@ -62,8 +62,7 @@ inline bool is_stream_to_read(const std::filesystem::path& path)
 }
 
 /// All bytes of a file, and the format made known.
-template <class = void>
-std::string read_surface_bytes(const std::filesystem::path& path, surface_format& format)
+inline std::string read_surface_bytes(const std::filesystem::path& path, surface_format& format)
 {
     if (format == surface_format::automatic) format = format_of_name(path);
     if (format == surface_format::automatic && !is_stream_to_read(path))
@@ -77,7 +76,7 @@ std::string read_surface_bytes(const std::filesystem::path& path, surface_format
 
 } // namespace detail
 
-TAUT_ON_USE_BODY surface_file read_surface_file(const std::filesystem::path& path, surface_format format)
+surface_file read_surface_file(const std::filesystem::path& path, surface_format format)
 {
     const std::string name = path.string();
     std::string text = detail::read_surface_bytes(path, format);
@@ -87,7 +86,7 @@ TAUT_ON_USE_BODY surface_file read_surface_file(const std::filesystem::path& pat
                                            : parse_obj(std::move(text), name);
 }
 
-TAUT_ON_USE_BODY surface_soup read_surface_soup(const std::filesystem::path& path, surface_format format)
+surface_soup read_surface_soup(const std::filesystem::path& path, surface_format format)
 {
     const std::string name = path.string();
     std::string text = detail::read_surface_bytes(path, format);
@@ -97,7 +96,7 @@ TAUT_ON_USE_BODY surface_soup read_surface_soup(const std::filesystem::path& pat
                                            : parse_obj_soup(std::move(text), name);
 }
 
-TAUT_ON_USE_BODY mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format)
+mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format)
 {
     return read_surface_file(path, format).surface;
 }

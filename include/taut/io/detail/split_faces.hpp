@@ -31,7 +31,6 @@ struct face_triangles
 /// Splits the polygons among the faces of a file. Two polygons that have three corners in common, as those around a
 /// vertex of two faces, would often get one diagonal, or a polygon one that is an edge of another: then an edge has
 /// more than two triangles. Diagonals are chosen so that none is there twice, if that can be.
-template <class = void>
 class face_splitting
 {
 public:

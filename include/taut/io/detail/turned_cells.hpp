@@ -55,8 +55,7 @@ std::vector<double> corner_measures(const volume_file& file)
 /// sides that they share, not of their shape, as inverted cells are for untangling: of the two orders that neighbours
 /// have, the one that makes the measure of their component positive stays. A component whose cells agree has the
 /// other order where nine of ten are negative, or more. What no turning makes agree is left as it is.
-template <class = void>
-std::vector<idx> cells_to_turn(const volume_file& file)
+inline std::vector<idx> cells_to_turn(const volume_file& file)
 {
     const auto sides = cell_faces_of(file);
     const auto measures = file.dimension == 2 ? corner_measures<triangle>(file) : corner_measures<tetrahedron>(file);

@@ -15,7 +15,7 @@
 namespace taut::io
 {
 
-TAUT_ON_USE_BODY void write_files(std::span<const file_to_write> files)
+void write_files(std::span<const file_to_write> files)
 {
     std::vector<const file_to_write*> order;
     for (const auto& file : files) order.push_back(&file);

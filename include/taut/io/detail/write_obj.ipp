@@ -53,7 +53,7 @@ void write_with_points(Out& out, std::string_view bytes, std::span<const vec3> p
 
 } // namespace detail
 
-TAUT_ON_USE_BODY void write_obj(atomic_file& out, const mesh<triangle>& surface, std::span<const vec2> uv)
+void write_obj(atomic_file& out, const mesh<triangle>& surface, std::span<const vec2> uv)
 {
     detail::require_texcoords(uv, surface);
     detail::write_items(out, uv.size(),
@@ -68,20 +68,20 @@ TAUT_ON_USE_BODY void write_obj(atomic_file& out, const mesh<triangle>& surface,
                         { detail::append_face(text, surface.cells()[c], surface.cells()[c], false); });
 }
 
-TAUT_ON_USE_BODY void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2> uv)
+void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2> uv)
 {
     detail::require_texcoords(uv, file.surface);
     detail::write_with_texcoords(out, file, file.faces.corners, uv);
 }
 
-TAUT_ON_USE_BODY void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut,
+void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut,
                                 std::span<const vec2> uv)
 {
     detail::require_texcoords(uv, cut.surface);
     detail::write_with_texcoords(out, file, cut.corners, uv);
 }
 
-TAUT_ON_USE_BODY void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords,
+void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords,
                                 std::span<const vec2> uv)
 {
     if (texcoords.size() != file.faces.corners.size())
@@ -98,7 +98,7 @@ TAUT_ON_USE_BODY void write_obj(atomic_file& out, const surface_soup& file, std:
     detail::write_with_texcoords(out, file, complete, coords);
 }
 
-TAUT_ON_USE_BODY void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points)
+void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points)
 {
     if (points.size() != file.surface.points().size())
         throw parameter_error("points", std::to_string(points.size()) + " positions for " +

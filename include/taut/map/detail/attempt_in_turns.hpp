@@ -19,13 +19,12 @@ inline bool accurate(const solve::report& r, double tolerance)
 
 /// An attempt in a precision, and another one in double where that did not do. A certified map is gone on from; the
 /// limit of iterations is one for both.
-template <class Element>
-attempt attempt_in_turns(const map_run<Element>& run, const run_start& start)
+inline attempt attempt_in_turns(const map_run& run, const run_start& start)
 {
     const auto once = [&](precision how, int max_iterations, const std::vector<vec2>& from)
     {
         return run.levels ? attempt_on_levels(run, start, how, max_iterations, from)
-                          : run.asked->attempt_on_mesh(run, start, how, max_iterations);
+                          : attempt_on_mesh(run, start, how, max_iterations);
     };
     const auto& stopping = run.params.solve.stopping;
     const bool chosen = run.params.precision == precision::automatic;

@@ -14,8 +14,7 @@ namespace taut::detail
 {
 
 /// How a start is made and minimised on coarser levels.
-template <class Element>
-nested_params descent_of(const map_run<Element>& run)
+inline nested_params descent_of(const map_run& run)
 {
     nested_params p;
     if (!run.iterates()) p.stopping.max_iterations = 0;
@@ -26,8 +25,7 @@ nested_params descent_of(const map_run<Element>& run)
 }
 
 /// An attempt with a hierarchy, `levels`. from: as attempt::arrival, where it begins; none: at the start.
-template <class Element>
-attempt attempt_on(const mesh_levels<Element>& levels, const nested_params& descent, const map_run<Element>& run,
+inline attempt attempt_on(const mesh_levels<triangle>& levels, const nested_params& descent, const map_run& run,
                    const run_start& start, precision how, int max_iterations, std::vector<vec2> from)
 {
     const auto& numbers = levels.order().vertices;
@@ -38,12 +36,12 @@ attempt attempt_on(const mesh_levels<Element>& levels, const nested_params& desc
     const bool descends = a.arrival.empty();
     const std::size_t first = descends ? descent.first_level(levels) : 0;
     // Plans are made while the driver compiles, and while coarser levels are solved.
-    using plan = typename level_solver<Element>::plan;
+    using plan = typename level_solver<triangle>::plan;
     const auto form = lane_form::for_device(run.queue.device());
     made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels, first - k, form); });
     const auto take = [&](std::size_t l) { return plans.take(first - l); };
 
-    std::optional<level_solver<Element>> solver;
+    std::optional<level_solver<triangle>> solver;
     const bool built =
         build_within(run.queue, run.clock,
                      [&]
@@ -68,7 +66,7 @@ attempt attempt_on(const mesh_levels<Element>& levels, const nested_params& desc
         a.stopped = a.arrival.empty() ? run.clock.over() : !run.clock.proceed();
         if (a.stopped || a.arrival.empty()) return a;
     }
-    typename level_solver<Element>::level finest(*solver, take(0), a.arrival,
+    typename level_solver<triangle>::level finest(*solver, take(0), a.arrival,
                                                  run.held.beyond_pins(start.centre).renumbered(numbers));
     run.clock.spent(&map_seconds::setup);
     a.stopped = !run.clock.proceed();
@@ -88,8 +86,7 @@ attempt attempt_on(const mesh_levels<Element>& levels, const nested_params& desc
 
 /// An attempt with the hierarchy of the run, or with one that grows more slowly where that shows the shape to be hard
 /// and the time limit leaves room for it: the map comes later then.
-template <class Element>
-attempt attempt_on_levels(const map_run<Element>& run, const run_start& start, precision how, int max_iterations,
+inline attempt attempt_on_levels(const map_run& run, const run_start& start, precision how, int max_iterations,
                           const std::vector<vec2>& from)
 {
     nested_params descent = descent_of(run);

@@ -56,8 +56,7 @@ inline taut::observer observer_on(run_clock& clock, std::size_t level)
 }
 
 /// The user's observer on the mesh itself. now: the map of the run, centred, in the user's order.
-template <class Element>
-taut::observer observer_of(const map_run<Element>& run, const run_start& start, std::function<std::vector<vec2>()> now)
+inline taut::observer observer_of(const map_run& run, const run_start& start, std::function<std::vector<vec2>()> now)
 {
     return [&run, &start, now = std::move(now)](progress p)
     {
@@ -73,11 +72,10 @@ taut::observer observer_of(const map_run<Element>& run, const run_start& start, 
 }
 
 /// How the mesh itself is solved in what is left of the time.
-template <class Element>
-solve::params limited(const map_run<Element>& run, int max_iterations)
+inline solve::params limited(const map_run& run, int max_iterations)
 {
     auto p = run.params.solve;
-    if (p.stopping.base == 0) p.stopping.base = energy::rest_value<Element::dimension>(run.params.energy);
+    if (p.stopping.base == 0) p.stopping.base = energy::rest_value<triangle::dimension>(run.params.energy);
     p.stopping.max_iterations = max_iterations;
     p.stopping.time_limit = std::max(run.clock.left(), std::chrono::duration<double>(1e-9));
     return p;
@@ -90,8 +88,7 @@ inline std::vector<vec2> centred(std::vector<vec2> uv, const vec2& centre)
 }
 
 /// The stage that a minimisation on the mesh itself was; capping in the user's numbers.
-template <class Element>
-stage_report minimised_on_mesh(const map_run<Element>& run, const solve::report& r)
+inline stage_report minimised_on_mesh(const map_run& run, const solve::report& r)
 {
     stage_report did = stage_of("minimise", 0, run.vertices(), r);
     did.cut_by = corners_of(run.in.surface.cells(), r.capping);
@@ -99,15 +96,14 @@ stage_report minimised_on_mesh(const map_run<Element>& run, const solve::report&
 }
 
 /// An attempt without a hierarchy.
-template <class Element>
-attempt attempt_on_mesh(const map_run<Element>& run, const run_start& start, precision how, int max_iterations)
+inline attempt attempt_on_mesh(const map_run& run, const run_start& start, precision how, int max_iterations)
 {
     attempt a;
     a.precision = how;
-    const auto local = std::make_shared<layout<Element>>(run.in.surface, run.held.marks().pinned());
+    const auto local = std::make_shared<layout<triangle>>(run.in.surface, run.held.marks().pinned());
     const auto& data = run.params.data;
     if (!data.empty()) local->attach(data.reordered(local->order.cells), permute(run.in.surface, local->order));
-    map_objective<Element> f(run.queue, local, run.params.energy, run.params.weights, types_of(how),
+    map_objective<triangle> f(run.queue, local, run.params.energy, run.params.weights, types_of(how),
                              run.held.beyond_pins(start.centre));
     auto x = f.make_point();
     f.upload(centred(start.map.uv, start.centre), x);

@@ -14,24 +14,22 @@ namespace taut::detail
 {
 
 /// A map as of a run without the constraints; none if that has no valid one. Defined in parameterization.hpp.
-template <class Element>
-std::vector<vec2> free_draft(const map_run<Element>& run);
+inline std::vector<vec2> free_draft(const map_run& run);
 
 /// The first of these that works: springs draw pins to their places on levels; where that fails and the boundary is
 /// pinned as a whole, the same from the map of a run without the constraints, if a similarity brings that near to them;
 /// where the boundary is free, such a map, brought near; the conformal start, where that is the method. None: it takes
 /// the start that all runs have.
-template <class Element>
-std::optional<run_start> other_start(const map_run<Element>& run)
+inline std::optional<run_start> other_start(const map_run& run)
 {
     run_start start;
     if (run.draws_pins())
     {
-        start = drawn_start<Element>(run).make();
+        start = drawn_start(run).make();
         if (!start.useless || start.stopped) return start;
         if (run.held.outline_pinned(run.in.surface, run.in.sides))
         {
-            start = drawn_start<Element>(run, drawn_start<Element>::from::free_map).make();
+            start = drawn_start(run, drawn_start::from::free_map).make();
             if (!start.useless || start.stopped) return start;
             start.useless = false;
             if (!start.map.uv.empty()) return fitted_start(run, std::move(start), false);
@@ -52,8 +50,7 @@ std::optional<run_start> other_start(const map_run<Element>& run)
 }
 
 /// A start on the mesh itself: one that was asked for, or a barycentric one.
-template <class Element>
-run_start made_start(const map_run<Element>& run)
+inline run_start made_start(const map_run& run)
 {
     run_start start;
     if (!run.clock.proceed())
@@ -61,8 +58,7 @@ run_start made_start(const map_run<Element>& run)
         start.stopped = true;
         return start;
     }
-    if (run.asked)
-        if (auto other = run.asked->other_start(run)) return *std::move(other);
+    if (auto other = other_start(run)) return *std::move(other);
     auto how = run.params.barycentric;
     how.proceed = [&run] { return run.clock.proceed(); };
     start.map = barycentric_map(run.in.surface, run.in.sides, how);
@@ -70,8 +66,7 @@ run_start made_start(const map_run<Element>& run)
 }
 
 /// A start from the user's coordinates. Throws parameter_error for a wrong number.
-template <class Element>
-run_start given_start(const map_run<Element>& run)
+inline run_start given_start(const map_run& run)
 {
     run_start start;
     start.stopped = !run.clock.proceed();
@@ -82,8 +77,7 @@ run_start given_start(const map_run<Element>& run)
 
 /// The start of a run: from the user's coordinates, unless another one is better, else made on coarser levels or on the
 /// mesh itself.
-template <class Element>
-run_start choose_start(const map_run<Element>& run)
+inline run_start choose_start(const map_run& run)
 {
     run_start start;
     if (run.clock.over())
@@ -93,7 +87,7 @@ run_start choose_start(const map_run<Element>& run)
     }
     if (!run.params.initial.empty())
     {
-        start = run.asked->given_start(run);
+        start = given_start(run);
         if (!start.useless) return start;
         start.useless = false;
         start.stopped = !run.clock.proceed();

@@ -20,7 +20,6 @@ namespace taut::detail
 /// is pinned as a whole is held from the beginning, and only what is inside is drawn. The energy is a barrier, so all
 /// maps on the way are injective, and what is around a pin is dragged along, which ends in better minima than
 /// untangling does.
-template <class Element>
 class drawn_start
 {
 public:
@@ -31,7 +30,7 @@ public:
     };
 
     /// run: one that draws pins; referred to.
-    explicit drawn_start(const map_run<Element>& run, from where = from::constraints)
+    explicit drawn_start(const map_run& run, from where = from::constraints)
         : run_(run),
           free_(where == from::free_map),
           bound_(!free_ && run.held.outline_pinned(run.in.surface, run.in.sides)),
@@ -70,12 +69,12 @@ public:
             descent.first_map = [&map](std::size_t) { return std::move(map); };
             descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
         }
-        using plan = typename level_solver<Element>::plan;
+        using plan = typename level_solver<triangle>::plan;
         const auto form = lane_form::for_device(run_.queue.device());
         made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels_, first - k, form); });
         const auto take = [&](std::size_t l) { return plans.take(first - l); };
 
-        std::optional<level_solver<Element>> solver;
+        std::optional<level_solver<triangle>> solver;
         std::vector<vec2> arrival;
         const bool built = build_within(run_.queue, run_.clock,
                                         [&]
@@ -108,7 +107,7 @@ public:
     }
 
 private:
-    using level = typename level_solver<Element>::level;
+    using level = typename level_solver<triangle>::level;
 
     std::vector<bool> anchors() const
     {
@@ -251,13 +250,13 @@ private:
     static constexpr double roughly = 1e-3; // the gradient of a map that will be moved
     static constexpr double near = 0.25;    // of held_coordinates::misfit()
 
-    const map_run<Element>& run_;
+    const map_run& run_;
     bool free_;
     bool bound_; ///< all of the boundary is pinned
     std::vector<bool> anchored_;
     std::vector<vec2> places_; ///< where vertices are held
     vec2 centre_;
-    mesh_levels<Element> levels_;
+    mesh_levels<triangle> levels_;
     std::vector<directed_spring<2>> pull_;
     double reach_ = 1;          ///< half the size of the first map
     std::vector<vec2> origins_; ///< of all vertices, as far as they are on the first level

@@ -15,8 +15,7 @@ namespace taut::detail
 
 /// A start with flips, made injective, or why it is not. draft: the start before pinned vertices were put to their
 /// places, or none.
-template <class Element>
-run_start untangled_start(const map_run<Element>& run, run_start start, std::vector<vec2> draft)
+inline run_start untangled_start(const map_run& run, run_start start, std::vector<vec2> draft)
 {
     const bool bound = run.held.constrained() || run.params.boundary == boundary_mode::fixed;
     run.clock.has_result(bound); // the best map, even with defects
@@ -29,7 +28,7 @@ run_start untangled_start(const map_run<Element>& run, run_start start, std::vec
 
     run.clock.stages.append(found.stages);
     start.untangling = std::move(found.stages);
-    const std::string before = "the start had " + describe_defects<Element>(start.map.flips) + "; ";
+    const std::string before = "the start had " + describe_defects<triangle>(start.map.flips) + "; ";
     if (!bound && !found)
     {
         start.notes.push_back(before + "another start was made");
@@ -52,8 +51,7 @@ run_start untangled_start(const map_run<Element>& run, run_start start, std::vec
 
 /// A start on the mesh itself that obeys the constraints and is injective, or why there is none.
 /// start: its map is any. given: it is made of the user's coordinates.
-template <class Element>
-run_start fitted_start(const map_run<Element>& run, run_start start, bool given)
+inline run_start fitted_start(const map_run& run, run_start start, bool given)
 {
     auto& uv = start.map.uv;
     std::vector<vec2> draft;
@@ -71,7 +69,7 @@ run_start fitted_start(const map_run<Element>& run, run_start start, bool given)
     {
         if (run.held.constrained() || given)
         {
-            start = run.asked->untangled_start(run, std::move(start), std::move(draft));
+            start = untangled_start(run, std::move(start), std::move(draft));
             run.clock.spent(&map_seconds::untangle);
         }
         else

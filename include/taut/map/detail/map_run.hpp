@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,50 +24,23 @@ inline parameterize_params validated(parameterize_params p)
     return p;
 }
 
-struct attempt;
-struct run_start;
-template <class Element>
-struct map_run;
-
-/// The phases that parameters ask for. A run has them at hand only if it was given parameters, so that programs without
-/// any do not compile what constraints, other starts and boundaries kept apart need.
-template <class Element>
-struct asked_phases
-{
-    using run = map_run<Element>;
-
-    run_start (*given_start)(const run&);
-    std::optional<run_start> (*other_start)(const run&);
-    run_start (*untangled_start)(const run&, run_start, std::vector<vec2> draft);
-    attempt (*attempt_on_mesh)(const run&, const run_start&, precision, int max_iterations);
-    map_result (*kept_apart)(const run&, map_result);
-    map_result (*certified_apart)(const run&, map_result);
-};
-
-/// A run of parameterize() once it is prepared: what all its phases read. A template, as they are, so that only files
-/// that call it compile them.
-template <class Element>
+/// A run of parameterize() once it is prepared: what all its phases read.
 struct map_run
 {
-    static_assert(std::is_same_v<Element, triangle>, "surfaces only");
-
     taut::queue queue;
     const parameterize_params& params; ///< validated
     const run_surface& in;
     run_clock& clock;
-    const asked_phases<Element>* asked; ///< none: all parameters have their defaults
     held_coordinates held;
-    std::optional<mesh_levels<Element>>
+    std::optional<mesh_levels<triangle>>
         levels; ///< none where the method needs none, or the limits leave no time for them
 
     /// Refers to its arguments but the queue. Throws parameter_error for constraints of another mesh.
-    map_run(taut::queue q, const run_surface& surface, const parameterize_params& p, run_clock& limits,
-            const asked_phases<Element>* phases)
+    map_run(taut::queue q, const run_surface& surface, const parameterize_params& p, run_clock& limits)
         : queue(std::move(q)),
           params(p),
           in(surface),
           clock(limits),
-          asked(phases),
           held(p.constraints, in.surface.points().size(), in.fixed_boundary(p.boundary), in.unit)
     {
         clock.spent(&map_seconds::setup);
@@ -83,9 +55,9 @@ struct map_run
     std::size_t vertices() const { return in.surface.points().size(); }
 
     /// factor: of vertices, from a level to the next coarser one.
-    mesh_levels<Element> make_levels(double factor = hierarchy_params{}.factor) const
+    mesh_levels<triangle> make_levels(double factor = hierarchy_params{}.factor) const
     {
-        mesh_levels<Element> made(in.surface, held.marks().pinned(),
+        mesh_levels<triangle> made(in.surface, held.marks().pinned(),
                                   {.factor = factor, .proceed = [this] { return clock.proceed(); }}, params.data);
         clock.spent(&map_seconds::hierarchy);
         clock.stages.add({.stage = "hierarchy", .vertices = vertices()});

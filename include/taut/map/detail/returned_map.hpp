@@ -13,8 +13,7 @@ namespace taut::detail
 {
 
 /// A free map brought to its place, or left where it is if rounding would flip a triangle on the way.
-template <class Element>
-map_result placed(const map_run<Element>& run, map_result r)
+inline map_result placed(const map_run& run, map_result r)
 {
     if (!r || !run.is_free() || run.params.placement == placement::as_solved) return r;
     const double side = run.params.placement == placement::unit_square ? run.in.unit : 0;
@@ -34,8 +33,7 @@ map_result placed(const map_run<Element>& run, map_result r)
 
 /// A map in lengths of the user, pins bit for bit; the division is inexact at the ends of the range of double, so what
 /// is valid is certified again.
-template <class Element>
-map_result in_user_units(const map_run<Element>& run, map_result r)
+inline map_result in_user_units(const map_run& run, map_result r)
 {
     for (auto* points : {&r.uv, &r.report.start.uv, &r.report.pin_origins})
         for (vec2& p : *points) p /= run.in.unit;

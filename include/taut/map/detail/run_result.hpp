@@ -12,8 +12,7 @@ namespace taut::detail
 {
 
 /// What there is to report of a start and the last attempt to minimise it, if there was one; the outcome is left open.
-template <class Element>
-map_result run_result(const map_run<Element>& run, const run_start& start, attempt a)
+inline map_result run_result(const map_run& run, const run_start& start, attempt a)
 {
     map_result r;
     r.uv = std::move(a.uv);
@@ -45,8 +44,7 @@ inline map_result refused(map_result r, refusal why)
 }
 
 /// The best map of a run that the limits ended outside of a minimisation, if there is one. a: the attempt by then.
-template <class Element>
-map_result stopped_result(const map_run<Element>& run, const run_start& start, attempt a)
+inline map_result stopped_result(const map_run& run, const run_start& start, attempt a)
 {
     if (!a.certified)
     {
@@ -55,7 +53,7 @@ map_result stopped_result(const map_run<Element>& run, const run_start& start, a
         if (!a.uv.empty())
         {
             a.uv = restored(run, a.uv, vec2(0), a.uv);
-            const means e = mean_over<Element>(run.in.surface, run.in.ideal, a.uv,
+            const means e = mean_over<triangle>(run.in.surface, run.in.ideal, a.uv,
                                                [&run](const element<double, 2>& here) {
                                                    return here.det > 0 ? run.params.energy(here)
                                                                        : std::numeric_limits<double>::infinity();
@@ -81,8 +79,7 @@ map_result stopped_result(const map_run<Element>& run, const run_start& start, a
 }
 
 /// The result of a start that is not to be minimised: it is refused, or the limits ended the run.
-template <class Element>
-map_result unsolved_result(const map_run<Element>& run, const run_start& start)
+inline map_result unsolved_result(const map_run& run, const run_start& start)
 {
     if (start.stopped) return stopped_result(run, start, {});
     attempt none;
@@ -92,8 +89,7 @@ map_result unsolved_result(const map_run<Element>& run, const run_start& start)
 }
 
 /// The result of the last attempt; where its map is not certified, that of the start, if there is one.
-template <class Element>
-map_result solved_result(const map_run<Element>& run, const run_start& start, attempt a)
+inline map_result solved_result(const map_run& run, const run_start& start, attempt a)
 {
     if (a.stopped) return stopped_result(run, start, std::move(a));
     if (!a.certified && !start.map.uv.empty())

@@ -313,7 +313,7 @@ private:
     packing packed_;
 };
 
-TAUT_INLINE packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params)
+packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params)
 {
     params.validate(outlines.charts());
     double area = 0;
@@ -325,7 +325,7 @@ TAUT_INLINE packing pack_outlined(std::span<const vec2> uv, const chart_outlines
 
 } // namespace detail
 
-TAUT_INLINE packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
+packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
                          std::span<const idx> first_cell, std::span<const idx> first_vertex, const pack_params& params)
 {
     params.validate(static_cast<idx>(first_cell.size()) - 1);

@@ -23,7 +23,7 @@
 namespace taut
 {
 
-TAUT_INLINE void repair_params::validate(std::size_t points, std::size_t triangles) const
+void repair_params::validate(std::size_t points, std::size_t triangles) const
 {
     if (!(weld_tolerance >= 0) || !std::isfinite(weld_tolerance))
         throw parameter_error("weld_tolerance", "must be a length, 0 or more");
@@ -364,7 +364,7 @@ private:
 
 } // namespace detail
 
-TAUT_INLINE repaired_surface repair_surface(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
+repaired_surface repair_surface(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
                                             const repair_params& params)
 {
     params.validate(points.size(), triangles.size());

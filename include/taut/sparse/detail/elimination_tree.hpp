@@ -24,7 +24,6 @@ struct elimination_front
 /// Orders the elimination of a symmetric sparse pattern by approximate minimum degree on the quotient graph (Amestoy,
 /// Davis, Duff 1996): an eliminated front is kept as one element, so that fill is never stored; variables with equal
 /// neighbourhoods are merged. Returns fronts, children before parents and next to each other (postorder).
-template <class = void>
 class elimination_tree
 {
 public:

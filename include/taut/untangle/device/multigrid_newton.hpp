@@ -19,8 +19,7 @@ namespace taut
 {
 
 /// The regularised energy as an energy of kernels.
-template <class = void>
-any_energy regularized_energy(double eps, double area_weight)
+inline any_energy regularized_energy(double eps, double area_weight)
 {
     return any_energy(energy::regularized_element{}).with_parameters({eps, area_weight});
 }

@@ -26,7 +26,7 @@ namespace taut::detail
 {
 
 /// The same corners, the other orientation.
-inline side_view<>::tetra mirrored(const side_view<>::tetra& t)
+inline side_view::tetra mirrored(const side_view::tetra& t)
 {
     return {t[1], t[0], t[2], t[3]};
 }
@@ -38,17 +38,15 @@ inline side_view<>::tetra mirrored(const side_view<>::tetra& t)
 /// once around 0 in steps of less than half a turn: sums of neighbours lie in sectors that do not overlap, so
 /// neighbours cannot have the one sign and the two others the other one. (None is flat: where all that is to be
 /// positive can be, it can be with any of the free vertices moved a little.)
-template <class = void>
-std::vector<std::vector<side_view<>::tetra>> cases_around(idx u, const std::array<idx, 4>& q)
+inline std::vector<std::vector<side_view::tetra>> cases_around(idx u, const std::array<idx, 4>& q)
 {
-    const side_view<>::tetra a{u, q[0], q[1], q[2]}, b{u, q[0], q[2], q[3]}, c{u, q[1], q[2], q[3]},
+    const side_view::tetra a{u, q[0], q[1], q[2]}, b{u, q[0], q[2], q[3]}, c{u, q[1], q[2], q[3]},
         d{u, q[0], q[1], q[3]};
     const auto not_a = mirrored(a), not_b = mirrored(b), not_c = mirrored(c), not_d = mirrored(d);
     return {{a, b}, {c, d}, {not_a, not_b, not_c}, {not_a, not_b, not_d}, {not_c, not_d, not_a}, {not_c, not_d, not_b}};
 }
 
 /// Polynomials of an edge and a third vertex that are all to be positive.
-template <class = void>
 class place_system
 {
 public:
@@ -106,7 +104,7 @@ public:
             if (std::all_of(columns.begin(), columns.end(), [&](const auto& c) { return times(w, c) > 1e-9; }))
                 return false;
         for (auto& c : columns) c.push_back(1); // the weights sum to 1
-        std::vector<double> target(side_view<>::products + 1, 0.0);
+        std::vector<double> target(side_view::products + 1, 0.0);
         target.back() = 1;
         auto fit = fit_nonnegative(columns, target);
         if (fit.error() > 1e-6)
@@ -122,7 +120,7 @@ public:
             if (fit.weights[k] > 1e-9) terms.push_back(factors[k]);
         if (known_->contains(terms)) return true;
         std::vector<std::vector<big_integer>> exact;
-        for (const auto& [f, g] : terms) exact.push_back(g ? side_view<>::product(*f, *g) : f->exact);
+        for (const auto& [f, g] : terms) exact.push_back(g ? side_view::product(*f, *g) : f->exact);
         if (!vanishes(std::move(exact))) return false;
         known_->insert(std::move(terms));
         return true;
@@ -137,8 +135,8 @@ private:
     static std::vector<double> rounded_product(const place_form& f, const place_form& g)
     {
         std::vector<double> result;
-        for (std::size_t i = 0; i < side_view<>::unknowns; ++i)
-            for (std::size_t j = i; j < side_view<>::unknowns; ++j)
+        for (std::size_t i = 0; i < side_view::unknowns; ++i)
+            for (std::size_t j = i; j < side_view::unknowns; ++j)
                 result.push_back(i == j ? f.rounded[i] * g.rounded[i]
                                         : f.rounded[i] * g.rounded[j] + f.rounded[j] * g.rounded[i]);
         const double length = std::sqrt(times(result, result));
@@ -152,11 +150,10 @@ private:
 };
 
 /// The search for a contradiction around one edge, seen from one side.
-template <class = void>
 class crowded_edge
 {
 public:
-    using tetra = side_view<>::tetra;
+    using tetra = side_view::tetra;
 
     /// The edge from first to second, both free. around: the cells of each vertex.
     crowded_edge(const untangle_problem<tetrahedron>& p, const csr& around, const flat_side& side, idx first,
@@ -277,7 +274,7 @@ private:
         return std::all_of(least.begin(), least.end(), [&](auto& more) { return refute(std::move(more), open); });
     }
 
-    static bool any_contradictory(std::vector<place_system<>>& systems)
+    static bool any_contradictory(std::vector<place_system>& systems)
     {
         return std::any_of(systems.begin(), systems.end(), [](auto& s) { return s.contradictory(); });
     }
@@ -312,9 +309,9 @@ private:
     }
 
     /// One for each third vertex, of what concerns it and the edge; of the edge alone if there is none.
-    std::vector<place_system<>> systems_of(const std::vector<tetra>& facts)
+    std::vector<place_system> systems_of(const std::vector<tetra>& facts)
     {
-        std::vector<place_system<>> systems(std::max<std::size_t>(thirds_.size(), 1), place_system<>(known_));
+        std::vector<place_system> systems(std::max<std::size_t>(thirds_.size(), 1), place_system(known_));
         for (const auto& t : facts)
             if (const auto v = view_->third(t))
                 for (std::size_t k = 0; k < systems.size(); ++k)
@@ -324,19 +321,18 @@ private:
     }
 
     idx first_, second_;
-    std::optional<side_view<>> view_;
+    std::optional<side_view> view_;
     std::vector<idx> cells_, corners_, thirds_;
     std::vector<tetra> facts_;
     std::vector<choice> choices_;
-    place_system<>::relations known_;
+    place_system::relations known_;
     int cases_ = 0; // left
     std::function<bool()> proceed_;
 };
 
 /// The flat sides of a mesh all of whose outline is pinned. Inner vertices of a map of positive elements lie within:
 /// points beyond, which the outline does not wind about, are not covered, and all around an inner vertex are.
-template <class = void>
-std::vector<flat_side> flat_sides(const untangle_problem<tetrahedron>& p)
+inline std::vector<flat_side> flat_sides(const untangle_problem<tetrahedron>& p)
 {
     std::vector<flat_side> sides;
     if (!p.owners.empty() || !p.outline_pinned()) return sides;
@@ -359,8 +355,7 @@ std::vector<flat_side> flat_sides(const untangle_problem<tetrahedron>& p)
 
 /// Looks for an edge of these tetrahedra, both of its ends free, that has no direction in which what lies around it,
 /// seen from a flat side of the outline, can be positive.
-template <class = void>
-void judge_edges(const untangle_problem<tetrahedron>& p, std::span<const idx> cells,
+inline void judge_edges(const untangle_problem<tetrahedron>& p, std::span<const idx> cells,
                  const std::function<bool()>& proceed, infeasibility& found)
 {
     constexpr int cases = 500;
@@ -378,7 +373,7 @@ void judge_edges(const untangle_problem<tetrahedron>& p, std::span<const idx> ce
     for (const auto& [a, b] : edges)
         for (const auto& side : sides)
         {
-            crowded_edge<> edge(p, around, side, a, b);
+            crowded_edge edge(p, around, side, a, b);
             if (!edge.prove(cases, proceed)) continue;
             std::vector<idx> ids{a, b};
             ids.insert(ids.end(), edge.cells().begin(), edge.cells().end());

@@ -43,8 +43,7 @@ inline int cross_sign(const half_plane& f, const half_plane& g)
 }
 
 /// Sign of det [a b c] of three half-planes, exact.
-template <class = void>
-int determinant_sign(const half_plane& f, const half_plane& g, const half_plane& h)
+inline int determinant_sign(const half_plane& f, const half_plane& g, const half_plane& h)
 {
     exact_sum<4> sum;
     // a_i b_j c_k, eight products of four coordinates.
@@ -70,8 +69,7 @@ int determinant_sign(const half_plane& f, const half_plane& g, const half_plane&
 /// True if no point lies in all three open half-planes, exact. By Farkas: there are l >= 0, not all zero, with
 /// sum l (a, b) = 0 and sum l c <= 0. For three half-planes l are the cross products of the two other normals, and the
 /// last sum is det [a b c].
-template <class = void>
-bool contradict(const half_plane& f, const half_plane& g, const half_plane& h)
+inline bool contradict(const half_plane& f, const half_plane& g, const half_plane& h)
 {
     const std::array<int, 3> l{cross_sign(g, h), cross_sign(h, f), cross_sign(f, g)};
     const auto [least, most] = std::minmax_element(l.begin(), l.end());
@@ -80,8 +78,7 @@ bool contradict(const half_plane& f, const half_plane& g, const half_plane& h)
 }
 
 /// contradict() as far as floating point sees it; true where it is unsure.
-template <class = void>
-bool may_contradict(const half_plane& f, const half_plane& g, const half_plane& h)
+inline bool may_contradict(const half_plane& f, const half_plane& g, const half_plane& h)
 {
     constexpr double tolerance = 1e-9;
     const auto cross = [](const half_plane& s, const half_plane& t)
@@ -111,8 +108,7 @@ inline std::vector<vec2> clip(std::span<const vec2> polygon, const half_plane& h
 
 /// Three half-planes without a common point, as numbers, or nothing if there are none or none were found. What is found
 /// is exact. By Helly's theorem three suffice; clipping in floating point tells when to look for them.
-template <class = void>
-std::optional<std::array<std::size_t, 3>> find_contradiction(std::span<const half_plane> planes)
+inline std::optional<std::array<std::size_t, 3>> find_contradiction(std::span<const half_plane> planes)
 {
     constexpr std::size_t most = 2000; // clipping takes the square of their number
     if (planes.size() < 3 || planes.size() > most) return std::nullopt;

@@ -22,8 +22,7 @@ namespace detail
 {
 
 /// Free vertices without a place: some of their triangles with two pinned corners contradict each other.
-template <class = void>
-void judge_stars(const untangle_problem<triangle>& p, infeasibility& found)
+inline void judge_stars(const untangle_problem<triangle>& p, infeasibility& found)
 {
     const csr around = vertex_corners(p.rest);
     std::vector<idx> ids;
@@ -59,8 +58,7 @@ void judge_stars(const untangle_problem<triangle>& p, infeasibility& found)
 }
 
 /// Inner vertices that are pinned with all their neighbours so that these run around them more than once.
-template <class = void>
-void judge_winding(const untangle_problem<triangle>& p, infeasibility& found)
+inline void judge_winding(const untangle_problem<triangle>& p, infeasibility& found)
 {
     auto ids = branch_points(p.rest.cells(), p.initial);
     if (ids.empty()) return;
@@ -80,8 +78,7 @@ void judge_winding(const untangle_problem<triangle>& p, infeasibility& found)
 /// Pinned vertices outside of their pinned boundary, and edges between pinned vertices that meet. Where the boundary is
 /// pinned and does not meet itself, a map of positive triangles is one-to-one, so that such edges are a proof;
 /// elsewhere they only say that the map covers parts twice.
-template <class = void>
-void judge_places(const untangle_problem<triangle>& p, const facet_table& f, infeasibility& found)
+inline void judge_places(const untangle_problem<triangle>& p, const facet_table& f, infeasibility& found)
 {
     const auto boundaries = find_pinned_boundaries(p, f);
     found.prove(infeasibility_kind::outside_boundary, vertices_outside(p, boundaries),

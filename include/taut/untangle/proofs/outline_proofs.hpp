@@ -21,8 +21,7 @@ namespace taut::detail
 {
 
 /// The outline of a patch as edges in the order of its loops.
-template <class = void>
-std::vector<std::array<idx, 2>> outline_edges(const mesh<triangle>& m, const facet_table& cut,
+inline std::vector<std::array<idx, 2>> outline_edges(const mesh<triangle>& m, const facet_table& cut,
                                               const pinned_patch& patch)
 {
     std::vector<std::array<idx, 2>> edges;

@@ -38,8 +38,7 @@ struct pinned_boundaries
     }
 };
 
-template <class = void>
-pinned_boundaries find_pinned_boundaries(const untangle_problem<triangle>& p, const facet_table& f)
+inline pinned_boundaries find_pinned_boundaries(const untangle_problem<triangle>& p, const facet_table& f)
 {
     const auto at = [](idx i) { return static_cast<std::size_t>(i); };
     pinned_boundaries b;

@@ -16,7 +16,6 @@ namespace taut
 {
 
 /// Looks around the last few inverted elements for a proof that there is no map (proofs/crowded_edge.hpp).
-template <class = void>
 class proof_stage final : public untangle_stage<tetrahedron>
 {
 public:

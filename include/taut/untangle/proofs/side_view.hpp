@@ -40,7 +40,6 @@ struct place_form
 /// bilinear in differences of places, a.((u - w) x (v - w)) > 0.
 ///
 /// Here all is in terms of two differences: e = second - first, the ends of an edge, and v = third - first.
-template <class = void>
 class side_view
 {
 public:

@@ -202,7 +202,7 @@ private:
 
 } // namespace detail
 
-TAUT_INLINE std::string symmetry_error::message(const vec3& normal, double offset, const std::vector<idx>& vertices,
+std::string symmetry_error::message(const vec3& normal, double offset, const std::vector<idx>& vertices,
                                                 bool edges)
 {
     const auto text = [](double x)
@@ -217,7 +217,7 @@ TAUT_INLINE std::string symmetry_error::message(const vec3& normal, double offse
            (edges ? " edges without a mirror image" : " no mirror image") + "; move them, or leave symmetry out";
 }
 
-TAUT_INLINE mirror_symmetry find_symmetry(const mesh<triangle>& m, const facet_table& f, std::span<const char> together,
+mirror_symmetry find_symmetry(const mesh<triangle>& m, const facet_table& f, std::span<const char> together,
                                           double tolerance)
 {
     return detail::symmetry_search(m, f, together, tolerance).run();

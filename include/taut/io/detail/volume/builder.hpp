@@ -22,7 +22,6 @@ namespace taut::io::detail
 constexpr std::array<std::size_t, 6> turned_wedge = {0, 2, 1, 3, 5, 4};
 
 /// What the readers of volumes have in common: they fill a file that has its bytes.
-template <class = void>
 class volume_builder
 {
 public:
@@ -45,7 +44,7 @@ public:
     }
 
     /// Reads the coordinates of the next point.
-    void add_point(number_source<>& from)
+    void add_point(number_source& from)
     {
         vec3 p(0.0);
         for (int k = 0; k < file_.places.per_point; ++k)
@@ -65,21 +64,21 @@ public:
     void add_id(long long id) { numbers_.add(id); }
 
     /// After the last number.
-    void finish_ids(const number_source<>& from)
+    void finish_ids(const number_source& from)
     {
         if (const auto twice = numbers_.finish())
             from.fail("two points have the number " + std::to_string(*twice) + "; number each once");
     }
 
     /// The position of the point with this number of the file.
-    idx point_of_id(long long id, const number_source<>& from) const
+    idx point_of_id(long long id, const number_source& from) const
     {
         if (const auto v = numbers_.find(id)) return *v;
         from.fail("no point has the number " + std::to_string(id) + "; correct it, or add the point");
     }
 
     /// The position itself, counted from `first`, checked.
-    idx point_at(long long i, long long first, const number_source<>& from) const
+    idx point_at(long long i, long long first, const number_source& from) const
     {
         const auto n = static_cast<long long>(file_.points.size());
         if (i < first || i - first >= n)
@@ -121,7 +120,7 @@ public:
 private:
     volume_file& file_;
     scanner in_;
-    numbering<> numbers_;
+    numbering numbers_;
 };
 
 } // namespace taut::io::detail

@@ -21,12 +21,11 @@ namespace taut::io::detail
 
 /// What all versions of gmsh's .msh have in common: sections from $NAME to $EndNAME, names of physical groups, kinds
 /// of elements (gmsh reference manual, "MSH file format").
-template <class = void>
 class gmsh_sections
 {
 public:
     /// Throws io_error unless there are a format that is read, nodes and elements.
-    explicit gmsh_sections(volume_builder<>& to) : to_(to), in_(to.in()), text_(in_, {})
+    explicit gmsh_sections(volume_builder& to) : to_(to), in_(to.in()), text_(in_, {})
     {
         find();
         read_format();
@@ -57,7 +56,7 @@ public:
     const number_encoding& encoding() const { return encoding_; }
 
     /// The kind of a type of elements. Throws io_error at `from` for one that is not read.
-    static cell_kind kind_of(long long type, const number_source<>& from)
+    static cell_kind kind_of(long long type, const number_source& from)
     {
         static constexpr std::array<std::pair<int, cell_kind>, 8> known = {{{15, cell_kind::vertex},
                                                                             {1, cell_kind::line},
@@ -198,14 +197,14 @@ private:
 
     static constexpr std::size_t longest_name = 64; // its end is searched for
 
-    volume_builder<>& to_;
+    volume_builder& to_;
     scanner& in_;
-    number_source<> text_;
+    number_source text_;
     number_encoding encoding_;
     bool version_4_ = false;
     std::map<std::string_view, const char*> contents_;
     std::map<std::pair<long long, long long>, std::string> names_;
-    std::array<tagged_vertices<>, 4> physical_, entities_;
+    std::array<tagged_vertices, 4> physical_, entities_;
     std::array<std::vector<long long>, 2> tags_; ///< of cells: physical, entity
 };
 

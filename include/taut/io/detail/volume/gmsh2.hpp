@@ -14,11 +14,10 @@ namespace taut::io::detail
 
 /// Nodes and elements of version 2: numbers of any order, with gaps; tags of an element: physical group, entity,
 /// partitions. In binary files elements of one type come in runs with a header.
-template <class = void>
 class gmsh2_reader
 {
 public:
-    gmsh2_reader(volume_builder<>& to, gmsh_sections<>& sections)
+    gmsh2_reader(volume_builder& to, gmsh_sections& sections)
         : to_(to), sections_(sections), from_(to.in(), sections.encoding())
     {
     }
@@ -38,7 +37,7 @@ private:
     /// A count, which stands as text in binary files, too.
     std::size_t read_count(const char* what)
     {
-        const std::size_t n = number_source<>(to_.in(), {}).count(number_type::int64, what);
+        const std::size_t n = number_source(to_.in(), {}).count(number_type::int64, what);
         to_.in().next_line();
         return n;
     }
@@ -71,7 +70,7 @@ private:
         {
             const bool text = from_.text();
             if (text) from_.integer(integer, "the number of an element");
-            const cell_kind kind = gmsh_sections<>::kind_of(from_.integer(integer, "the type of an element"), from_);
+            const cell_kind kind = gmsh_sections::kind_of(from_.integer(integer, "the type of an element"), from_);
             const long long run = text ? 1 : from_.integer(integer, "the number of elements of this type");
             const long long tags = from_.integer(integer, "the number of tags");
             if (run < 1 || tags < 0 || run > static_cast<long long>(n - e))
@@ -104,9 +103,9 @@ private:
         if (entity != 0) sections_.add_entity(shape_of(kind).dimension, entity, cell);
     }
 
-    volume_builder<>& to_;
-    gmsh_sections<>& sections_;
-    number_source<> from_;
+    volume_builder& to_;
+    gmsh_sections& sections_;
+    number_source from_;
 };
 
 } // namespace taut::io::detail

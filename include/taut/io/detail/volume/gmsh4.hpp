@@ -16,11 +16,10 @@ namespace taut::io::detail
 
 /// Entities, nodes and elements of version 4.1: nodes and elements come in blocks, one a geometric entity, and it is
 /// entities that physical groups name. Coordinates of entities (points of the geometry, boxes) are none of the mesh.
-template <class = void>
 class gmsh4_reader
 {
 public:
-    gmsh4_reader(volume_builder<>& to, gmsh_sections<>& sections)
+    gmsh4_reader(volume_builder& to, gmsh_sections& sections)
         : to_(to), sections_(sections), from_(to.in(), sections.encoding())
     {
     }
@@ -117,7 +116,7 @@ private:
         for (std::size_t blocks = read_block_counts(); blocks > 0; --blocks)
         {
             const entity of = read_entity();
-            const cell_kind kind = gmsh_sections<>::kind_of(from_.integer(integer, "the type of elements"), from_);
+            const cell_kind kind = gmsh_sections::kind_of(from_.integer(integer, "the type of elements"), from_);
             const auto corners = static_cast<std::size_t>(shape_of(kind).corners);
             const std::size_t n = from_.count(size, "the number of elements", 2 * (corners + 1));
             const auto groups = physical_.find({of.dimension, of.tag});
@@ -163,9 +162,9 @@ private:
         }
     }
 
-    volume_builder<>& to_;
-    gmsh_sections<>& sections_;
-    number_source<> from_;
+    volume_builder& to_;
+    gmsh_sections& sections_;
+    number_source from_;
     std::map<std::pair<int, long long>, std::vector<long long>> physical_; ///< by dimension and tag of the entity
 };
 

@@ -36,7 +36,6 @@ inline std::vector<idx> unique_vertices(std::vector<idx> vertices, std::size_t v
 }
 
 /// Vertices by the number of what they belong to: an attribute of cells or points.
-template <class = void>
 class tagged_vertices
 {
 public:
@@ -89,8 +88,7 @@ private:
 };
 
 /// Names that several groups have get the dimension behind: wing:2, wing:3; then they are joined.
-template <class = void>
-void make_names_unique(std::vector<volume_group>& groups)
+inline void make_names_unique(std::vector<volume_group>& groups)
 {
     std::map<std::string, int> count;
     for (const auto& g : groups) ++count[g.name];

@@ -17,7 +17,6 @@ namespace taut::io::detail
 
 /// Reads MEDIT's .mesh: sections, each a keyword, a count and its items (Frey, "MEDIT: an interactive mesh
 /// visualization software", INRIA RT-0253). Sections without vertices of cells are passed over.
-template <class = void>
 class medit_reader
 {
 public:
@@ -84,7 +83,7 @@ private:
         const std::size_t n =
             from_.count(number_type::int64, "the number of vertices", static_cast<std::size_t>(2 * (d + 1)));
         to_.reserve_points(n);
-        tagged_vertices<> groups;
+        tagged_vertices groups;
         volume_label references{"reference", false, {}};
         for (std::size_t v = 0; v < n; ++v)
         {
@@ -119,7 +118,7 @@ private:
         const bool tagged = !found->group.empty();
         const auto corners = static_cast<std::size_t>(shape_of(found->kind).corners);
         const std::size_t n = from_.count(number_type::int64, "the number of cells", 2 * (corners + (tagged ? 1 : 0)));
-        tagged_vertices<> groups;
+        tagged_vertices groups;
         std::vector<idx> cell(corners);
         for (std::size_t c = 0; c < n; ++c)
         {
@@ -147,9 +146,9 @@ private:
                      "); save the mesh in first order");
     }
 
-    volume_builder<> to_;
+    volume_builder to_;
     scanner& in_;
-    number_source<> from_;
+    number_source from_;
     std::vector<section> sections_;
 };
 

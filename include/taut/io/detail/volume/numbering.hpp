@@ -13,7 +13,6 @@ namespace taut::io::detail
 {
 
 /// From the numbers that a file gives its points to their positions, counted from 0.
-template <class = void>
 class numbering
 {
 public:

@@ -48,7 +48,6 @@ struct number_encoding
 };
 
 /// Numbers of a file, one after the other, from where the scanner is. All members throw io_error.
-template <class = void>
 class number_source
 {
 public:

@@ -13,7 +13,6 @@ namespace taut::io::detail
 {
 
 /// Reads an untangling problem: its points are the initial map, its group "fixed" what that holds.
-template <class = void>
 class problem_reader
 {
 public:
@@ -50,7 +49,7 @@ private:
         to_.finish();
     }
 
-    volume_builder<> to_;
+    volume_builder to_;
     prob_reader in_;
 };
 

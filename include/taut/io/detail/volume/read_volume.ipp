@@ -24,41 +24,39 @@ namespace taut::io
 namespace detail
 {
 
-template <class = void>
-void read_gmsh(volume_file& file)
+inline void read_gmsh(volume_file& file)
 {
-    volume_builder<> to(file);
-    gmsh_sections<> sections(to);
+    volume_builder to(file);
+    gmsh_sections sections(to);
     if (sections.version_4())
-        gmsh4_reader<>(to, sections).read();
+        gmsh4_reader(to, sections).read();
     else
-        gmsh2_reader<>(to, sections).read();
+        gmsh2_reader(to, sections).read();
     sections.finish_groups();
     to.finish();
 }
 
 /// Fills in what the bytes of a file say.
-template <class = void>
-void read_volume_bytes(volume_file& file, volume_format format)
+inline void read_volume_bytes(volume_file& file, volume_format format)
 {
     file.format = name_of(format);
     refuse_utf16(file.bytes, file.path);
     switch (format)
     {
     case volume_format::medit:
-        return medit_reader<>(file).read();
+        return medit_reader(file).read();
     case volume_format::gmsh:
         return read_gmsh(file);
     case volume_format::vtk:
-        return vtk_reader<>(file).read();
+        return vtk_reader(file).read();
     case volume_format::vtu:
-        return vtu_reader<>(file).read();
+        return vtu_reader(file).read();
     case volume_format::tetgen:
-        return tetgen_reader<>(file).read();
+        return tetgen_reader(file).read();
     case volume_format::su2:
-        return su2_reader<>(file).read();
+        return su2_reader(file).read();
     case volume_format::problem:
-        return problem_reader<>(file).read();
+        return problem_reader(file).read();
     case volume_format::automatic:
         break;
     }
@@ -71,7 +69,7 @@ void read_volume_bytes(volume_file& file, volume_format format)
 
 } // namespace detail
 
-TAUT_ON_USE_BODY volume_file read_volume_file(const std::filesystem::path& path, volume_format format)
+volume_file read_volume_file(const std::filesystem::path& path, volume_format format)
 {
     if (format == volume_format::automatic) format = detail::volume_format_of_name(path);
     volume_file file;
@@ -91,12 +89,12 @@ TAUT_ON_USE_BODY volume_file read_volume_file(const std::filesystem::path& path,
     return file;
 }
 
-TAUT_ON_USE_BODY mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format)
+mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format)
 {
     return tetrahedra_of(read_volume_file(path, format));
 }
 
-TAUT_ON_USE_BODY volume_file parse_volume(std::string bytes, volume_format format, const std::string& name)
+volume_file parse_volume(std::string bytes, volume_format format, const std::string& name)
 {
     volume_file file;
     file.path = name;
@@ -105,7 +103,7 @@ TAUT_ON_USE_BODY volume_file parse_volume(std::string bytes, volume_format forma
     return file;
 }
 
-TAUT_ON_USE_BODY volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces,
+volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces,
                                           const std::string& name)
 {
     volume_file file;

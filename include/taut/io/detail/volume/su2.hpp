@@ -18,7 +18,6 @@ namespace taut::io::detail
 /// Reads SU2's .su2: lines KEY= VALUE, behind some of which items follow, one a line; comments from %. Kinds and
 /// corners are VTK's. What stands
 /// behind the numbers of an item is passed over.
-template <class = void>
 class su2_reader
 {
 public:
@@ -99,7 +98,7 @@ private:
         }
     }
 
-    void read_cells(const key& k, tagged_vertices<>* marker)
+    void read_cells(const key& k, tagged_vertices* marker)
     {
         const std::size_t n = from_.fitting(value_of(k), "the number of elements", 2);
         in_.next_line();
@@ -128,15 +127,15 @@ private:
         const key* const elements = &k + 1 != keys_.data() + keys_.size() ? &k + 1 : nullptr;
         if (elements == nullptr || elements->name != "MARKER_ELEMS") in_.fail("no MARKER_ELEMS= behind MARKER_TAG=");
         if (name == "SEND_RECEIVE") return; // of a partition
-        tagged_vertices<> marker;
+        tagged_vertices marker;
         ++markers_read_;
         read_cells(*elements, &marker);
         marker.move_to(to_.file(), [&](long long) { return std::string(name); });
     }
 
-    volume_builder<> to_;
+    volume_builder to_;
     scanner& in_;
-    number_source<> from_;
+    number_source from_;
     std::vector<key> keys_;
     volume_label markers_{"marker", true, {}}; ///< of cells: 0 or the number of their marker, from 1
     long long markers_read_ = 0;

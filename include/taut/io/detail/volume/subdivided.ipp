@@ -162,8 +162,7 @@ inline int vtk_type(cell_kind kind)
     return kind == cell_kind::vertex ? 1 : kind == cell_kind::line ? 3 : kind == cell_kind::triangle ? 5 : 10;
 }
 
-template <class = void>
-bool fits_32_bits(const volume_label& l)
+inline bool fits_32_bits(const volume_label& l)
 {
     return std::all_of(l.values.begin(), l.values.end(),
                        [](long long x) {
@@ -172,8 +171,7 @@ bool fits_32_bits(const volume_label& l)
                        });
 }
 
-template <class = void>
-std::string vtk_text(const plain_mesh& m)
+inline std::string vtk_text(const plain_mesh& m)
 {
     text_lines out;
     (out << "# vtk DataFile Version 3.0").end();
@@ -209,8 +207,7 @@ std::string vtk_text(const plain_mesh& m)
     return out.take();
 }
 
-template <class = void>
-std::string vtu_text(const plain_mesh& m)
+inline std::string vtu_text(const plain_mesh& m)
 {
     text_lines out;
     const auto array = [&](std::string_view name, const char* type, int components, const auto& values)
@@ -304,8 +301,7 @@ void add_parts(const cell_block& block, const subdivision& how, cell_block& to, 
     }
 }
 
-template <class = void>
-plain_mesh plain_subdivided(const volume_file& file, const subdivision& how)
+inline plain_mesh plain_subdivided(const volume_file& file, const subdivision& how)
 {
     plain_mesh m{file, how.extended(std::span<const vec3>(file.points)), {}, {}, {}};
     if (!file.rest.empty()) m.rest = how.extended(std::span<const vec3>(file.rest));
@@ -358,7 +354,7 @@ plain_mesh plain_subdivided(const volume_file& file, const subdivision& how)
 
 } // namespace detail
 
-TAUT_ON_USE_BODY volume_file subdivided(const volume_file& file, const subdivision& how)
+volume_file subdivided(const volume_file& file, const subdivision& how)
 {
     if (static_cast<std::size_t>(how.original_count()) != file.points.size())
         throw parameter_error("how", "is of " + std::to_string(how.original_count()) + " points, and the file has " +

@@ -15,7 +15,6 @@ namespace taut::io::detail
 
 /// Reads TetGen's .node and .ele, and .face if there is one (TetGen manual, "File formats"); of two dimensions the
 /// same files of Triangle. Comments from #.
-template <class = void>
 class tetgen_reader
 {
 public:
@@ -28,7 +27,7 @@ public:
         {
             scanner in(companion.bytes, name_of(companion));
             in.require_text();
-            number_source<> from(in, encoding);
+            number_source from(in, encoding);
             if (companion.extension == ".ele") read_elements(from);
             if (companion.extension == ".face") read_faces(from);
         }
@@ -58,7 +57,7 @@ private:
         if (n == 0) nodes_.fail("no points; a mesh needs some");
         to_.set_places({}, false, static_cast<int>(d));
         to_.reserve_points(n);
-        tagged_vertices<> groups;
+        tagged_vertices groups;
         for (std::size_t v = 0; v < n; ++v)
         {
             to_.add_id(nodes_.integer(integer, "the number of a point"));
@@ -73,7 +72,7 @@ private:
     }
 
     /// A number on the line, 0 if there is none.
-    static long long optional(number_source<>& from)
+    static long long optional(number_source& from)
     {
         const long long n = from.in().content_ends() ? 0 : from.integer(integer, "a count");
         if (n < 0) from.fail("a negative count");
@@ -81,7 +80,7 @@ private:
     }
 
     /// Some programs write 0.0 for 0.
-    static long long marker(number_source<>& from)
+    static long long marker(number_source& from)
     {
         const double x = from.real(number_type::float64);
         if (x != std::floor(x) || std::abs(x) > 1e15) from.fail("a boundary marker that is no whole number");
@@ -89,13 +88,13 @@ private:
     }
 
     template <std::size_t N>
-    void read_cell(number_source<>& from, std::array<idx, N>& corners, std::size_t count)
+    void read_cell(number_source& from, std::array<idx, N>& corners, std::size_t count)
     {
         from.integer(integer, "the number of an element");
         for (std::size_t k = 0; k < count; ++k) corners[k] = to_.point_of_id(from.integer(integer, "a point"), from);
     }
 
-    void read_elements(number_source<>& from)
+    void read_elements(number_source& from)
     {
         const std::size_t n = from.count(integer, "the number of elements", 2);
         const long long corners = from.integer(integer, "the number of corners");
@@ -106,7 +105,7 @@ private:
         const long long attributes = optional(from);
         std::array<idx, 4> cell{};
         const auto used = std::span(cell).first(static_cast<std::size_t>(corners));
-        tagged_vertices<> groups;
+        tagged_vertices groups;
         for (std::size_t c = 0; c < n; ++c)
         {
             read_cell(from, cell, used.size());
@@ -124,12 +123,12 @@ private:
         groups.move_to_prefixed(to_.file(), shape_of(kind).names);
     }
 
-    void read_faces(number_source<>& from)
+    void read_faces(number_source& from)
     {
         const std::size_t n = from.count(integer, "the number of faces", 2);
         const bool marked = optional(from) != 0;
         std::array<idx, 3> face{};
-        tagged_vertices<> groups;
+        tagged_vertices groups;
         for (std::size_t c = 0; c < n; ++c)
         {
             read_cell(from, face, 3);
@@ -142,8 +141,8 @@ private:
     }
 
     volume_label labels_{"attribute", true, {}}; ///< of elements the first attribute, of faces the marker
-    volume_builder<> to_;
-    number_source<> nodes_;
+    volume_builder to_;
+    number_source nodes_;
 };
 
 } // namespace taut::io::detail

@@ -114,7 +114,7 @@ inline void require_planar(const volume_file& file)
 
 } // namespace detail
 
-TAUT_INLINE const volume_group& volume_file::find_group(std::string_view name) const
+const volume_group& volume_file::find_group(std::string_view name) const
 {
     const bool number = !name.empty() && name.find_first_not_of("-0123456789") == name.npos;
     const volume_group* found = nullptr;
@@ -134,7 +134,7 @@ TAUT_INLINE const volume_group& volume_file::find_group(std::string_view name) c
                                              (known.empty() ? "'; the file has no groups" : "'; there are " + known));
 }
 
-TAUT_ON_USE_BODY void turn_cells(volume_file& file, std::span<const idx> cells)
+void turn_cells(volume_file& file, std::span<const idx> cells)
 {
     idx number = 0;
     auto next = cells.begin();
@@ -156,7 +156,7 @@ TAUT_ON_USE_BODY void turn_cells(volume_file& file, std::span<const idx> cells)
     file.turned = std::move(turned);
 }
 
-TAUT_ON_USE_BODY std::string describe_turned(const volume_file& file)
+std::string describe_turned(const volume_file& file)
 {
     if (file.turned.empty()) return {};
     const auto ids = taut::detail::list_ids("cell", "cells", file.turned);
@@ -164,13 +164,13 @@ TAUT_ON_USE_BODY std::string describe_turned(const volume_file& file)
            file.format + " files or neighbours have it";
 }
 
-TAUT_ON_USE_BODY mesh<tetrahedron> tetrahedra_of(const volume_file& file)
+mesh<tetrahedron> tetrahedra_of(const volume_file& file)
 {
     return detail::cells_as<tetrahedron>(file, cell_kind::tetrahedron,
                                          "; this takes tetrahedra alone, split it into such");
 }
 
-TAUT_ON_USE_BODY mesh<triangle> triangles_of(const volume_file& file)
+mesh<triangle> triangles_of(const volume_file& file)
 {
     detail::require_planar(file);
     return detail::cells_as<triangle>(file, cell_kind::triangle, "; this takes triangles alone, split it into such");
@@ -217,3 +217,8 @@ corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span
 }
 
 } // namespace taut::io
+
+template taut::io::corner_simplices<taut::tetrahedron> taut::io::corner_simplices_of(const volume_file&,
+                                                                                     std::span<const taut::idx>);
+template taut::io::corner_simplices<taut::triangle> taut::io::corner_simplices_of(const volume_file&,
+                                                                                  std::span<const taut::idx>);

@@ -17,7 +17,6 @@ namespace taut::io::detail
 
 /// Reads legacy VTK files of unstructured grids, versions 1 to 5.1, text or binary (big-endian). Of attributes behind
 /// the first part that it does not know nothing is read, which the notes say.
-template <class = void>
 class vtk_reader
 {
 public:
@@ -47,7 +46,7 @@ private:
         const auto encoding = in_.word();
         if (encoding != "ASCII" && encoding != "BINARY") in_.fail("neither ASCII nor BINARY");
         encoding_ = {.text = encoding == "ASCII", .order = std::endian::big};
-        from_ = number_source<>(in_, encoding_);
+        from_ = number_source(in_, encoding_);
         if (encoding_.text) in_.require_text();
         in_.skip_space();
         if (in_.word() != "DATASET" || in_.word() != "UNSTRUCTURED_GRID")
@@ -281,11 +280,11 @@ private:
         return false;
     }
 
-    volume_builder<> to_;
+    volume_builder to_;
     scanner& in_;
     number_encoding encoding_;
-    number_source<> from_;
-    vtk_cells<> cells_;
+    number_source from_;
+    vtk_cells cells_;
     std::vector<volume_label> attributes_;
     std::optional<bool> of_cells_; ///< what attributes belong to; nothing before CELL_DATA and POINT_DATA
     std::size_t tuples_ = 0;

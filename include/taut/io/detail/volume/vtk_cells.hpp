@@ -25,7 +25,7 @@ enum : int
 };
 
 /// The kind of a cell that VTK (and SU2) gives a number. Throws io_error at `from` for one that is not read.
-inline cell_kind kind_of_vtk(long long type, const number_source<>& from)
+inline cell_kind kind_of_vtk(long long type, const number_source& from)
 {
     static constexpr std::array<std::pair<int, cell_kind>, 10> known = {{{1, cell_kind::vertex},
                                                                          {3, cell_kind::line},
@@ -48,7 +48,6 @@ inline cell_kind kind_of_vtk(long long type, const number_source<>& from)
 }
 
 /// Cells as VTK's arrays give them: types, and corners of which each cell ends at an offset.
-template <class = void>
 struct vtk_cells
 {
     std::vector<int> types;
@@ -56,7 +55,7 @@ struct vtk_cells
     std::vector<idx> corners;
 
     /// Throws io_error at `from`.
-    void move_to(volume_builder<>& to, const number_source<>& from)
+    void move_to(volume_builder& to, const number_source& from)
     {
         if (types.size() != ends.size())
             from.fail(std::to_string(types.size()) + " cell types for " + std::to_string(ends.size()) + " cells");
@@ -80,8 +79,7 @@ struct vtk_cells
 };
 
 /// Makes a group NAME:VALUE of each value of an attribute. One of very many values numbers things, and names nothing.
-template <class = void>
-void add_attribute_groups(volume_file& file, const volume_label& a)
+inline void add_attribute_groups(volume_file& file, const volume_label& a)
 {
     constexpr std::size_t most = 256;
     std::set<long long> values;
@@ -92,7 +90,7 @@ void add_attribute_groups(volume_file& file, const volume_label& a)
                                  " different values; no groups were made of it");
             return;
         }
-    tagged_vertices<> groups;
+    tagged_vertices groups;
     if (!a.of_cells)
         for (std::size_t v = 0; v < std::min(a.values.size(), file.points.size()); ++v)
         {

@@ -19,7 +19,6 @@ namespace taut::io::detail
 {
 
 /// Reads VTK's XML files of unstructured grids: one piece, arrays as text or appended raw.
-template <class = void>
 class vtu_reader
 {
 public:
@@ -154,7 +153,7 @@ private:
         const std::size_t end = text ? std::min(bytes_.find('<', begin), bytes_.size()) : bytes_.size();
         scanner in(bytes_.substr(0, end), to_name());
         in.go_to(bytes_.data() + begin);
-        number_source<> from(in, text ? number_encoding{} : binary_);
+        number_source from(in, text ? number_encoding{} : binary_);
         const std::size_t size = text ? 0 : from.count(header_, "the number of bytes");
         use(from, size);
     }
@@ -165,7 +164,7 @@ private:
     {
         const number_type type = type_of(a);
         with_numbers(a,
-                     [&](number_source<>& from, std::size_t size)
+                     [&](number_source& from, std::size_t size)
                      {
                          std::size_t found = 0;
                          const std::size_t each = size_of(type), held = size / each;
@@ -193,7 +192,7 @@ private:
         if (!is_real(type)) fail(a.tag, "points of integers cannot be moved; save them as Float32 or Float64");
         if (a.tag.attribute_or("NumberOfComponents", "3") != "3") fail(a.tag, "points need three components");
         with_numbers(a,
-                     [&](number_source<>& from, std::size_t size)
+                     [&](number_source& from, std::size_t size)
                      {
                          const std::size_t each = 3 * (from.text() ? 2 : size_of(type));
                          from.fitting(static_cast<long long>(points_), "the number of points", each);
@@ -226,7 +225,7 @@ private:
     {
         std::pair<std::size_t, std::size_t> result;
         with_numbers(a,
-                     [&](const number_source<>& from, std::size_t size)
+                     [&](const number_source& from, std::size_t size)
                      {
                          const auto begin = static_cast<std::size_t>(from.in().position() - from.in().start());
                          result = {begin - size_of(header_), begin + size};
@@ -236,21 +235,21 @@ private:
 
     void read_cells()
     {
-        vtk_cells<> cells;
+        vtk_cells cells;
         for_each_integer(find("Cells", "connectivity"), {},
-                         [&](long long v, const number_source<>& from)
+                         [&](long long v, const number_source& from)
                          { cells.corners.push_back(to_.point_at(v, 0, from)); });
         for_each_integer(find("Cells", "offsets"), cells_,
-                         [&](long long end, const number_source<>&) { cells.ends.push_back(end); });
+                         [&](long long end, const number_source&) { cells.ends.push_back(end); });
         const array& types = find("Cells", "types");
         for_each_integer(types, cells_,
-                         [&](long long type, const number_source<>& from)
+                         [&](long long type, const number_source& from)
                          {
                              kind_of_vtk(type, from);
                              cells.types.push_back(static_cast<int>(type));
                          });
         to_.in().go_to(bytes_.data() + types.tag.begin);
-        cells.move_to(to_, number_source<>(to_.in(), {}));
+        cells.move_to(to_, number_source(to_.in(), {}));
     }
 
     void read_attribute(const array& a)
@@ -269,12 +268,12 @@ private:
             to_.file().notes.push_back("no groups were made of '" + attribute.name + "': " + why);
             return;
         }
-        for_each_integer(a, count, [&](long long x, const number_source<>&) { attribute.values.push_back(x); });
+        for_each_integer(a, count, [&](long long x, const number_source&) { attribute.values.push_back(x); });
         add_attribute_groups(to_.file(), attribute);
         to_.file().labels.push_back(std::move(attribute));
     }
 
-    volume_builder<> to_;
+    volume_builder to_;
     std::string_view bytes_;
     std::vector<array> arrays_;
     number_encoding binary_;

@@ -113,7 +113,7 @@ inline void require_other(const std::filesystem::path& output, const std::filesy
 
 } // namespace detail
 
-TAUT_ON_USE_BODY std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points)
+std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points)
 {
     std::vector<vec3> result(points.begin(), points.end());
     if (file.places.single)
@@ -122,7 +122,7 @@ TAUT_ON_USE_BODY std::vector<vec3> rounded_to_file(const volume_file& file, std:
     return result;
 }
 
-TAUT_ON_USE_BODY std::string with_points(const volume_file& file, std::span<const vec3> points)
+std::string with_points(const volume_file& file, std::span<const vec3> points)
 {
     struct text_output
     {
@@ -135,7 +135,7 @@ TAUT_ON_USE_BODY std::string with_points(const volume_file& file, std::span<cons
     return std::move(out.text);
 }
 
-TAUT_ON_USE_BODY std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
+std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
                                                            std::span<const vec3> points)
 {
     detail::require_storable(file, points);
@@ -161,7 +161,7 @@ TAUT_ON_USE_BODY std::vector<file_to_write> volume_outputs(const std::filesystem
     return result;
 }
 
-TAUT_ON_USE_BODY void write_volume(const std::filesystem::path& path, const volume_file& file,
+void write_volume(const std::filesystem::path& path, const volume_file& file,
                                    std::span<const vec3> points)
 {
     write_files(volume_outputs(path, file, points));

@@ -20,14 +20,13 @@ namespace taut::detail
 
 /// Minimises the energy of a run once more, through maps whose boundary nowhere meets itself: rounds of Newton's steps
 /// of the map with a scaffold around it, which is made anew before each.
-template <class Element>
 class apart_rounds
 {
 public:
     using map = std::vector<vec2>;
 
     /// places: a map with held coordinates at their places. Refers to its arguments.
-    apart_rounds(const map_run<Element>& run, const std::vector<std::vector<idx>>& loops, const map& places)
+    apart_rounds(const map_run& run, const std::vector<std::vector<idx>>& loops, const map& places)
         : run_(run), scaffolded_(run, loops, places), left_(run.params.solve.stopping.max_iterations)
     {
     }
@@ -65,10 +64,10 @@ private:
         how.solve.stopping.max_iterations = std::min(most_steps, left_);
         how.time_limit = run_.clock.left();
         how.observer = observer();
-        session_result<Element> moved;
+        session_result<triangle> moved;
         try
         {
-            moved = shape_session<Element>(run_.queue, plane, how).solve({});
+            moved = shape_session<triangle>(run_.queue, plane, how).solve({});
         }
         catch (const mesh_error&)
         {
@@ -120,8 +119,8 @@ private:
         };
     }
 
-    const map_run<Element>& run_;
-    scaffolded_map<Element> scaffolded_;
+    const map_run& run_;
+    scaffolded_map scaffolded_;
     map x_;
     int left_, rounds_ = 0; ///< steps, rounds
     double energy_ = 0, energy_start_ = 0, gradient_ = 0;
@@ -131,8 +130,7 @@ private:
 };
 
 /// The ends of two edges of the boundary that meet, of those whose vertices all are held; none if no two do.
-template <class Element>
-std::vector<idx> held_across(const map_run<Element>& run, const std::vector<std::vector<idx>>& loops,
+inline std::vector<idx> held_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
                              const std::vector<vec2>& x)
 {
     const auto& marks = run.held.marks();
@@ -153,8 +151,7 @@ std::vector<idx> held_across(const map_run<Element>& run, const std::vector<std:
 
 /// A solved map without crossings of its boundary: as it is where it has none, else minimised once more from a map that
 /// has none.
-template <class Element>
-map_result kept_apart(const map_run<Element>& run, map_result r)
+inline map_result kept_apart(const map_run& run, map_result r)
 {
     if (!r) return r;
     const auto loops = boundary_loops(run.in.surface, run.in.sides);
@@ -175,7 +172,7 @@ map_result kept_apart(const map_run<Element>& run, map_result r)
     if (start.uv.empty())
         return refused(std::move(r), {outcome::gave_up, "no map was found whose boundary does not cross itself", {}});
 
-    apart_rounds<Element> rounds(run, loops, r.uv);
+    apart_rounds rounds(run, loops, r.uv);
     rounds.run(start.uv);
     told.rounds = rounds.rounds();
     run.clock.stages.add({.stage = "keep apart",
@@ -212,8 +209,7 @@ map_result kept_apart(const map_run<Element>& run, map_result r)
 }
 
 /// Counts the crossings of a map that was to have none, at its place and in the user's lengths.
-template <class Element>
-map_result certified_apart(const map_run<Element>& run, map_result r)
+inline map_result certified_apart(const map_run& run, map_result r)
 {
     if (!r) return r;
     r.report.overlap->crossings = boundary_crossings(boundary_loops(run.in.surface, run.in.sides), r.uv);

@@ -32,7 +32,6 @@ inline mat2 thickened(mat2 edges, double least)
 /// The map of a run with a scaffold around it, as a shape in the plane that deforms. What the scaffold is wanted to
 /// look like is what it looks like, so that it moves nothing by itself; it resists, and where parts of the boundary
 /// come nearer to each other than a gap it draws them apart. Lengths are those of the run.
-template <class Element>
 class scaffolded_map
 {
 public:
@@ -40,12 +39,12 @@ public:
 
     struct shape
     {
-        mesh<Element> plane; ///< first the vertices and triangles of the surface
-        deform_params<Element> how;
+        mesh<triangle> plane; ///< first the vertices and triangles of the surface
+        deform_params<triangle> how;
     };
 
     /// places: a map with held coordinates at their places. Refers to its arguments.
-    scaffolded_map(const map_run<Element>& run, const std::vector<std::vector<idx>>& loops, const map& places)
+    scaffolded_map(const map_run& run, const std::vector<std::vector<idx>>& loops, const map& places)
         : run_(run), loops_(loops), places_(places), springs_(run.held.beyond_pins(vec2(0)).springs)
     {
         const auto& data = run.params.data;
@@ -70,9 +69,9 @@ public:
             x.empty() ? 0 : targets_.size(),
             [&](double& part, std::size_t c)
             {
-                auto e = mapped_element<Element>(run_.in.surface, run_.in.ideal, x, c);
+                auto e = mapped_element<triangle>(run_.in.surface, run_.in.ideal, x, c);
                 if (!data.directions.empty())
-                    e.S *= Element::frame(run_.in.surface.rest(static_cast<idx>(c)), data.directions[c]);
+                    e.S *= triangle::frame(run_.in.surface.rest(static_cast<idx>(c)), data.directions[c]);
                 e.attributes = {data.attributes.data() + c * data.attribute_count, data.attribute_count};
                 part += counted(weights_[c], e.measure) * run_.params.energy(e) / total_;
             });
@@ -101,7 +100,7 @@ public:
             for (const vec2& p : *part) points.emplace_back(p, 0.0);
         auto cells = run_.in.surface.cells();
         cells.insert(cells.end(), s.cells.begin(), s.cells.end());
-        shape made{mesh<Element>(std::move(points), std::move(cells)), {}};
+        shape made{mesh<triangle>(std::move(points), std::move(cells)), {}};
         made.how.energy = run_.params.energy;
         made.how.weights = run_.params.weights;
         made.how.precision = run_.params.precision;
@@ -114,7 +113,7 @@ public:
             { return vec2(made.plane.points()[static_cast<std::size_t>(cell[k])]); };
             const mat2 edges = thickened(mat2(corner(1) - corner(0), corner(2) - corner(0)), gap_);
             made.how.targets.push_back(edges);
-            around += counted(1, Element::measure_factor * glm::determinant(edges));
+            around += counted(1, triangle::measure_factor * glm::determinant(edges));
         }
         const double part = scaffold_part(x);
         made.how.data = data_of(made.plane, part * total_ / around);
@@ -127,11 +126,11 @@ private:
     /// scaffolds torn.
     double scaffold_part(const map& x) const
     {
-        const double e = mean_over<Element>(run_.in.surface, run_.in.ideal, x, energy::isometric{}).measure;
+        const double e = mean_over<triangle>(run_.in.surface, run_.in.ideal, x, energy::isometric{}).measure;
         return 0.1 * std::sqrt(std::max(e / 4, 1.0));
     }
 
-    cell_data data_of(const mesh<Element>& plane, double weight) const
+    cell_data data_of(const mesh<triangle>& plane, double weight) const
     {
         const auto& given = run_.params.data;
         cell_data data{.weights = weights_, .attribute_count = given.attribute_count, .attributes = given.attributes};
@@ -143,7 +142,7 @@ private:
         for (std::size_t c = 0; c < given.directions.size(); ++c)
         {
             const auto number = static_cast<idx>(c);
-            const vec2 axis = Element::frame(run_.in.surface.rest(number), given.directions[c])[0];
+            const vec2 axis = triangle::frame(run_.in.surface.rest(number), given.directions[c])[0];
             const auto rest = plane.rest(number);
             const vec3 along = rest[1] - rest[0];
             data.directions.push_back(axis.x * along + axis.y * vec3(-along.y, along.x, 0.0));
@@ -155,7 +154,7 @@ private:
     /// Pins the corners of the scaffold and what the run holds, and takes over springs. part: as scaffold_part().
     void hold(shape& made, const map& corners, double part) const
     {
-        auto& asked = made.how.constraints = constraints<Element>(made.plane);
+        auto& asked = made.how.constraints = constraints<triangle>(made.plane);
         for (std::size_t k = 0; k < 4; ++k) asked.pin(static_cast<idx>(places_.size() + k), corners[k]);
         const auto& marks = run_.held.marks();
         for (std::size_t v = 0; v < marks.size(); ++v)
@@ -170,7 +169,7 @@ private:
     }
     const vec3& at_rest(idx v) const { return run_.in.surface.points()[static_cast<std::size_t>(v)]; }
 
-    const map_run<Element>& run_;
+    const map_run& run_;
     const std::vector<std::vector<idx>>& loops_;
     const map& places_;
     std::vector<directed_spring<2>> springs_;

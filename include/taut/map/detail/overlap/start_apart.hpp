@@ -16,8 +16,7 @@ namespace taut::detail
 
 /// A map of the run's surface whose boundary nowhere meets itself: the user's, if it is one, else one on a convex
 /// polygon, brought near to what is held. Empty where none was found.
-template <class Element>
-start_map start_apart(const map_run<Element>& run, const std::vector<std::vector<idx>>& loops)
+inline start_map start_apart(const map_run& run, const std::vector<std::vector<idx>>& loops)
 {
     const auto& in = run.in;
     const auto usable = [&](const start_map& map) { return map.flips && boundary_crossings(loops, map.uv) == 0; };

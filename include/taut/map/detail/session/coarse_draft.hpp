@@ -24,8 +24,7 @@ struct coarse_problem
 };
 
 /// Nothing where the mesh is too small for that, where its cells overlap, or where it cannot be thinned well.
-template <class = void>
-std::optional<coarse_problem> coarser(const untangle_problem<tetrahedron>& p, const budget& clock)
+inline std::optional<coarse_problem> coarser(const untangle_problem<tetrahedron>& p, const budget& clock)
 {
     constexpr double factor = 8, least = 1000; // free vertices on the coarser one: with fewer limbs get lost
     std::vector<char> held(p.held.size());
@@ -75,8 +74,7 @@ inline std::vector<mat3> vertex_gradients(const mesh<tetrahedron>& m, const std:
 /// x, a shape of the coarser volume, on the mesh m that it was thinned from: gradients are those of the coarser one at
 /// its vertices, smooth in between, and the shape is the one whose gradients are nearest to them. Held coordinates have
 /// the places `to`.
-template <class = void>
-std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
+inline std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                              const coarser_volume& coarse, const std::vector<vec3>& x, const held_marks<3>& held,
                              const std::vector<vec3>& to)
 {

@@ -34,7 +34,7 @@ private:
     void begin(run_clock& clock) override
     {
         params_.constraints = wanted;
-        map_result first = mapped<Element>(this->queue_, in_, params_, clock, &all_phases<Element>);
+        map_result first = mapped(this->queue_, in_, params_, clock);
         session_report& r = last.report = {};
         r.outcome = first.report.outcome;
         r.reason = std::move(first.report.reason);

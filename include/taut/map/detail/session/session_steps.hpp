@@ -174,7 +174,7 @@ protected:
             auto how = untangling_;
             how.time_limit = clock.left();
             how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
-            const draft_maker<> maker(queue_, how, queue_.device().has_fp64() ? precision::mixed : precision::fp32);
+            const draft_maker maker(queue_, how, queue_.device().has_fp64() ? precision::mixed : precision::fp32);
             auto found = maker.draft(problem(last.x, true));
             clock.stages.append(found.stages);
             book(clock, &session_seconds::follow,

@@ -28,8 +28,7 @@ namespace taut::detail
 /// angle, are harmonic between those of the bodies, and gradients nearest to the turns of the elements (Zayer et al.
 /// 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns change fast.
 /// from: the shape at hand, no element inverted; to: the places, of which held coordinates are read.
-template <class = void>
-std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
+inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                                const held_paths<3>& paths, const held_marks<3>& marks, const std::vector<vec3>& from,
                                const std::vector<vec3>& to)
 {
@@ -109,7 +108,6 @@ inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson,
 }
 
 /// A draft of one problem, and what all levels of that have in common.
-template <class = void>
 class draft_maker
 {
 public:

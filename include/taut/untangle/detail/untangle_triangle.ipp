@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/untangle/untangle.hpp>
+#include <taut/untangle/untangle_on_device.hpp>
+
+template taut::untangle_result<taut::triangle> taut::untangle(const queue&, const untangle_problem<triangle>&,
+                                                              const untangle_params&);
