@@ -31,7 +31,7 @@ std::vector<idx> face_materials(std::string_view text)
         in,
         [&](std::string_view key, const char*)
         {
-            if (key == "f") materials.push_back(now);
+            if (io::detail::is_face(key)) materials.push_back(now);
             if (key == "usemtl")
                 now = numbers.emplace(in.rest_of_line(), static_cast<idx>(numbers.size())).first->second;
         });

@@ -38,7 +38,7 @@ public:
                            {
                                if (key.size() == 1 && key[0] == 'v')
                                    soup_.add_point(in_.numbers<3>(), in_.path(), in_.here());
-                               else if (key.size() == 1 && key[0] == 'f')
+                               else if (is_face(key))
                                    read_face(begin);
                                else if (key == "vt")
                                    read_texcoord(begin);

@@ -31,6 +31,7 @@ struct polygon_soup
     std::vector<vec3> normals;      // those that corners name
     std::vector<idx> corner_normals;
     std::vector<idx> sizes;          // corners of each polygon
+    std::size_t announced = 0;       // points that are known to follow, if faces stand before them
     bool strict = true;              // faults are thrown; else the first is kept, and what it is in stays
     std::optional<mesh_error> fault; // of indices, coordinates and faces
     std::string texcoord_fault;      // the first of texture coordinates, which then are none
@@ -103,15 +104,15 @@ struct polygon_soup
     template <class Where>
     void add_corner(long long v, const std::string& path, Where where)
     {
-        if (v < 0 || v >= static_cast<long long>(points.size()))
+        if (v < 0 || v >= static_cast<long long>(std::max(points.size(), announced)))
         {
             note(
                 [&]
                 {
-                    return mesh_error(mesh_fault::index_out_of_range,
-                                      {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
-                                      place_prefix(path, where()) + "a face names vertex " + std::to_string(v) +
-                                          ", but there are " + std::to_string(points.size()) + ", counted from 0");
+                    return mesh_error(
+                        mesh_fault::index_out_of_range, {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
+                        place_prefix(path, where()) + "a face names vertex " + std::to_string(v) + ", but there are " +
+                            std::to_string(std::max(points.size(), announced)) + ", counted from 0");
                 });
             v = -1;
         }
