@@ -169,7 +169,8 @@ struct polygon_soup
             return triples;
         };
         result.triangles = by_triangle(corners);
-        if (non_finite && !fault) fault = used_non_finite();
+        // Vertices come before what is said of them.
+        if (auto first = corners.empty() ? non_finite : used_non_finite()) fault = std::move(first);
         if (coords) result.texcoord_cells = by_triangle(corner_coords);
         if (named_normals) result.normal_cells = by_triangle(corner_normals);
         if (const auto empty = std::count(sizes.begin(), sizes.end(), 0); empty > 0)
@@ -196,9 +197,11 @@ private:
     /// The first vertex of a face with a coordinate that is not finite, if there is one.
     std::optional<mesh_error> used_non_finite() const
     {
+        if (!non_finite) return std::nullopt;
+        const auto count = static_cast<idx>(points.size());
         idx first = std::numeric_limits<idx>::max();
         for (const idx v : corners)
-            if (v >= 0 && v < first && !is_finite(points[static_cast<std::size_t>(v)])) first = v;
+            if (v >= 0 && v < count && v < first && !is_finite(points[static_cast<std::size_t>(v)])) first = v;
         if (first == std::numeric_limits<idx>::max()) return std::nullopt;
         if (non_finite->ids()[0] == first) return non_finite;
         return mesh_error(mesh_fault::non_finite, {first},
