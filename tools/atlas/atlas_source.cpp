@@ -59,6 +59,7 @@ public:
     {
         file_vertices = static_cast<idx>(file_.points.size());
         file_triangles = static_cast<idx>(file_.triangles.size());
+        if (!file_.fault && !options.repair) io::ignore_unused_vertices(file_);
         notes = file_.notes;
         texcoord_fault = file_.texcoord_fault;
         if (file_.fault && !options.repair) throw mesh_error(*file_.fault);

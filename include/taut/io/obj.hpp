@@ -50,7 +50,10 @@ public:
     /// The first byte of the first vt or f statement; null if there is none.
     const char* body() const { return body_; }
     std::size_t corner_count() const { return soup_.corners.size(); }
-    bool faulty() const { return soup_.fault.has_value() || !soup_.texcoord_fault.empty(); }
+    bool faulty() const
+    {
+        return soup_.fault.has_value() || soup_.non_finite.has_value() || !soup_.texcoord_fault.empty();
+    }
 
     /// False if some statement counts back from its place, which a piece does not know.
     bool absolute() const { return absolute_; }
