@@ -22,8 +22,8 @@ public:
         idle_ = gained ? 0 : idle_ + 1;
     }
 
-    /// Nothing came of so many steps that epsilon was large again at least once. Of some hundred problems in the plane
-    /// and in space that were solved, none had ten steps in a row without a gain.
+    /// Nothing came of so many steps that epsilon was large again at least once. Of some sixty problems, nearly all in
+    /// the plane, that these steps solved, none had ten in a row without a gain.
     bool stuck() const { return idle_ >= 60; }
 
 private:
