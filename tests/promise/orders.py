@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Cells whose corners a file has in the other order: what is split, and what a second file says of the shape at rest."""
 import json
+import os
 
 from exact import area2, exact, volume6
 from formats import Gmsh, Medit, Su2, Vtk, Vtu
@@ -59,5 +60,32 @@ def parts_keep_the_order(taut):
                 assert check["inverted"] == 0 and check["turned_ids"] == [i for i, s in enumerate(wanted) if s < 0]
 
 
+def shape_at_rest_decides(taut):
+    """Which order of corners is right, the shape at rest says, whatever each file makes of itself. What comes out is
+    written in the order of the main file and is positive as the shape at rest has it; a mirror image is no map of it."""
+    taut.write("pins.csv", PINS.replace("-0.2", "0.5"))
+    reversed_, rotated = [tuple(reversed(c[:3])) + c[3:] for c in OCTAHEDRON], [c[1:3] + c[:1] + c[3:] for c in OCTAHEDRON]
+    for kind in Medit(), Su2(), Vtk("double", False):
+        e = kind.extension
+        for own in OCTAHEDRON, with_turned(OCTAHEDRON, range(4)), with_turned(OCTAHEDRON, [2]), reversed_, rotated:
+            for other in OCTAHEDRON, with_turned(OCTAHEDRON, range(4)), with_turned(OCTAHEDRON, [0]), rotated:
+                mesh, rest = write(taut, kind, "in", octahedron(0.7), own), write(taut, kind, "rest", octahedron(1), other)
+                wanted = signs(octahedron(1), own)
+                for run in ["deform", mesh, "--pins", "pins.csv"], ["untangle", mesh]:
+                    told = taut(*run, "--rest", rest, "-o", "out" + e).stderr
+                    points, cells = read(taut, kind, "out")
+                    assert cells == own and signs(points, cells) == wanted, (kind, run, own, other)
+                    assert ("in the other order" in told) == (-1 in wanted), (kind, run, own, other, told)
+                assert json.loads(taut("eval", rest, "out" + e, "--json").stdout)["inverted"] == 0
+                mirror = write(taut, kind, "mirror", [(-p[0], *p[1:]) for p in octahedron(1)], own)
+                assert json.loads(taut("eval", rest, mirror, "--json").stdout)["inverted"] == 4
+                taut.write("mirror.csv", "".join(f"{v},{-p[0]},{p[1]},{p[2]}\n" for v, p in enumerate(octahedron(1))))
+                for run in ["untangle", mirror], ["deform", rest]:
+                    code = taut(*run, "--rest", rest, "--pins", "mirror.csv", "-o", "late" + e, code=(6, 7))
+                assert not os.path.exists(taut.file("late" + e)), code
+    other = write(taut, Medit(), "other", octahedron(1), [(0, 1, 2, 3), (0, 1, 3, 4), (0, 1, 4, 5), (0, 1, 2, 4)])
+    assert "other cells" in taut("untangle", "in.mesh", "--rest", other, "-o", "late.mesh", code=4).stderr
+
+
 if __name__ == "__main__":
-    main(parts_keep_the_order)
+    main(parts_keep_the_order, shape_at_rest_decides)
