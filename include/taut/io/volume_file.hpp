@@ -70,6 +70,29 @@ constexpr const cell_shape& shape_of(cell_kind kind)
     return cell_shapes[static_cast<std::size_t>(kind)];
 }
 
+/// Puts the corners of a cell in the other order: it is mirrored. Twice is nothing.
+inline void turn_cell(cell_kind kind, std::span<idx> corners)
+{
+    switch (kind)
+    {
+    case cell_kind::triangle:
+    case cell_kind::tetrahedron:
+        return std::swap(corners[1], corners[2]);
+    case cell_kind::wedge:
+        std::swap(corners[4], corners[5]);
+        return std::swap(corners[1], corners[2]);
+    case cell_kind::hexahedron:
+        std::swap(corners[5], corners[7]);
+        return std::swap(corners[1], corners[3]);
+    case cell_kind::quad:
+    case cell_kind::pyramid:
+        return std::swap(corners[1], corners[3]);
+    case cell_kind::vertex:
+    case cell_kind::line:
+        return;
+    }
+}
+
 /// Cells of one kind that follow each other in a file.
 struct cell_block
 {
