@@ -93,6 +93,23 @@ bool near_enough(check_report& report, const mesh<Element>& m, const constraints
     }
 }
 
+/// Pins of vertices that no triangle uses hold nothing. Those of volumes and problems stay where they are pinned.
+template <class Element>
+bool all_used(check_report& report, const mesh<Element>& m, const constraints<Element>& pins)
+{
+    if (report.kind != "surface") return true;
+    try
+    {
+        pins.require_used(detail::unused_vertices(m.points().size(), m.cells()));
+        return true;
+    }
+    catch (const constraint_error& e)
+    {
+        report_pins<Element>(report, e);
+        return false;
+    }
+}
+
 template <class Element>
 void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element::dimension>> initial,
            const constraints<Element>& pins, std::vector<idx> owners = {})
@@ -100,6 +117,7 @@ void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element
     report.pins = pins.pins().size();
     report.springs = pins.springs().size();
     if (!near_enough(report, m, pins) || pins.pins().empty()) return;
+    if (!all_used(report, m, pins)) return;
     auto problem = make_untangle_problem(m, std::move(initial), pins);
     problem.owners = std::move(owners);
     const auto found = find_infeasibility(problem);
@@ -171,11 +189,15 @@ void check_surface(check_report& report, const check_options& options)
     report.cells = soup.triangles.size();
     for (const auto& note : soup.notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
     const auto repairs = find_repairs(soup);
+    const auto unused = detail::unused_vertices(soup.points.size(), soup.triangles);
     const auto file = find_surface(report, options.input, std::move(soup), repairs);
     if (!file) return report_repairs(report, repairs, false);
+    if (!unused.empty())
+        report.add({false, "mesh", to_string(mesh_fault::unreferenced_vertex), unused, detail::describe_unused(unused)},
+                   exit_code::valid);
     const auto cut = find_cut(report, *file);
     const auto& m = cut ? cut->surface : file->surface;
-    for (const auto& f : taut::check(m))
+    for (const auto& f : taut::check(m, {.referenced = false}))
     {
         const auto mends = [&](const repair_finding& r)
         { return std::string_view(to_string(r.kind)) == to_string(f.fault); };

@@ -46,8 +46,9 @@ std::string describe_pieces(const mesh<triangle>& cut, const facet_table& sides,
 
 } // namespace
 
-std::optional<io::cut_surface> cut_open(const io::surface_file& file, const mesh_requirements& need, bool wanted)
+std::optional<io::cut_surface> cut_open(const io::surface_file& file, mesh_requirements need, bool wanted)
 {
+    need.referenced = false;
     if (file.texcoords.empty()) return std::nullopt;
     std::optional<io::cut_surface> cut;
     try
@@ -72,8 +73,8 @@ std::optional<io::cut_surface> cut_to_one_disk(const io::surface_file& file)
 {
     const auto& m = file.surface;
     const auto f = facets(m);
-    validate(m, f, {.open = false, .one_boundary = false, .no_handles = false});
-    if (check(m, f).empty()) return std::nullopt;
+    validate(m, f, {.referenced = false, .open = false, .one_boundary = false, .no_handles = false});
+    if (check(m, f, {.referenced = false}).empty()) return std::nullopt;
     const auto made = cut_charts(m, f, cut_to_disk(m, f));
     // The first sheet of a vertex has its number, further ones follow.
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };

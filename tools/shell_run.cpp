@@ -70,6 +70,7 @@ exit_code shell_run::operator()()
     const thin_shell shell(rest);
     auto pins = taut::constraints(shell.hinges());
     if (!options_.pins.empty()) add_pins(pins, io::read_pins<3>(options_.pins, file.surface.vertex_count()));
+    pins.require_used(detail::unused_vertices(rest.points().size(), rest.cells()));
     vertices_ = file.surface.points().size();
     triangles_ = file.surface.cells().size();
     pins_ = pins.pins().size();

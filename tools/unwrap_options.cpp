@@ -50,7 +50,8 @@ void declare_map(CLI::App& app, unwrap_options& o)
         app, "--placement", o.placement,
         {{"upright", placement::upright}, {"unit-square", placement::unit_square}, {"as-solved", placement::as_solved}},
         "Where a map that nothing holds comes to lie: y up or x to the right, the lower left corner at 0,0; the same "
-        "scaled into the unit square; anywhere");
+        "scaled into the unit square; anywhere. With --boundary circle or square the boundary stays where it is laid, "
+        "unless unit-square brings it into the unit square, a square onto it");
     add_input(app, "--pins", o.pins, "the pins",
               "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
               "file; without a weight exactly, with one as a spring; an empty u or v is free")
@@ -135,9 +136,8 @@ void check(const unwrap_options& o)
             "of them");
     if (o.start == start_kind::coarse && !to_params(o).uses_levels())
         throw usage_error("--start coarse needs --solver newton or mg-lbfgs, which work on coarser meshes");
-    if (o.placement != placement::upright && (o.boundary != boundary_kind::free || !o.pins.empty()))
-        throw usage_error(
-            "--placement: --boundary circle and square and --pins hold the map where it is; leave it out");
+    if (o.placement != placement::upright && !o.pins.empty())
+        throw usage_error("--placement: --pins hold the map where it is; leave one of them out");
     if ((o.up || o.front) && o.render.empty())
         throw usage_error("--up and --front turn the picture of --render; name one");
     if (o.tolerance && !(*o.tolerance < 1)) throw usage_error("--tolerance: must be below 1");

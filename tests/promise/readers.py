@@ -91,6 +91,41 @@ def old_texture_coordinates(run):
             assert not os.path.exists(run.file("no.obj"))
 
 
+def unused_vertices(run):
+    """Vertices that no face names are ignored, wherever they are and whatever their coordinates, and stay in the file."""
+    for extra in (("9", "9", "9"), ("nan", "1e300", "inf")):
+        for at in (0, 20, len(POINTS)):
+            points = [*POINTS[:at], extra, extra, *POINTS[at:]]
+            faces = [tuple(v + 2 * (v >= at) for v in f) for f in FACES]
+            run.write("in.obj", obj(points, faces))
+            told = run("check", "in.obj")
+            assert f"2 vertices ({at}, {at + 1}) without a triangle: ignored" in told.stdout, told.stdout
+            run.write("pins.csv", f"{at},0,0\n")
+            refused = run("unwrap", "in.obj", "-o", "no.obj", "--pins", "pins.csv", code=4)
+            assert f"({at})" in refused.stderr, refused.stderr
+            for command in ("unwrap", "atlas"):
+                told = run(command, "in.obj", "-o", "out.obj")
+                assert f"({at}, {at + 1})" in told.stdout + told.stderr, told
+                out = run.read("out.obj")
+                v, _, written = read_obj(out)
+                assert len(v) == len(points) and [tuple(c[0] for c in f) for f in written] == faces
+                assert mapped(out) == len(FACES)
+                run("eval", "out.obj")
+
+
+def unit_square(run):
+    """A square boundary comes to lie on the unit square, corners bit for bit; a circle within."""
+    run.write("in.obj", obj())
+    for shape in ("square", "circle"):
+        run("unwrap", "in.obj", "-o", "out.obj", "--boundary", shape, "--placement", "unit-square")
+        out = run.read("out.obj")
+        _, vt, _ = read_obj(out)
+        assert mapped(out) == len(FACES)
+        assert all(0 <= x <= 1 for p in vt for x in p)
+        if shape == "square":
+            assert {(0, 0), (0, 1), (1, 0), (1, 1)} <= {tuple(p) for p in vt}
+
+
 def left_out(run):
     """--repair goes on at what it can leave out, and counts it."""
     bad = [*POINTS, ("-1.#IND", "0", "0"), ("1", "1.#QNAN", "0"), ("1.#INF00", "0", "0"), ("0", "-1.#INF", "1")]
@@ -216,4 +251,4 @@ def what_faces_are_not(run):
 
 
 if __name__ == "__main__":
-    main(names_with_backslash, what_faces_are_not, old_texture_coordinates, left_out, far_pins, encodings, counts_times_counts)
+    main(names_with_backslash, what_faces_are_not, old_texture_coordinates, unused_vertices, unit_square, left_out, far_pins, encodings, counts_times_counts)

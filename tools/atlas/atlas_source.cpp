@@ -31,7 +31,7 @@ std::vector<idx> face_materials(std::string_view text)
         in,
         [&](std::string_view key, const char*)
         {
-            if (key == "f") materials.push_back(now);
+            if (io::detail::is_face(key)) materials.push_back(now);
             if (key == "usemtl")
                 now = numbers.emplace(in.rest_of_line(), static_cast<idx>(numbers.size())).first->second;
         });
@@ -59,6 +59,7 @@ public:
     {
         file_vertices = static_cast<idx>(file_.points.size());
         file_triangles = static_cast<idx>(file_.triangles.size());
+        if (!file_.fault && !options.repair) io::ignore_unused_vertices(file_);
         notes = file_.notes;
         texcoord_fault = file_.texcoord_fault;
         if (file_.fault && !options.repair) throw mesh_error(*file_.fault);

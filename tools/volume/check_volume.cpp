@@ -157,7 +157,7 @@ void report_cells(check_report& report, const volume_case<Element>& input)
 {
     constexpr int D = Element::dimension;
     const auto x = input.points();
-    const auto state = input.look(x);
+    const auto state = input.look_as_read(x);
     report.map = state.simplices;
     report.map.flipped = state.inverted.size();
     report.has_map = true;
@@ -189,6 +189,12 @@ void report_cells(check_report& report, const volume_case<Element>& input)
                        exit_code::unsuitable_input);
     }
     report_signs(report, input, state);
+    if (!state.simplices && input.look(x).simplices)
+        report.add({true, "mesh", "single_precision", state.inverted,
+                    "read in the single precision that the file declares the mesh has " +
+                        describe_defects<Element>(state.simplices, input.owners()) +
+                        "; save it in double precision, or move it to the origin"},
+                   exit_code::unsuitable_input);
     if (!input.parts().overlapping)
         report_facets(report, input.simplices());
     else

@@ -103,7 +103,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
 {
     constexpr int D = Element::dimension;
     const auto x = input.points();
-    const auto state = input.look(x);
+    const auto state = input.look_as_read(x);
     const bool has_rest = !input.file().rest.empty();
     std::vector<std::string> notes = input.file().notes;
     if (!input.file().turned.empty()) notes.push_back(turned_note(input.file()));

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "volume/volume_case.hpp"
 
+#include <algorithm>
 #include <array>
-#include <iterator>
+#include <cstddef>
+#include <optional>
+#include <utility>
 
 #include <taut/exact/cell_validity.hpp>
 #include <taut/io/cell_faces.hpp>
@@ -41,6 +44,56 @@ void require_name(const std::string& output, const io::volume_file& file)
     }
 }
 
+namespace
+{
+
+using cell = std::pair<io::cell_kind, std::vector<idx>>;
+
+std::vector<cell> cells_of(const io::volume_file& file)
+{
+    std::vector<cell> cells;
+    io::for_each_cell(file, file.dimension,
+                      [&](io::cell_kind kind, idx, std::span<const idx> corners)
+                      { cells.emplace_back(kind, std::vector<idx>(corners.begin(), corners.end())); });
+    return cells;
+}
+
+/// Whether two cells are the same one but for the order of corners, and one is turned over; none: they are others.
+std::optional<bool> turned_over(const cell& a, cell b)
+{
+    if (a == b) return false;
+    if (a.first != b.first) return std::nullopt;
+    auto& corners = b.second;
+    if (a.first == io::cell_kind::triangle || a.first == io::cell_kind::tetrahedron)
+    {
+        bool odd = false; // of the exchanges that make one of the other
+        for (std::size_t k = 0; k < corners.size(); ++k)
+        {
+            const auto at = std::find(corners.begin() + static_cast<std::ptrdiff_t>(k), corners.end(), a.second[k]);
+            if (at == corners.end()) return std::nullopt;
+            if (*at == corners[k]) continue;
+            std::swap(*at, corners[k]);
+            odd = !odd;
+        }
+        return odd;
+    }
+    const std::size_t around = a.first == io::cell_kind::wedge ? 3 : 4;
+    for (const bool turned : {false, true})
+    {
+        for (std::size_t r = 0; r < around; ++r)
+        {
+            if (a == b) return turned;
+            for (auto from = corners.begin(); corners.end() - from >= static_cast<std::ptrdiff_t>(around);
+                 from += static_cast<std::ptrdiff_t>(around))
+                std::rotate(from, from + 1, from + static_cast<std::ptrdiff_t>(around));
+        }
+        io::turn_cell(b.first, corners);
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
 io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest)
 {
     auto file = io::read_volume_file(path);
@@ -49,21 +102,18 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
     if (other.points.size() != file.points.size())
         throw unsuitable_input(rest + " has " + count(other.points.size(), "point", "points") + ", not " +
                                count(file.points.size()) + " as " + path);
-    // Which cells are turned, the shape at rest says, where the two files have the same order of corners.
+    const auto cells = cells_of(file), at_rest = cells_of(other);
+    // Which order of corners is right, the shape at rest says.
     std::vector<idx> differing;
-    std::set_symmetric_difference(file.turned.begin(), file.turned.end(), other.turned.begin(), other.turned.end(),
-                                  std::back_inserter(differing));
-    const auto cells_of = [](const io::volume_file& f)
+    bool same = other.dimension == file.dimension && cells.size() == at_rest.size();
+    for (std::size_t c = 0; same && c < cells.size(); ++c)
     {
-        std::vector<std::pair<io::cell_kind, std::vector<idx>>> cells;
-        io::for_each_cell(f, f.dimension,
-                          [&](io::cell_kind kind, idx, std::span<const idx> corners)
-                          { cells.emplace_back(kind, std::vector<idx>(corners.begin(), corners.end())); });
-        return cells;
-    };
-    if (other.dimension == file.dimension && cells_of(other) != cells_of(file)) io::turn_cells(file, differing);
-    if (other.dimension != file.dimension || cells_of(other) != cells_of(file))
-        throw unsuitable_input(rest + " has other cells than " + path + "; give the same mesh at rest");
+        const auto turned = turned_over(cells[c], at_rest[c]);
+        same = turned.has_value();
+        if (turned.value_or(false)) differing.push_back(static_cast<idx>(c));
+    }
+    if (!same) throw unsuitable_input(rest + " has other cells than " + path + "; give the same mesh at rest");
+    io::turn_cells(file, differing);
     file.rest = std::move(other.points);
     return file;
 }

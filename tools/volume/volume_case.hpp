@@ -88,6 +88,16 @@ public:
         return {kept.begin(), kept.end()};
     }
 
+    /// What is true of a map whether readers of the file have its digits as doubles, or as the single precision that it
+    /// declares: of the two, the one with defects.
+    volume_state look_as_read(std::span<const vec<D>> x) const
+    {
+        auto state = look(x);
+        if (!state.simplices || !file_.places.single || file_.places.rounds()) return state;
+        auto in_single = look(as_written(x));
+        return in_single.simplices ? state : in_single;
+    }
+
     volume_state look(std::span<const vec<D>> x) const
     {
         const auto& cells = simplices().cells();

@@ -23,6 +23,7 @@ enum class constraint_fault
     bad_weight,    ///< vertices with a spring of negative, infinite or NaN weight
     wrong_count,   ///< no ids: not one position a vertex
     no_position,   ///< no ids: "where it is" has no meaning for a surface in space without a map
+    unused_vertex, ///< vertices without a cell
     bad_polygon    ///< no ids: fewer than three corners, a corner that is not finite, or no length
 };
 
@@ -49,6 +50,8 @@ constexpr const char* to_string(constraint_fault fault)
         return "wrong_count";
     case constraint_fault::no_position:
         return "no_position";
+    case constraint_fault::unused_vertex:
+        return "unused_vertex";
     case constraint_fault::bad_polygon:
         return "bad_polygon";
     }

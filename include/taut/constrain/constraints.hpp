@@ -207,6 +207,23 @@ public:
                                 "with a target that is too far away for the size of the mesh; give a nearer one");
     }
 
+    /// Throws constraint_error (unused_vertex) where anything is asked of one of these vertices, which ascend: those
+    /// that no cell names.
+    void require_used(std::span<const idx> unused) const
+    {
+        if (unused.empty()) return;
+        std::vector<idx> bad;
+        const auto is_unused = [&](idx v) { return std::binary_search(unused.begin(), unused.end(), v); };
+        for (const auto& [v, pin] : pins_)
+            if (is_unused(v)) bad.push_back(v);
+        for (const auto& [v, s] : springs_)
+            if (is_unused(v) && !pins_.contains(v)) bad.push_back(v);
+        std::sort(bad.begin(), bad.end());
+        detail::refuse_vertices(constraint_fault::unused_vertex, std::move(bad),
+                                std::string("pinned that no ") + Element::name +
+                                    " uses, so that nothing follows; pin others, or leave the pins out");
+    }
+
     /// The same for a copy of the mesh. Throws constraint_error where it is another mesh, with fewer vertices.
     constraints on(const mesh<Element>& copy) const
     {

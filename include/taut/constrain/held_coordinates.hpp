@@ -37,6 +37,9 @@ public:
         for (const auto& [v, pin] : wanted_.pins()) marks_[static_cast<std::size_t>(v)] |= pin.held;
     }
 
+    /// Throws constraint_error (unused_vertex) where anything is asked of one of these, which ascend.
+    void require_used(std::span<const idx> unused) const { wanted_.require_used(unused); }
+
     /// One flag a vertex of which anything is asked: coarser surfaces should have it. Springs that are many are left
     /// out; those whose vertices happen to be there will do.
     std::vector<bool> touched(std::size_t vertices) const

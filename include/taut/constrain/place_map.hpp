@@ -98,17 +98,19 @@ struct placed_map
 };
 
 /// Shifts a map so that the lower left corner of its box is (0, 0), and scales it so that the longer side is `side`
-/// unless that is 0.
+/// unless that is 0. Of a square, whose sides differ by rounding alone, both are.
 inline placed_map in_corner(std::vector<vec2> uv, double side)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     vec2 least(infinity), most(-infinity);
     for (const vec2& p : uv) least = glm::min(least, p), most = glm::max(most, p);
-    const double longer = std::max(most.x - least.x, most.y - least.y);
+    vec2 sides = most - least;
+    const double longer = std::max(sides.x, sides.y);
+    if (!(std::min(sides.x, sides.y) > (1 - 1e-14) * longer)) sides = vec2(longer);
     for (vec2& p : uv)
     {
         p -= least;
-        if (side > 0) p = p / longer * side; // in this order no coordinate exceeds it
+        if (side > 0) p = p / sides * side; // in this order no coordinate exceeds it
     }
     return {std::move(uv), side > 0 ? side / longer : 1};
 }

@@ -31,6 +31,17 @@ struct untangle_problem
     std::vector<mat<D>> wanted = {};
     /// The cell that each simplex is a corner of (mesh/cell_corners.hpp), where they are corners of others; else empty.
     std::vector<idx> owners = {};
+    /// Vertices that stages hold where they are, though they may move along a line or in a plane: no proof may count
+    /// on their places.
+    std::vector<idx> sliding = {};
+
+    /// What proofs may count on.
+    held_marks<D> held_for_sure() const
+    {
+        auto marks = held;
+        for (const idx v : sliding) marks[static_cast<std::size_t>(v)] = 0;
+        return marks;
+    }
 
     /// True if no vertex of the boundary can move.
     bool outline_pinned() const

@@ -37,7 +37,7 @@ public:
                            {
                                if (key.size() == 1 && key[0] == 'v')
                                    soup_.add_point(in_.numbers<3>(), in_.path(), in_.here());
-                               else if (key.size() == 1 && key[0] == 'f')
+                               else if (is_face(key))
                                    read_face(begin);
                                else if (key == "vt")
                                    read_texcoord(begin);
@@ -49,7 +49,10 @@ public:
     /// The first byte of the first vt or f statement; null if there is none.
     const char* body() const { return body_; }
     std::size_t corner_count() const { return soup_.corners.size(); }
-    bool faulty() const { return soup_.fault.has_value() || !soup_.texcoord_fault.empty(); }
+    bool faulty() const
+    {
+        return soup_.fault.has_value() || soup_.non_finite.has_value() || !soup_.texcoord_fault.empty();
+    }
 
     /// False if some statement counts back from its place, which a piece does not know.
     bool absolute() const { return absolute_; }

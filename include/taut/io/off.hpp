@@ -46,11 +46,17 @@ public:
     }
 
 private:
+    static bool ends_in_off(std::string_view word)
+    {
+        return word.size() >= 3 && same_letters(word.substr(word.size() - 3), "OFF");
+    }
+
     /// Geomview's binary form says so behind the header.
     void refuse_binary() const
     {
         scanner in = in_;
-        if (in.word().ends_with("OFF") && in.word() == "BINARY") in.fail("binary OFF is not read; save it as text");
+        if (ends_in_off(in.word()) && same_letters(in.word(), "BINARY"))
+            in.fail("binary OFF is not read; save it as text");
     }
 
     /// [ST][C][N]OFF, or nothing: the header may be missing.
@@ -59,13 +65,17 @@ private:
         skip_to_content();
         if (in_.at_digit()) return;
         const std::string_view key = in_.word();
-        const std::string_view kind = key.ends_with("OFF") ? key.substr(0, key.size() - 3) : "?";
-        has_texcoords_ = kind.starts_with("ST");
-        const std::string_view rest = has_texcoords_ ? kind.substr(2) : kind;
-        has_colours_ = rest.starts_with('C');
-        has_normals_ = rest.ends_with('N');
-        if (!rest.empty() && rest != "C" && rest != "N" && rest != "CN")
-            in_.fail("not an OFF file of points in space: '" + std::string(key.substr(0, 40)) + "'");
+        std::string_view kind = ends_in_off(key) ? key.substr(0, key.size() - 3) : "?";
+        const auto take = [&kind](std::string_view letters)
+        {
+            if (!same_letters(kind.substr(0, letters.size()), letters)) return false;
+            kind.remove_prefix(letters.size());
+            return true;
+        };
+        has_texcoords_ = take("ST");
+        has_colours_ = take("C");
+        has_normals_ = take("N");
+        if (!kind.empty()) in_.fail("not an OFF file of points in space: '" + std::string(key.substr(0, 40)) + "'");
         skip_to_content();
         if (!in_.at_digit()) in_.fail_at_word("the number of vertices");
     }
@@ -104,7 +114,7 @@ private:
             const char* const begin = in_.position();
             p[k] = in_.number();
             if (k > 0) carried.positions.append(" ");
-            carried.positions.append(in_.since(begin));
+            append_written(carried.positions, in_.since(begin));
         }
         carried.positions.end();
         soup_.add_point(p, in_.path(), in_.here());

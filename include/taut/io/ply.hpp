@@ -33,6 +33,8 @@ public:
     {
         soup_.carried.comments = std::move(header.comments);
         for (const ply_element& e : header.elements)
+            if (e.name == "vertex" && !e.properties.empty()) soup_.announced = e.rows;
+        for (const ply_element& e : header.elements)
         {
             if (e.properties.empty()) continue; // its rows take no bytes, however many there are
             require_bytes(e);
@@ -148,7 +150,8 @@ private:
                                   if (role < text.size()) text[role] = in_.text();
                               });
             soup_.add_point(three(position), path_, here());
-            if (textured) soup_.add_texcoord({value[texcoord], value[texcoord + 1]}, path_, here());
+            if (textured && soup_.corner_coords.empty())
+                soup_.add_texcoord({value[texcoord], value[texcoord + 1]}, path_, here());
             if (normals) soup_.carried.normals.push_back(three(normal));
             if (colours) soup_.carried.colours.push_back(three(colour));
             if (!text[0].empty()) add_position(text);
@@ -161,7 +164,7 @@ private:
         for (std::size_t k = 0; k < 3; ++k)
         {
             if (k > 0) positions.append(" ");
-            positions.append(text[k]);
+            append_written(positions, text[k]);
         }
         positions.end();
     }
@@ -171,17 +174,10 @@ private:
         return p.counts && (p.name == a || p.name == b);
     }
 
-    void require_vertices(const ply_element& e) const
-    {
-        if (soup_.points.empty() && e.rows > 0)
-            throw io_error(path_, "the faces stand before the vertices; write the vertex element first");
-    }
-
     /// Triangle strips: each vertex ends a triangle with the two before it, every second one turned; -1 begins a new
     /// strip, and a vertex named twice joins two.
     void read_strips(const ply_element& e)
     {
-        require_vertices(e);
         std::array<long long, 3> last{};
         for (std::size_t r = 0; r < e.rows; ++r)
         {
@@ -207,7 +203,6 @@ private:
 
     void read_faces(const ply_element& e)
     {
-        require_vertices(e);
         soup_.sizes.reserve(e.rows);
         soup_.corners.reserve(3 * e.rows);
         for (std::size_t r = 0; r < e.rows; ++r)

@@ -11,7 +11,7 @@ namespace taut::io
 
 /// Reads a volume mesh, or a planar mesh, with its groups.
 /// Throws io_error with line or byte: unreadable, unknown, malformed, or what coordinates alone cannot be exchanged in
-/// (higher order, polyhedra, compressed or base64 data, partitions, several pieces).
+/// (higher order, polyhedra, partitions, several pieces).
 volume_file read_volume_file(const std::filesystem::path& path,
                                          volume_format format = volume_format::automatic);
 

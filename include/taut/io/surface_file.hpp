@@ -2,14 +2,18 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <taut/io/detail/text_list.hpp>
+#include <taut/mesh/describe.hpp>
 #include <taut/mesh/mesh.hpp>
+#include <taut/mesh/unused_vertices.hpp>
 
 namespace taut::io
 {
@@ -144,10 +148,29 @@ struct surface_soup
     std::string texcoord_fault;      ///< as in surface_file
 };
 
+/// Vertices without a triangle are no fault, whatever their coordinates: says so in the notes, and brings those whose
+/// coordinates are not finite to the place of another vertex.
+inline void ignore_unused_vertices(surface_soup& soup)
+{
+    auto unused = taut::detail::unused_vertices(soup.points.size(), soup.triangles);
+    if (unused.empty() || soup.triangles.empty()) return;
+    soup.notes.push_back(taut::detail::describe_unused(unused));
+    std::erase_if(unused,
+                  [&](idx v)
+                  {
+                      const vec3& p = soup.points[static_cast<std::size_t>(v)];
+                      return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+                  });
+    const idx first = soup.triangles[0][0];
+    if (first < 0 || static_cast<std::size_t>(first) >= soup.points.size()) return;
+    taut::detail::set_aside(std::span<const idx>(unused), soup.triangles, soup.points);
+}
+
 /// The surface of triangles without such faults. path: named in errors. Throws `fault`, or mesh_error as mesh does.
 inline surface_file to_surface_file(surface_soup&& soup, const std::string& path)
 {
     if (soup.fault) throw mesh_error(*soup.fault);
+    ignore_unused_vertices(soup);
     try
     {
         return {mesh<triangle>(std::move(soup.points), std::move(soup.triangles)),

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include <taut/core/error.hpp>
+#include <taut/io/detail/coding/array_code.hpp>
 #include <taut/mesh/mesh.hpp>
 
 namespace taut::io
@@ -23,7 +25,7 @@ enum class volume_format
     medit,  ///< .mesh, text
     gmsh,   ///< .msh 2.x and 4.1, text and binary
     vtk,    ///< .vtk, legacy, text and binary, unstructured grids
-    vtu,    ///< .vtu, text and appended raw
+    vtu,    ///< .vtu, text, base64 and appended, compressed or not
     tetgen, ///< .node and .ele, and .face if there is one; given by either name
     su2,    ///< .su2
     problem ///< .prob: the points are those of the initial map
@@ -65,6 +67,29 @@ inline constexpr std::array<cell_shape, 8> cell_shapes = {{{0, 1, "vertex", "ver
 constexpr const cell_shape& shape_of(cell_kind kind)
 {
     return cell_shapes[static_cast<std::size_t>(kind)];
+}
+
+/// Puts the corners of a cell in the other order: it is mirrored. Twice is nothing.
+inline void turn_cell(cell_kind kind, std::span<idx> corners)
+{
+    switch (kind)
+    {
+    case cell_kind::triangle:
+    case cell_kind::tetrahedron:
+        return std::swap(corners[1], corners[2]);
+    case cell_kind::wedge:
+        std::swap(corners[4], corners[5]);
+        return std::swap(corners[1], corners[2]);
+    case cell_kind::hexahedron:
+        std::swap(corners[5], corners[7]);
+        return std::swap(corners[1], corners[3]);
+    case cell_kind::quad:
+    case cell_kind::pyramid:
+        return std::swap(corners[1], corners[3]);
+    case cell_kind::vertex:
+    case cell_kind::line:
+        return;
+    }
 }
 
 /// Cells of one kind that follow each other in a file.
@@ -110,6 +135,20 @@ private:
     std::string name_;
 };
 
+/// Coordinates that a file has in base64, compressed, or both (VTU): they are written anew together.
+struct coded_coordinates
+{
+    /// An offset of an array that follows them, as the text has it.
+    struct later
+    {
+        std::size_t begin, end; ///< of its digits
+        std::size_t offset;
+    };
+    detail::array_code code;
+    std::size_t begin, end;         ///< of the code in the file
+    std::vector<later> followed_by; ///< ascending by `begin`
+};
+
 /// Where the bytes of a file have its coordinates, and how.
 struct coordinate_places
 {
@@ -118,6 +157,7 @@ struct coordinate_places
     std::endian order = std::endian::native; ///< of binary coordinates
     int per_point = 3;                       ///< 3, or 2 in a planar file
     std::vector<std::size_t> offsets;        ///< the first byte of each, one point after the other, ascending
+    std::optional<coded_coordinates> coded;  ///< then there are no offsets
 
     /// Whether coordinates are rounded when they are written. A text holds all digits, which readers may round.
     bool rounds() const { return single && !text; }

@@ -172,6 +172,26 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
     result.before = measured(start);
     auto found = deform(q, m, how);
     if (!found.x.empty()) result.after = measured(found.x);
+    auto& report = found.report;
+    if (report.outcome == outcome::valid)
+    {
+        // Where rounding ends steps, what they came to may be worse than what was given.
+        const bool worse = result.after.worst.mean_ratio < result.before.worst.mean_ratio &&
+                           result.after.mean_ratio < result.before.mean_ratio;
+        if (worse && !report.converged)
+        {
+            auto flips = certify<Element::dimension>(m.cells(), std::span<const point>(start), {}, 16, params.owners);
+            if (flips)
+            {
+                found.x = start;
+                result.after = result.before;
+                report.flips = std::move(flips);
+                report.notes.push_back("steps made the mesh worse; it stays as it was");
+            }
+        }
+        if (!report.converged && !report.stopped)
+            report.notes.push_back("steps ended before they converged; what is written is as far as they came");
+    }
     result.x = restored(std::move(found.x));
     result.report = std::move(found.report);
     result.report.distance = std::ldexp(result.report.distance, exponent);

@@ -61,6 +61,12 @@ std::string list_first_elements(std::size_t n, const std::vector<idx>& ids, std:
            text.substr(text.find('('));
 }
 
+/// What is said of vertices that no triangle names, where these are no obstacle.
+inline std::string describe_unused(const std::vector<idx>& ids)
+{
+    return list_ids("vertex", "vertices", ids) + " without a triangle: ignored";
+}
+
 } // namespace detail
 
 /// The sentence for a fault of a mesh of `Element`s: how many, the first ids, what is wrong, and the remedy. owners:

@@ -11,6 +11,7 @@
 
 #include <taut/mesh/wanted_shapes.hpp>
 #include <taut/start/laid.hpp>
+#include <taut/untangle/detail/gain_watch.hpp>
 #include <taut/untangle/epsilon_schedule.hpp>
 #include <taut/untangle/stage.hpp>
 
@@ -56,7 +57,10 @@ public:
             const double after = newton_->step(x_, before);
             state.stepped(before, after, newton_->last_length());
             if (!std::isfinite(after)) return false;
-            if (state.offer(x_).flipped == 0 || !state.proceed()) return false;
+            const auto flipped = state.offer(x_).flipped;
+            if (flipped == 0 || !state.proceed()) return false;
+            watch_.note(flipped, newton_->inverted_measure(x_));
+            if (watch_.stuck()) return false;
             standing_ = newton_->last_length() > 0 ? 0 : standing_ + 1;
             if (standing_ > 50) return false;
             schedule_->lower(before, after, newton_->last_length(), newton_->least_det(x_));
@@ -105,6 +109,7 @@ private:
     newton_stage_params params_;
     std::unique_ptr<regularized_newton<Element>> newton_;
     std::unique_ptr<detail::epsilon_schedule> schedule_;
+    detail::gain_watch watch_;
     std::vector<vec<D>> x_;
     int standing_ = 0; // steps in a row that could not be made
 };

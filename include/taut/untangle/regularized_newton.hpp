@@ -83,6 +83,15 @@ public:
         return least;
     }
 
+    /// Of the inverted elements, as a share of the measure that is wanted of all.
+    double inverted_measure(const map& x) const
+    {
+        double sum = 0;
+        for (std::size_t c = 0; c < cells_.size(); ++c)
+            sum += std::max(0.0, -glm::determinant(mapped(x, c))) * shapes_[c].weight;
+        return sum;
+    }
+
 protected:
     mat<D> mapped(const map& x, std::size_t c) const
     {

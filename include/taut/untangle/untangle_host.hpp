@@ -105,6 +105,9 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, unta
         result.reason = state.cancelled() ? "cancelled: " + left
                         : state.stopped() ? "time limit: " + left
                                           : "no stage makes progress: " + left +
+                                                (problem.sliding.empty() ? ""
+                                                                         : ", with the vertices that slide on the "
+                                                                           "boundary or an interface where they are") +
                                                 "; a certificate that there is no solution was not found either";
     }
     result.least_relative_det = detail::least_relative_det(problem, result.map);

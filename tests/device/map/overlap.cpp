@@ -253,7 +253,7 @@ TEST_CASE("no_overlap: a tube too long for a map on a polygon gets one that was 
     const parameterize_params params;
     detail::run_clock clock(budget::unlimited, {});
     const detail::run_surface in(m, params);
-    const detail::map_run<triangle> run(q, in, params, clock, nullptr);
+    const detail::map_run run(q, in, params, clock);
     CHECK(barycentric_map(m, params.barycentric).distortion.measure > 1e8);
     const auto start = detail::start_apart(run, boundary_loops(m));
     CHECK(start.flips);

@@ -242,13 +242,17 @@ TEST_CASE("ply: vertices that are missing or not finite are faults of the mesh, 
     CHECK(fault("ply\nformat ascii 1.0\nend_header\n") == mesh_fault::empty);
 }
 
-TEST_CASE("ply: faces before the vertices are refused with the remedy")
+TEST_CASE("ply: faces may stand before the vertices, and name only what follows")
 {
-    const std::string text = "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
-                             "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
-                             "3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n";
-    CHECK_THROWS_WITH_AS(taut::io::parse_ply(text), doctest::Contains("write the vertex element first"),
-                         taut::io::io_error);
+    const std::string head = "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+                             "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
+                      points = "0 0 0\n1 0 0\n0 1 0\n";
+    const auto file = parse_ply(head + "3 0 1 2\n" + points);
+    CHECK(file.surface.cells() == std::vector<cell>{{0, 1, 2}});
+    CHECK(file.surface.points()[1] == vec3(1, 0, 0));
+    CHECK_THROWS_WITH_AS(parse_ply(head + "3 0 1 3\n" + points),
+                         doctest::Contains("names vertex 3, but there are 3, counted from 0"), mesh_error);
+    CHECK_THROWS_AS(parse_ply(head + "3 0 1 2\n0 0 0\n"), io::io_error);
 }
 
 TEST_CASE("ply: triangle strips, text and binary: -1 begins another one, a vertex named twice joins two")

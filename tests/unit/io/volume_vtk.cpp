@@ -148,11 +148,11 @@ TEST_CASE("VTU: errors tell the line and the remedy")
     };
     refuses("", "there is no <VTKFile>");
     refuses(exchange(text, "type=\"UnstructuredGrid\"", "type=\"PolyData\""), "line 3: not an UnstructuredGrid");
-    refuses(exchange(text, "format=\"ascii\">0 0 0\n", "format=\"binary\">AAAA"),
-            "base64 data; save the mesh with ascii");
-    refuses(exchange(raw, "encoding=\"raw\"", "encoding=\"base64\""), "base64 data; save the mesh with ascii");
-    refuses(exchange(raw, "version=\"1.0\" byte", "compressor=\"vtkZLibDataCompressor\" byte"),
-            "compressed data; save the mesh uncompressed");
+    refuses(exchange(text, "format=\"ascii\">0 0 0\n", "format=\"binary\">AAAA"), "array 'Points': ");
+    refuses(exchange(raw, "encoding=\"raw\"", "encoding=\"base64\""), "array 'Points': ");
+    refuses(exchange(raw, "version=\"1.0\" byte", "compressor=\"vtkZLibDataCompressor\" byte"), "array 'Points': ");
+    refuses(exchange(raw, "version=\"1.0\" byte", "compressor=\"vtkOwnDataCompressor\" byte"),
+            "compressed with vtkOwnDataCompressor, which is not known; save the mesh uncompressed");
     refuses(exchange(text, "</Piece>", "</Piece><Piece NumberOfPoints='0' NumberOfCells='0'></Piece>"),
             "a second piece; merge them");
     refuses(exchange(text, "NumberOfPoints=\"5\"", "NumberOfPoints=\"6\""), "the file ends before a number");
@@ -169,9 +169,9 @@ TEST_CASE("VTU: errors tell the line and the remedy")
 
     // What is wrong with an attribute alone costs its groups.
     const auto file =
-        io::parse_volume(exchange(text, "format=\"ascii\">0 1 0 1 0<", "format=\"binary\">AAAA<"), volume_format::vtu);
+        io::parse_volume(exchange(text, "format=\"ascii\">0 1 0 1 0<", "format=\"zip\">AAAA<"), volume_format::vtu);
     REQUIRE(file.notes.size() == 1);
-    CHECK(file.notes[0].find("no groups were made of 'side': base64 data") != std::string::npos);
+    CHECK(file.notes[0].find("no groups were made of 'side': format 'zip'") != std::string::npos);
 }
 
 } // namespace

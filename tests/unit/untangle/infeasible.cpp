@@ -327,3 +327,12 @@ TEST_CASE("infeasible: faulty meshes are judged as far as they can be")
         CHECK_NOTHROW(find_infeasibility(problem(m, x, [](taut::idx) { return false; })));
     }
 }
+
+TEST_CASE("infeasible: no proof counts on vertices that slide, though stages hold them")
+{
+    const mesh<triangle> m({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    auto p = problem(m, {{0, 0}, {0, 1}, {1, 0}}, [](taut::idx) { return true; });
+    CHECK(find_infeasibility(p));
+    p.sliding = {2};
+    CHECK_FALSE(find_infeasibility(p));
+}

@@ -142,7 +142,7 @@ inline void append_rewritten(std::string& out, std::string_view statements, cons
                                copy(begin);
                                dropping = true;
                            }
-                           else if (key == "f")
+                           else if (is_face(key))
                                while (!in.content_ends())
                                {
                                    const obj_corner corner = read_obj_corner(in);

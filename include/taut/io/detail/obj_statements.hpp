@@ -23,6 +23,12 @@ inline bool joins_lines(std::string_view key)
     return std::find(known.begin(), known.end(), key) != known.end();
 }
 
+/// Whether a statement is a face: f, or fo of the format's first version, which is read as f.
+inline bool is_face(std::string_view key)
+{
+    return !key.empty() && key[0] == 'f' && (key.size() == 1 || (key.size() == 2 && key[1] == 'o'));
+}
+
 /// Calls statement(key, begin) for each statement: its first word, behind which the scanner stands, and its first byte.
 /// What the call does not read is skipped.
 template <class Statement>

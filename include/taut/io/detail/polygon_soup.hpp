@@ -29,10 +29,13 @@ struct polygon_soup
     std::vector<idx> corner_coords; // texcoords of the corners, -1 or missing at the end: none
     std::vector<vec3> normals;      // those that corners name
     std::vector<idx> corner_normals;
-    std::vector<idx> sizes;          // corners of each polygon
-    bool strict = true;              // faults are thrown; else the first is kept, and what it is in stays
-    std::optional<mesh_error> fault; // of indices, coordinates and faces
-    std::string texcoord_fault;      // the first of texture coordinates, which then are none
+    std::vector<idx> sizes;               // corners of each polygon
+    std::size_t announced = 0;            // points that are known to follow, if faces stand before them
+    bool strict = true;                   // faults are thrown; else the first is kept, and what it is in stays
+    std::optional<mesh_error> fault;      // of indices and faces
+    std::optional<mesh_error> non_finite; // the first vertex with such a coordinate: no fault unless a face names it
+    std::string of_file;                  // the file that has it
+    std::string texcoord_fault;           // the first of texture coordinates, which then are none
 
     static constexpr std::size_t limit = std::numeric_limits<idx>::max();
 
@@ -53,19 +56,18 @@ struct polygon_soup
         if (!fault) fault = make();
     }
 
-    /// where() is the place in the file, asked for errors only. Throws mesh_error (non_finite), io_error.
+    /// where() is the place in the file, asked for errors only. Throws io_error.
     template <class Where>
     void add_point(const vec3& p, const std::string& path, Where where)
     {
         if (points.size() >= limit) throw io_error(path, "more vertices than 32-bit numbers can name", where());
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            note(
-                [&]
-                {
-                    return mesh_error(mesh_fault::non_finite, {static_cast<idx>(points.size())},
-                                      place_prefix(path, where()) + "vertex " + std::to_string(points.size()) +
-                                          " has a coordinate that is not a finite number");
-                });
+        if (!non_finite && !is_finite(p))
+        {
+            non_finite =
+                mesh_error(mesh_fault::non_finite, {static_cast<idx>(points.size())},
+                           place_prefix(path, where()) + "vertex " + std::to_string(points.size()) + is_not_finite);
+            of_file = path;
+        }
         points.push_back(p);
     }
 
@@ -102,15 +104,15 @@ struct polygon_soup
     template <class Where>
     void add_corner(long long v, const std::string& path, Where where)
     {
-        if (v < 0 || v >= static_cast<long long>(points.size()))
+        if (v < 0 || v >= static_cast<long long>(std::max(points.size(), announced)))
         {
             note(
                 [&]
                 {
-                    return mesh_error(mesh_fault::index_out_of_range,
-                                      {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
-                                      place_prefix(path, where()) + "a face names vertex " + std::to_string(v) +
-                                          ", but there are " + std::to_string(points.size()) + ", counted from 0");
+                    return mesh_error(
+                        mesh_fault::index_out_of_range, {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
+                        place_prefix(path, where()) + "a face names vertex " + std::to_string(v) + ", but there are " +
+                            std::to_string(std::max(points.size(), announced)) + ", counted from 0");
                 });
             v = -1;
         }
@@ -167,6 +169,8 @@ struct polygon_soup
             return triples;
         };
         result.triangles = by_triangle(corners);
+        // Vertices come before what is said of them.
+        if (auto first = corners.empty() ? non_finite : used_non_finite()) fault = std::move(first);
         if (coords) result.texcoord_cells = by_triangle(corner_coords);
         if (named_normals) result.normal_cells = by_triangle(corner_normals);
         if (const auto empty = std::count(sizes.begin(), sizes.end(), 0); empty > 0)
@@ -183,6 +187,25 @@ struct polygon_soup
         result.fault = std::move(fault);
         result.texcoord_fault = std::move(texcoord_fault);
         return result;
+    }
+
+private:
+    static constexpr const char* is_not_finite = " has a coordinate that is not a finite number";
+
+    static bool is_finite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+    /// The first vertex of a face with a coordinate that is not finite, if there is one.
+    std::optional<mesh_error> used_non_finite() const
+    {
+        if (!non_finite) return std::nullopt;
+        const auto count = static_cast<idx>(points.size());
+        idx first = std::numeric_limits<idx>::max();
+        for (const idx v : corners)
+            if (v >= 0 && v < count && v < first && !is_finite(points[static_cast<std::size_t>(v)])) first = v;
+        if (first == std::numeric_limits<idx>::max()) return std::nullopt;
+        if (non_finite->ids()[0] == first) return non_finite;
+        return mesh_error(mesh_fault::non_finite, {first},
+                          of_file + ": vertex " + std::to_string(first) + is_not_finite);
     }
 };
 

@@ -26,6 +26,13 @@ inline void refuse_utf16(std::string_view text, const std::string& path)
         throw io_error(path, "a text in UTF-16; save it as UTF-8");
 }
 
+/// Whether two words are the same but for the case of their letters.
+inline bool same_letters(std::string_view a, std::string_view b)
+{
+    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return small(x) == small(y); });
+}
+
 /// Reads words and numbers from a text that stays alive. Lines end with LF, CR LF or CR; a backslash before the end of
 /// a line joins it to the next one, as OBJ wants. Independent of the locale.
 class scanner
@@ -123,8 +130,8 @@ public:
         return true;
     }
 
-    /// A decimal number, "nan", "inf" or what Microsoft's library prints for these as a word of its own. Too large:
-    /// infinity. Throws io_error.
+    /// A decimal number, "nan", "inf" or what Microsoft's library prints for these as a word of its own, with an
+    /// exponent as C (1e3) or Fortran (1D+3) prints it. Too large: infinity. Throws io_error.
     double number()
     {
         skip_blanks();
@@ -132,6 +139,7 @@ public:
         if (short_number(value) || take_no_number(value)) return value;
         const char* first = after_plus();
         const auto [last, failure] = std::from_chars(first, end_, value);
+        if (failure == std::errc{} && take_fortran_number(last, value)) return value;
         if (failure == std::errc::invalid_argument || !ends_word(last)) fail_at_word("a number");
         if (failure == std::errc::result_out_of_range) value = beyond_range({first, last});
         at_ = last;
@@ -301,6 +309,23 @@ private:
         using limits = std::numeric_limits<double>;
         value = letters == "INF" ? (*at_ == '-' ? -limits::infinity() : limits::infinity()) : limits::quiet_NaN();
         at_ = p;
+        return true;
+    }
+
+    /// Takes a number whose exponent begins with D, as Fortran writes those of double precision, of which the mantissa
+    /// ends at `letter`.
+    bool take_fortran_number(const char* letter, double& value)
+    {
+        if (letter == end_ || (*letter != 'D' && *letter != 'd')) return false;
+        const char *const first = after_plus(), *last = letter;
+        while (!ends_word(last)) ++last;
+        std::string word(first, last);
+        word[static_cast<std::size_t>(letter - first)] = 'e';
+        const char* const end = word.data() + word.size();
+        const auto [stop, failure] = std::from_chars(word.data(), end, value);
+        if (failure == std::errc::invalid_argument || stop != end) return false;
+        if (failure == std::errc::result_out_of_range) value = beyond_range(word);
+        at_ = last;
         return true;
     }
 

@@ -36,4 +36,18 @@ private:
     std::vector<std::size_t> ends_;
 };
 
+namespace detail
+{
+
+/// Appends a number as it is written, with an exponent that every program reads.
+inline void append_written(text_list& to, std::string_view number)
+{
+    const auto letter = number.find_first_of("dD");
+    to.append(number.substr(0, letter));
+    if (letter == number.npos) return;
+    to.append("e");
+    to.append(number.substr(letter + 1));
+}
+
+} // namespace detail
 } // namespace taut::io

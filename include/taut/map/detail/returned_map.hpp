@@ -12,13 +12,17 @@
 namespace taut::detail
 {
 
-/// A free map brought to its place, or left where it is if rounding would flip a triangle on the way.
+/// A map that no pins or springs hold brought to its place, or left where it is if rounding would flip a triangle on
+/// the way. One with a fixed boundary is brought into the unit square alone, and not turned.
 inline map_result placed(const map_run& run, map_result r)
 {
-    if (!r || !run.is_free() || run.params.placement == placement::as_solved) return r;
-    const double side = run.params.placement == placement::unit_square ? run.in.unit : 0;
+    const bool fits = run.params.placement == placement::unit_square, free = run.is_free();
+    if (!r || run.held.constrained() || run.params.placement == placement::as_solved || (!free && !fits)) return r;
+    run.in.set_unused_aside(r.uv);
+    const double side = fits ? run.in.unit : 0;
     for (const bool turned : {true, false})
     {
+        if (turned && !free) continue;
         auto map = in_corner(turned ? turned_up(run.in.surface, r.uv) : r.uv, side);
         const auto flips = certify<2>(run.in.surface.cells(), map.uv, run.in.ideal.measure);
         if (!flips) continue;
@@ -35,6 +39,8 @@ inline map_result placed(const map_run& run, map_result r)
 /// is valid is certified again.
 inline map_result in_user_units(const map_run& run, map_result r)
 {
+    for (auto* points : {&r.uv, &r.report.start.uv})
+        if (!points->empty()) run.in.set_unused_aside(*points);
     for (auto* points : {&r.uv, &r.report.start.uv, &r.report.pin_origins})
         for (vec2& p : *points) p /= run.in.unit;
     if (!r.uv.empty()) run.held.impose(r.uv, 1);

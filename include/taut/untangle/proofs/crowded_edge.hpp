@@ -335,7 +335,7 @@ private:
 inline std::vector<flat_side> flat_sides(const untangle_problem<tetrahedron>& p)
 {
     std::vector<flat_side> sides;
-    if (!p.owners.empty() || !p.outline_pinned()) return sides;
+    if (!p.owners.empty() || !p.sliding.empty() || !p.outline_pinned()) return sides;
     const auto outline = boundary_facets(p.rest, p.owners);
     if (outline.empty()) return sides;
     for (int axis = 0; axis < 3; ++axis)

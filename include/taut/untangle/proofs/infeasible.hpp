@@ -137,6 +137,13 @@ template <class Element>
 infeasibility find_infeasibility(const untangle_problem<Element>& problem)
 {
     problem.validate();
+    if (!problem.sliding.empty())
+    {
+        auto sure = problem;
+        sure.held = problem.held_for_sure();
+        sure.sliding.clear();
+        return find_infeasibility(sure);
+    }
     infeasibility found;
     detail::judge_elements(problem, found);
     if (!problem.owners.empty()) return found; // the others are of meshes that do not overlap

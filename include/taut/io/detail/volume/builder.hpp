@@ -34,12 +34,16 @@ public:
     /// Says how coordinates stand in the file, before the first one is read.
     void set_places(number_encoding encoding, bool single, int per_point)
     {
-        file_.places = {encoding.text, single, encoding.order, per_point, {}};
+        file_.places = {encoding.text, single, encoding.order, per_point, {}, {}};
     }
+
+    /// Says that they stand in a code.
+    void set_code(coded_coordinates coded) { file_.places.coded = std::move(coded); }
 
     void reserve_points(std::size_t n)
     {
         file_.points.reserve(n);
+        if (file_.places.coded) return;
         file_.places.offsets.reserve(n * static_cast<std::size_t>(file_.places.per_point));
     }
 
@@ -50,12 +54,12 @@ public:
         for (int k = 0; k < file_.places.per_point; ++k)
         {
             from.skip();
-            const auto offset = static_cast<std::size_t>(from.in().position() - file_.bytes.data());
+            const char* const at = from.in().position();
             p[k] = from.real(file_.places.single ? number_type::float32 : number_type::float64);
             if (!std::isfinite(p[k]))
                 from.fail("point " + std::to_string(file_.points.size()) +
                           " has a coordinate that is not finite; give finite numbers");
-            file_.places.offsets.push_back(offset);
+            if (!file_.places.coded) file_.places.offsets.push_back(static_cast<std::size_t>(at - file_.bytes.data()));
         }
         file_.points.push_back(p);
     }

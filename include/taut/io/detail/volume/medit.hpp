@@ -54,7 +54,7 @@ private:
         {
             const std::string_view word = in_.word();
             if (word.empty() || !is_letter(word.front())) continue;
-            if (word == "End") return;
+            if (same_letters(word, "End")) return;
             sections_.push_back({word, in_.position()});
         }
     }
@@ -62,7 +62,7 @@ private:
     bool go_to(std::string_view keyword)
     {
         const auto s = std::find_if(sections_.begin(), sections_.end(),
-                                    [&](const section& any) { return any.keyword == keyword; });
+                                    [&](const section& any) { return same_letters(any.keyword, keyword); });
         if (s == sections_.end()) return false;
         in_.go_to(s->content);
         return true;
@@ -113,7 +113,7 @@ private:
         }};
         in_.go_to(s.content);
         const auto* found =
-            std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.keyword == s.keyword; });
+            std::find_if(known.begin(), known.end(), [&](const auto& k) { return same_letters(k.keyword, s.keyword); });
         if (found == known.end()) return require_first_order(s.keyword);
         const bool tagged = !found->group.empty();
         const auto corners = static_cast<std::size_t>(shape_of(found->kind).corners);
@@ -133,7 +133,7 @@ private:
                        [&](long long reference)
                        {
                            return tagged ? std::string(found->group) + ':' + std::to_string(reference)
-                                         : std::string(s.keyword == "Corners" ? "corners" : "required_vertices");
+                                         : std::string(found->keyword == "Corners" ? "corners" : "required_vertices");
                        });
     }
 
@@ -141,7 +141,8 @@ private:
     void require_first_order(std::string_view keyword) const
     {
         const auto n = keyword.size();
-        if (n > 2 && (keyword[n - 2] == 'P' || keyword[n - 2] == 'Q') && keyword[n - 1] >= '2' && keyword[n - 1] <= '9')
+        constexpr std::string_view orders = "PQpq";
+        if (n > 2 && orders.find(keyword[n - 2]) != orders.npos && keyword[n - 1] >= '2' && keyword[n - 1] <= '9')
             in_.fail("cells of higher order (" + std::string(keyword.substr(0, 40)) +
                      "); save the mesh in first order");
     }

@@ -47,11 +47,23 @@ struct number_encoding
     char comment = '\0';                     ///< of text: what starts a comment
 };
 
+/// What numbers that are no part of the file itself were decoded from.
+struct number_origin
+{
+    const scanner* file;
+    const char* position; ///< in the file
+    std::string name;
+};
+
 /// Numbers of a file, one after the other, from where the scanner is. All members throw io_error.
 class number_source
 {
 public:
-    number_source(scanner& in, number_encoding encoding) : in_(&in), encoding_(encoding) {}
+    /// origin: of numbers that were decoded; errors name it.
+    number_source(scanner& in, number_encoding encoding, const number_origin* origin = nullptr)
+        : in_(&in), encoding_(encoding), origin_(origin)
+    {
+    }
 
     /// Goes to the next number of a text, past line ends and comments.
     void skip()
@@ -138,6 +150,8 @@ public:
     /// Fails where the source is, in lines of a text, else in bytes.
     [[noreturn]] void fail(const std::string& what) const
     {
+        if (origin_ != nullptr)
+            throw io_error(in_->path(), origin_->name + ": " + what, origin_->file->line_of(origin_->position));
         const char* const at = in_->position();
         throw io_error(in_->path(), what, encoding_.text ? in_->line_of(at) : in_->byte_of(at));
     }
@@ -157,6 +171,7 @@ private:
 
     scanner* in_;
     number_encoding encoding_;
+    const number_origin* origin_;
 };
 
 } // namespace taut::io::detail

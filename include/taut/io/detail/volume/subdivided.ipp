@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <string>
@@ -31,8 +32,9 @@ struct plain_mesh
 {
     const volume_file& of;
     std::vector<vec3> points, rest;
-    std::vector<cell_block> cells;
+    std::vector<cell_block> cells; ///< corners in the order of the file
     std::vector<volume_label> labels;
+    std::vector<idx> turned; ///< cells in the other order, as of volume_file
 
     std::size_t cell_count() const
     {
@@ -303,10 +305,10 @@ void add_parts(const cell_block& block, const subdivision& how, cell_block& to, 
 
 inline plain_mesh plain_subdivided(const volume_file& file, const subdivision& how)
 {
-    plain_mesh m{file, how.extended(std::span<const vec3>(file.points)), {}, {}, {}};
+    plain_mesh m{file, how.extended(std::span<const vec3>(file.points)), {}, {}, {}, {}};
     if (!file.rest.empty()) m.rest = how.extended(std::span<const vec3>(file.rest));
-    std::vector<idx> of; // of each part, its cell
-    idx number = 0;
+    std::vector<idx> of;                 // of each part, its cell
+    idx number = 0, cells = 0, part = 0; // of all cells; of those of the file's dimension, and of their parts
     for (const auto& block : file.cells)
     {
         m.cells.push_back({block.kind, {}});
@@ -327,6 +329,20 @@ inline plain_mesh plain_subdivided(const volume_file& file, const subdivision& h
         default:
             throw io_error(file.path, std::string("has ") + shape_of(block.kind).names +
                                           ", and only lines, triangles and tetrahedra can be split; triangulate them");
+        }
+        if (shape_of(block.kind).dimension == file.dimension)
+        {
+            auto& parts = m.cells.back();
+            const std::size_t before = of.size() - parts.size(),
+                              n = static_cast<std::size_t>(shape_of(block.kind).corners);
+            for (std::size_t p = 0; p < parts.size(); ++p, ++part)
+            {
+                const idx cell = of[before + p] - number + cells; // as file.turned counts
+                if (!std::binary_search(file.turned.begin(), file.turned.end(), cell)) continue;
+                turn_cell(block.kind, std::span(parts.corners).subspan(n * p, n));
+                m.turned.push_back(part);
+            }
+            cells += static_cast<idx>(block.size());
         }
         number += static_cast<idx>(block.size());
     }
@@ -374,7 +390,10 @@ volume_file subdivided(const volume_file& file, const subdivision& how)
         {
             auto mesh = detail::plain_subdivided(file, how);
             auto result = parse_volume(text(mesh), format, file.path);
-            turn_cells(result, std::vector<idx>(result.turned)); // the order of a cell is that of its parts
+            std::vector<idx> differing; // the order of a cell is that of its parts, whatever a reader makes of these
+            std::set_symmetric_difference(result.turned.begin(), result.turned.end(), mesh.turned.begin(),
+                                          mesh.turned.end(), std::back_inserter(differing));
+            turn_cells(result, differing);
             if (result.rest.empty()) result.rest = std::move(mesh.rest);
             result.notes.push_back(
                 "cells were split: the file is written anew, without comments and without data other "

@@ -82,29 +82,6 @@ mesh<Element> cells_as(const volume_file& file, cell_kind wanted, const std::str
     return {file.at_rest(), std::move(cells)};
 }
 
-/// Puts the corners of a cell in the other order: it is mirrored. Twice is nothing.
-inline void turn_cell(cell_kind kind, std::span<idx> corners)
-{
-    switch (kind)
-    {
-    case cell_kind::triangle:
-    case cell_kind::tetrahedron:
-        return std::swap(corners[1], corners[2]);
-    case cell_kind::wedge:
-        std::swap(corners[4], corners[5]);
-        return std::swap(corners[1], corners[2]);
-    case cell_kind::hexahedron:
-        std::swap(corners[5], corners[7]);
-        return std::swap(corners[1], corners[3]);
-    case cell_kind::quad:
-    case cell_kind::pyramid:
-        return std::swap(corners[1], corners[3]);
-    case cell_kind::vertex:
-    case cell_kind::line:
-        return;
-    }
-}
-
 inline void require_planar(const volume_file& file)
 {
     if (file.dimension != 2)
@@ -146,7 +123,7 @@ void turn_cells(volume_file& file, std::span<const idx> cells)
         for (std::size_t c = 0; c < block.size(); ++c, ++number)
             if (next != cells.end() && *next == number)
             {
-                detail::turn_cell(block.kind, std::span(block.corners).subspan(n * c, n));
+                turn_cell(block.kind, std::span(block.corners).subspan(n * c, n));
                 ++next;
             }
     }

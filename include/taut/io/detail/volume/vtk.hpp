@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,7 @@ public:
         {
         }
         if (to_.file().points.empty()) in_.fail("no POINTS; a mesh needs some");
+        if (cells_first_) check_corners();
         cells_.move_to(to_, from_);
         for (const auto& a : attributes_) add_attribute_groups(to_.file(), a);
         to_.file().labels = std::move(attributes_);
@@ -44,12 +46,13 @@ private:
         in_.next_line(); // the title
         in_.skip_space();
         const auto encoding = in_.word();
-        if (encoding != "ASCII" && encoding != "BINARY") in_.fail("neither ASCII nor BINARY");
-        encoding_ = {.text = encoding == "ASCII", .order = std::endian::big};
+        if (!same_letters(encoding, "ASCII") && !same_letters(encoding, "BINARY"))
+            in_.fail("neither ASCII nor BINARY; the third line says which");
+        encoding_ = {.text = same_letters(encoding, "ASCII"), .order = std::endian::big};
         from_ = number_source(in_, encoding_);
         if (encoding_.text) in_.require_text();
         in_.skip_space();
-        if (in_.word() != "DATASET" || in_.word() != "UNSTRUCTURED_GRID")
+        if (!same_letters(in_.word(), "DATASET") || !same_letters(in_.word(), "UNSTRUCTURED_GRID"))
             in_.fail("no DATASET UNSTRUCTURED_GRID; other data sets hold no volume mesh that could be moved");
     }
 
@@ -57,7 +60,7 @@ private:
     bool read_part()
     {
         in_.skip_space();
-        const std::string_view key = in_.word();
+        const std::string key = next_key();
         if (key == "POINTS")
             read_points();
         else if (key == "CELLS")
@@ -76,6 +79,14 @@ private:
         else if (!key.empty())
             return read_attribute(key);
         return !in_.done();
+    }
+
+    /// VTK takes keywords in letters of any case.
+    std::string next_key()
+    {
+        std::string key(in_.word().substr(0, 64));
+        for (char& c : key) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+        return key;
     }
 
     /// To the empty line that ends them.
@@ -114,7 +125,7 @@ private:
             {"double", number_type::float64},
         }};
         for (const auto& [word, type] : known)
-            if (word == name) return type;
+            if (same_letters(word, name)) return type;
         return std::nullopt;
     }
 
@@ -144,13 +155,27 @@ private:
         return count * (encoding_.text ? 2 : size_of(type));
     }
 
-    idx read_corner(number_type type) { return to_.point_at(from_.integer(type, "a vertex"), 0, from_); }
+    /// Points may stand behind cells, and are then checked later.
+    idx read_corner(number_type type)
+    {
+        const long long v = from_.integer(type, "a vertex");
+        if (!to_.file().points.empty()) return to_.point_at(v, 0, from_);
+        cells_first_ = true;
+        return v < 0 || v > std::numeric_limits<idx>::max() ? -1 : static_cast<idx>(v);
+    }
+
+    void check_corners()
+    {
+        in_.go_to(cells_begin_);
+        for (const idx v : cells_.corners) to_.point_at(v, 0, from_);
+    }
 
     void read_cells()
     {
         const std::size_t n = header_count("the number of cells"), size = header_count("the size of the cells");
         in_.next_line();
-        if (in_.at('O')) return read_offsets(n, size);
+        cells_begin_ = in_.position();
+        if (starts_offsets()) return read_offsets(n, size);
         for (std::size_t c = 0; c < n; ++c)
         {
             const long long corners = from_.integer(number_type::int32, "the number of corners");
@@ -160,6 +185,17 @@ private:
             for (long long k = 0; k < corners; ++k) cells_.corners.push_back(read_corner(number_type::int32));
             cells_.ends.push_back(static_cast<long long>(cells_.corners.size()));
         }
+    }
+
+    /// Whether the next word is OFFSETS. Binary numbers have blanks where they like.
+    bool starts_offsets()
+    {
+        const char* const begin = in_.position();
+        if (encoding_.text) from_.skip();
+        const bool found = same_letters(in_.word(), "OFFSETS");
+        in_.go_to(begin);
+        if (found && encoding_.text) from_.skip();
+        return found;
     }
 
     /// CELLS of version 5: n offsets, from 0, and the corners.
@@ -174,7 +210,8 @@ private:
             if (c > 0) cells_.ends.push_back(end);
         }
         in_.skip_space();
-        if (in_.word() != "CONNECTIVITY") in_.fail("no CONNECTIVITY behind OFFSETS");
+        if (!same_letters(in_.word(), "CONNECTIVITY"))
+            in_.fail("no CONNECTIVITY behind OFFSETS; the counts of CELLS and the offsets have to agree");
         const number_type type = required_type();
         in_.next_line();
         for (std::size_t k = 0; k < size; ++k) cells_.corners.push_back(read_corner(type));
@@ -218,7 +255,7 @@ private:
         {
             in_.skip_space();
             std::string name(in_.word());
-            if (name == "METADATA") // of the array before
+            if (same_letters(name, "METADATA")) // of the array before
             {
                 skip_metadata();
                 in_.skip_space();
@@ -266,7 +303,7 @@ private:
         const std::size_t n = in_.line_ends() ? 1 : header_count("the number of components");
         in_.next_line();
         const char* const values = in_.position();
-        if (in_.word() == "LOOKUP_TABLE")
+        if (same_letters(in_.word(), "LOOKUP_TABLE"))
             in_.word();
         else
             in_.go_to(values - 1); // its line end
@@ -286,6 +323,8 @@ private:
     number_source from_;
     vtk_cells cells_;
     std::vector<volume_label> attributes_;
+    const char* cells_begin_ = nullptr;
+    bool cells_first_ = false;
     std::optional<bool> of_cells_; ///< what attributes belong to; nothing before CELL_DATA and POINT_DATA
     std::size_t tuples_ = 0;
 };

@@ -79,10 +79,41 @@ inline void append_coordinate(std::string& text, const coordinate_places& places
     text.append(bytes.data(), end);
 }
 
+/// Writes the main file with other coordinates where it has them in a code: this as a whole, and where arrays follow it
+/// the offsets of these. Out: with write(string_view).
+template <class Out>
+void replace_code(Out& out, const volume_file& file, std::span<const vec3> points)
+{
+    const coded_coordinates& coded = *file.places.coded;
+    const std::string_view bytes = file.bytes;
+    std::string numbers;
+    bool changed = false;
+    for (std::size_t v = 0; v < points.size(); ++v)
+        for (int k = 0; k < file.places.per_point; ++k)
+        {
+            const double x = stored(file.places, points[v][k]);
+            changed = changed || !same_bits(x, file.points[v][k]);
+            append_coordinate(numbers, file.places, x);
+        }
+    if (!changed) return out.write(bytes);
+    const std::string code = detail::coded(numbers, coded.code);
+    std::size_t done = 0;
+    for (const auto& later : coded.followed_by)
+    {
+        out.write(bytes.substr(done, later.begin - done));
+        out.write(std::to_string(later.offset + code.size() - (coded.end - coded.begin)));
+        done = later.end;
+    }
+    out.write(bytes.substr(done, coded.begin - done));
+    out.write(code);
+    out.write(bytes.substr(coded.end));
+}
+
 /// Writes the main file with other coordinates. Out: with write(string_view).
 template <class Out>
 void replace_coordinates(Out& out, const volume_file& file, std::span<const vec3> points)
 {
+    if (file.places.coded) return replace_code(out, file, points);
     const auto d = static_cast<std::size_t>(file.places.per_point);
     const std::string_view bytes = file.bytes;
     std::string text;

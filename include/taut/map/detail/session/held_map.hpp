@@ -67,10 +67,14 @@ protected:
         map there = x;
         held_.impose(there);
         auto held = marks();
+        std::vector<idx> sliding;
         for (const auto& s : held_.slides())
-            held[static_cast<std::size_t>(s.vertex)] = held.every; // not while it untangles
-        return {rest(),  scaled(std::move(there)), std::move(held), draft ? scaled(x) : map(), wanted_elements(),
-                owners()};
+        {
+            held[static_cast<std::size_t>(s.vertex)] = held.every; // while it untangles
+            sliding.push_back(s.vertex);
+        }
+        return {rest(),   scaled(std::move(there)), std::move(held), draft ? scaled(x) : map(), wanted_elements(),
+                owners(), std::move(sliding)};
     }
 
     /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.

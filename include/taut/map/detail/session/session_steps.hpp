@@ -93,6 +93,9 @@ protected:
     /// Puts the map at hand on the device in double; false where it is so already, or may not be.
     virtual bool in_double() { return false; }
 
+    /// Whether in_double() would do so.
+    virtual bool may_be_doubled() const { return false; }
+
     /// Makes the first map, and puts it on the device; called again where there was none to be put there.
     virtual void begin(run_clock& clock) = 0;
 
@@ -311,7 +314,8 @@ protected:
     void minimise(run_clock& clock)
     {
         auto found = minimised(clock);
-        if (stalled(found) && may_step(clock) && in_double()) found = minimised(clock);
+        const bool cut = found.stop == solve::stop::iterations && solve_.stopping.max_iterations > most_in_float;
+        if ((cut || stalled(found)) && may_step(clock) && in_double()) found = minimised(clock);
         session_report& r = last.report;
         r.energy = found.value;
         r.gradient = found.gradient_norm;
@@ -325,6 +329,8 @@ protected:
     {
         auto how = solve_;
         how.stopping.max_iterations = std::min(how.stopping.max_iterations, steps_left_);
+        // Float next to a barrier may go on for as long as it is let, with nothing gained.
+        if (may_be_doubled()) how.stopping.max_iterations = std::min(how.stopping.max_iterations, most_in_float);
         how.stopping.time_limit = std::chrono::duration<double>(std::max(clock.left().count() - step_seconds_, 1e-9));
         auto found = live_->minimize(how,
                                      [&](progress p)
@@ -392,6 +398,8 @@ protected:
     session_seconds seconds_;
 
 private:
+    static constexpr int most_in_float = 300; ///< steps, where double can go on; what converges in float takes fewer
+
     solve::params solve_;
     untangle_params untangling_;
     taut::observer observer_;

@@ -116,10 +116,14 @@ private:
         }
     }
 
+    bool may_be_doubled() const override
+    {
+        return this->live_->in_float() && params_.precision == precision::automatic && this->queue_.device().has_fp64();
+    }
+
     bool in_double() override
     {
-        if (!this->live_->in_float() || params_.precision != precision::automatic || !this->queue_.device().has_fp64())
-            return false;
+        if (!may_be_doubled()) return false;
         put(precision::fp64, this->scaled(this->placed()));
         last.report.notes.push_back("in float steps led no further; the last ones were in double");
         return true;

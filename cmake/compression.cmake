@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# What VTU files can be compressed with, each where it is found: taut_compression has the libraries, and
+# taut_compression_macros what tells the headers of them. TAUT_COMPRESSION=OFF: none.
+set(taut_compression "")
+set(taut_compression_macros "")
+if(NOT DEFINED TAUT_COMPRESSION OR TAUT_COMPRESSION)
+    find_package(ZLIB QUIET)
+    find_package(LibLZMA QUIET)
+    find_path(TAUT_LZ4_INCLUDE_DIR lz4.h)
+    find_library(TAUT_LZ4_LIBRARY lz4)
+    mark_as_advanced(TAUT_LZ4_INCLUDE_DIR TAUT_LZ4_LIBRARY)
+    if(TAUT_LZ4_INCLUDE_DIR AND TAUT_LZ4_LIBRARY AND NOT TARGET taut_lz4)
+        add_library(taut_lz4 INTERFACE IMPORTED)
+        set_target_properties(taut_lz4 PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${TAUT_LZ4_INCLUDE_DIR}"
+                                                  INTERFACE_LINK_LIBRARIES "${TAUT_LZ4_LIBRARY}")
+    endif()
+    foreach(library ZLIB::ZLIB LibLZMA::LibLZMA taut_lz4)
+        if(TARGET ${library})
+            string(TOUPPER "${library}" word)
+            string(REGEX REPLACE "^TAUT_|^LIB|::.*" "" word "${word}")
+            list(APPEND taut_compression ${library})
+            list(APPEND taut_compression_macros TAUT_WITH_${word})
+        endif()
+    endforeach()
+endif()
