@@ -94,11 +94,11 @@ std::optional<bool> turned_over(const cell& a, cell b)
 
 } // namespace
 
-io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest)
+io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest, int zone)
 {
-    auto file = io::read_volume_file(path);
+    auto file = io::read_volume_file(path, io::volume_format::automatic, zone);
     if (rest.empty()) return file;
-    auto other = io::read_volume_file(rest);
+    auto other = io::read_volume_file(rest, io::volume_format::automatic, zone);
     if (other.points.size() != file.points.size())
         throw unsuitable_input(rest + " has " + count(other.points.size(), "point", "points") + ", not " +
                                count(file.points.size()) + " as " + path);

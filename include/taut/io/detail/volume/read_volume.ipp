@@ -42,6 +42,9 @@ template <class = void>
 void read_volume_bytes(volume_file& file, volume_format format)
 {
     file.format = name_of(format);
+    if (file.zone < 0) throw parameter_error("zone", std::to_string(file.zone) + "; they count from 1, 0 is none");
+    if (file.zone > 0 && format != volume_format::su2)
+        throw io_error(file.path, "has no zones, which are of SU2 files; leave out --zone");
     refuse_utf16(file.bytes, file.path);
     switch (format)
     {
@@ -71,11 +74,12 @@ void read_volume_bytes(volume_file& file, volume_format format)
 
 } // namespace detail
 
-TAUT_ON_USE_BODY volume_file read_volume_file(const std::filesystem::path& path, volume_format format)
+TAUT_ON_USE_BODY volume_file read_volume_file(const std::filesystem::path& path, volume_format format, int zone)
 {
     if (format == volume_format::automatic) format = detail::volume_format_of_name(path);
     volume_file file;
     file.path = path.string();
+    file.zone = zone;
     if (format == volume_format::tetgen)
     {
         const auto beside = [&](const char* extension)
@@ -96,10 +100,11 @@ TAUT_ON_USE_BODY mesh<tetrahedron> read_volume(const std::filesystem::path& path
     return tetrahedra_of(read_volume_file(path, format));
 }
 
-TAUT_ON_USE_BODY volume_file parse_volume(std::string bytes, volume_format format, const std::string& name)
+TAUT_ON_USE_BODY volume_file parse_volume(std::string bytes, volume_format format, const std::string& name, int zone)
 {
     volume_file file;
     file.path = name;
+    file.zone = zone;
     file.bytes = std::move(bytes);
     detail::read_volume_bytes(file, format);
     return file;
