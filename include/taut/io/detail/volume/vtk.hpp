@@ -45,7 +45,8 @@ private:
     void read_header()
     {
         if (in_.rest_of_line().substr(0, 22) != "# vtk DataFile Version")
-            in_.fail("not a VTK file: it does not start with '# vtk DataFile Version'");
+            in_.fail("not a VTK file: it does not start with '# vtk DataFile Version'; name it after the format that "
+                     "it has");
         in_.next_line();
         in_.next_line(); // the title
         in_.skip_space();
@@ -137,7 +138,7 @@ private:
     {
         const std::string_view name = in_.word();
         if (const auto type = type_of(name)) return *type;
-        in_.fail("unknown type '" + std::string(name.substr(0, 40)) + "'");
+        in_.fail("unknown type '" + std::string(name.substr(0, 40)) + "'; save the values as int, float or double");
     }
 
     void read_points()
@@ -185,7 +186,7 @@ private:
             const long long corners = from_.integer(number_type::int32, "the number of corners");
             if (corners < 0 || corners > 8)
                 from_.fail("cell " + std::to_string(c) + " has " + std::to_string(corners) +
-                           " corners; cells of more than 8 are not read");
+                           " corners; cells of more than 8 are not read, split them");
             for (long long k = 0; k < corners; ++k) cells_.corners.push_back(read_corner(number_type::int32));
             cells_.ends.push_back(static_cast<long long>(cells_.corners.size()));
         }
