@@ -104,6 +104,20 @@ TEST_CASE("VTK: strings, variants and bits are passed over, before points and be
     }
 }
 
+TEST_CASE("VTU: bits and strings make no groups")
+{
+    const auto s = test::small_volume(false);
+    for (const bool text : {true, false})
+        for (const char* const array : {"<DataArray type='Bit' Name='b' format='ascii'>1 0 1</DataArray>",
+                                        "<DataArray type=\"String\" Name='s' format='ascii'>65 0</DataArray>"})
+        {
+            const auto file =
+                io::parse_volume(exchange(test::vtu_text(s, {text}), "<PointData>", "<PointData>" + std::string(array)),
+                                 volume_format::vtu);
+            CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
+        }
+}
+
 TEST_CASE("VTK: voxels and pixels are hexahedra and quads, whose corners run around")
 {
     const std::string text = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
@@ -173,7 +187,7 @@ TEST_CASE("VTU: errors tell the line and the remedy")
         CHECK_THROWS_WITH_AS(io::parse_volume(bytes, volume_format::vtu, "a.vtu"), doctest::Contains(message),
                              io::io_error);
     };
-    refuses("", "there is no <VTKFile>");
+    refuses("x", "there is no <VTKFile>");
     refuses(exchange(text, "type=\"UnstructuredGrid\"", "type=\"PolyData\""), "line 3: not an UnstructuredGrid");
     refuses(exchange(text, "format=\"ascii\">0 0 0\n", "format=\"binary\">AAAA"), "array 'Points': ");
     refuses(exchange(raw, "encoding=\"raw\"", "encoding=\"base64\""), "array 'Points': ");

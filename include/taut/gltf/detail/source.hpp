@@ -170,6 +170,7 @@ inline bool is_deep(std::string_view text)
 /// Throws io_error for what is no JSON, or is nested too deep.
 inline gltf_json parse_gltf_json(std::string_view text, const std::string& path)
 {
+    if (text.empty()) throw io_error(path, "the file is empty; export the model again");
     if (is_deep(text)) throw io_error(path, "JSON that is nested too deep; no model needs that, export it again");
     try
     {

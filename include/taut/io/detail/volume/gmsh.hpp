@@ -166,7 +166,11 @@ private:
         const long long binary = in_.integer("the type of the file"), size = in_.integer("the size of data");
         version_4_ = version == 4.1;
         if (!version_4_ && !(version >= 2 && version < 3))
-            in_.fail("this version of the format is not read; save as 2.2 or 4.1 (gmsh -format msh41)");
+        {
+            go_to("MeshFormat");
+            in_.fail("version " + std::string(in_.word().substr(0, 40)) +
+                     " of the format is not read; save as 2.2 or 4.1 (gmsh -format msh41)");
+        }
         if (size != 8) in_.fail("numbers of " + std::to_string(size) + " bytes; gmsh writes 8, save it so");
         if (binary == 0) return in_.require_text();
         encoding_.text = false;

@@ -42,6 +42,8 @@ template <class = void>
 void read_volume_bytes(volume_file& file, volume_format format)
 {
     file.format = name_of(format);
+    if (file.bytes.empty() && format != volume_format::automatic)
+        throw io_error(file.path, "the file is empty; save the mesh again");
     refuse_utf16(file.bytes, file.path);
     switch (format)
     {

@@ -58,7 +58,8 @@ private:
         if (encoding_.text) in_.require_text();
         in_.skip_space();
         if (!same_letters(in_.word(), "DATASET") || !same_letters(in_.word(), "UNSTRUCTURED_GRID"))
-            in_.fail("no DATASET UNSTRUCTURED_GRID; other data sets hold no volume mesh that could be moved");
+            in_.fail("no DATASET UNSTRUCTURED_GRID; save the mesh as one, other data sets hold no cells that could be "
+                     "moved");
     }
 
     /// False at the end of what can be read.

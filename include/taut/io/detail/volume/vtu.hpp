@@ -89,7 +89,8 @@ private:
     void read_kind(const xml_tag& tag)
     {
         if (tag.attribute_or("type", "") != "UnstructuredGrid")
-            fail(tag, "not an UnstructuredGrid; other data sets hold no volume mesh that could be moved");
+            fail(tag,
+                 "not an UnstructuredGrid; save the mesh as one, other data sets hold no cells that could be moved");
         binary_.text = false;
         binary_.order =
             one_of(tag, "byte_order", "LittleEndian", "BigEndian") == 1 ? std::endian::big : std::endian::little;
@@ -135,7 +136,7 @@ private:
         appended_ = mark + 1;
     }
 
-    number_type type_of(const array& a) const
+    static std::optional<number_type> known_type_of(const array& a)
     {
         static constexpr std::array<std::pair<std::string_view, number_type>, 10> types = {{
             {"Int8", number_type::int8},
@@ -151,6 +152,12 @@ private:
         }};
         for (const auto& [word, type] : types)
             if (word == a.tag.attribute_or("type", "")) return type;
+        return std::nullopt;
+    }
+
+    number_type type_of(const array& a) const
+    {
+        if (const auto type = known_type_of(a)) return *type;
         fail(a.tag, "an array without a known type; it must be Int8 to UInt64, Float32 or Float64");
     }
 
@@ -396,7 +403,9 @@ private:
 
     void read_attribute(const array& a)
     {
-        const number_type type = type_of(a);
+        const auto known = known_type_of(a);
+        if (!known) return; // bits and strings
+        const number_type type = *known;
         if (is_real(type) || a.tag.attribute_or("NumberOfComponents", "1") != "1") return;
         volume_label attribute{std::string(a.tag.attribute_or("Name", "")), a.section == "CellData", {}};
         const std::size_t count = attribute.of_cells ? cells_ : points_;
