@@ -182,7 +182,7 @@ def vtk(taut):
         corners = [[out.GetCell(c).GetPointId(k) for k in range(out.GetCell(c).GetNumberOfPoints())] for c in range(out.GetNumberOfPolys())]
         at, normals = vtk_to_numpy(out.GetPoints().GetData()), out.GetPointData().GetNormals()
         assert not path.endswith("out.obj") or out.GetPointData().GetTCoords(), "no texture coordinates"
-        return at[np.array(corners)], vtk_to_numpy(normals)[np.array(corners)] if normals else []
+        return at[np.array(corners)].astype(np.float32), vtk_to_numpy(normals)[np.array(corners)].astype(np.float32) if normals else []
     for name, writer, reader in (("in.obj", vtkIOGeometry.vtkOBJWriter, vtkIOGeometry.vtkOBJReader), ("in.ply", vtkIOPLY.vtkPLYWriter, vtkIOPLY.vtkPLYReader),
                                  ("text.ply", vtkIOPLY.vtkPLYWriter, vtkIOPLY.vtkPLYReader), ("in.stl", vtkIOGeometry.vtkSTLWriter, vtkIOGeometry.vtkSTLReader)):
         w = writer()
