@@ -17,7 +17,8 @@ void require_problem_options(const untangle_options& o)
 {
     const auto refuse = [](const char* option, bool given)
     {
-        if (given) throw usage_error(std::string(option) + " is of volume files; a problem says it itself");
+        if (given)
+            throw usage_error(std::string(option) + " is of volume files; a problem says it itself, leave it out");
     };
     refuse("--rest", !o.rest.empty());
     refuse("--zone", o.zone > 0);

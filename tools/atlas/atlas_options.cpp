@@ -145,7 +145,7 @@ void check(const atlas_options& o)
     if (!joined)
         for (std::size_t i = 0; i < o.inputs.size(); ++i)
             if (io::is_gltf(o.inputs[i]) && !io::is_gltf(o.outputs[i]))
-                throw usage_error("-o " + o.outputs[i] + ": a model of glTF is written as .glb or .gltf");
+                throw usage_error("-o " + o.outputs[i] + ": a model of glTF is written as .glb or .gltf; name it so");
 }
 
 std::string as_command_line(const atlas_options& o)

@@ -167,7 +167,8 @@ ring_table make_rings(std::span<const std::array<idx, 3>> cells, std::size_t cou
         for (std::size_t v = 0; v < count; ++v)
             if (open[v] < 0) ids.push_back(static_cast<idx>(v));
         const std::string message =
-            "vertex " + std::to_string(ids[0]) + ": its triangles do not form one oriented fan; call validate() first";
+            "vertex " + std::to_string(ids[0]) +
+            ": its triangles do not form one oriented fan; turn or part them, `taut check` and validate() list all";
         throw mesh_error(mesh_fault::non_manifold_vertex, std::move(ids), message);
     }
     return rings;

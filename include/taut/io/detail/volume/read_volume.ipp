@@ -45,6 +45,8 @@ void read_volume_bytes(volume_file& file, volume_format format)
     if (file.zone < 0) throw parameter_error("zone", std::to_string(file.zone) + "; they count from 1, 0 is none");
     if (file.zone > 0 && format != volume_format::su2)
         throw io_error(file.path, "has no zones, which are of SU2 files; leave out --zone");
+    if (file.bytes.empty() && format != volume_format::automatic)
+        throw io_error(file.path, "the file is empty; save the mesh again");
     refuse_utf16(file.bytes, file.path);
     switch (format)
     {
