@@ -237,7 +237,7 @@ void check_problem(check_report& report, const check_options& options, io::prob_
 
 void check_volume(check_report& report, const check_options& options)
 {
-    const auto file = io::read_volume_file(options.input);
+    const auto file = io::read_volume_file(options.input, io::volume_format::automatic, options.zone);
     report_contents(report, file);
     with_case(file,
               [&]<class Element>(const volume_case<Element>& input)
@@ -256,6 +256,7 @@ check_report examine(const check_options& options)
     check_report report;
     try
     {
+        if (options.zone > 0 && !names_volume(options.input)) throw usage_error("--zone is of SU2 files; leave it out");
         const bool by_name = options.format == io::surface_format::automatic;
         if (by_name && names_volume(options.input))
             check_volume(report, options);
@@ -359,6 +360,7 @@ command add_check(CLI::App& program)
     add_input(app, "--pins", options->pins, "the pins",
               "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
         ->type_name("FILE.csv");
+    add_zone(app, options->zone);
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 nothing wrong; 2 usage; 3 unreadable input; 4 unsuitable input; 7 proved infeasible");
     return [options](const outputs&) { return run(*options); };

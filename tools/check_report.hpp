@@ -26,6 +26,7 @@ struct check_options
     std::string input, pins;
     std::optional<io::surface_format> format; ///< nothing: a problem
     bool json = false;
+    int zone = 0; ///< of a SU2 file of several; 0: none
 };
 
 /// One thing that is wrong, or at least worth knowing.

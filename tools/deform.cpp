@@ -28,12 +28,13 @@ exit_code run(const shape_options& options, const outputs& files, std::chrono::s
     if (!options.smoothing && names_surface(options.input))
     {
         if (options.refine) throw usage_error("--refine is of volumes and of meshes of the plane; leave it out");
+        if (options.zone > 0) throw usage_error("--zone is of SU2 files; leave it out");
         return shell_run(options, clock, progress, place_of_report)();
     }
     if (options.thickness)
         throw usage_error("--thickness is of surfaces in space (.obj, .off, .ply, .stl); leave it out");
     progress.update({.phase = "read", .seconds = clock.now()});
-    auto file = read_volume_at_rest(options.input, options.rest);
+    auto file = read_volume_at_rest(options.input, options.rest, options.zone);
     if (options.smoothing) file.rest.clear();
     require_drawable(file, {options.picture, options.cut, options.smoothing});
     require_mesh(file);

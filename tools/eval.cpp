@@ -28,6 +28,7 @@ struct eval_options
     std::string input, map, picture, cut; ///< map and what follows: of volumes
     io::surface_format format{};
     bool json = false;
+    int zone = 0; ///< of a SU2 file of several; 0: none
 };
 
 exit_code evaluate(const eval_options& options)
@@ -36,7 +37,7 @@ exit_code evaluate(const eval_options& options)
     if (volume)
         return evaluate_volume({options.map.empty() ? options.input : options.map,
                                 options.map.empty() ? std::string() : options.input, options.picture, options.cut,
-                                options.json});
+                                options.json, options.zone});
     const auto refuse = [](const char* option, bool given)
     {
         if (given) throw usage_error(std::string(option) + " is of volume files; leave it out");
@@ -44,6 +45,7 @@ exit_code evaluate(const eval_options& options)
     refuse("MAP", !options.map.empty());
     refuse("--picture", !options.picture.empty());
     refuse("--cut", !options.cut.empty());
+    refuse("--zone", options.zone > 0);
     const auto file = io::read_surface_file(options.input, options.format);
     if (!file.texcoord_fault.empty())
         throw unsuitable_input(file.texcoord_fault + "; correct it, or let `taut unwrap` make others");
@@ -106,6 +108,7 @@ command add_eval(CLI::App& program)
     add_input(app, "MAP", options->map, "the map", "The volume IN after it was deformed: the same vertices and cells");
     add_format(app, options->format);
     add_drawing(app, options->picture, options->cut, "Draw a volume, or a mesh of the plane");
+    add_zone(app, options->zone);
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");
     return [options](const outputs&) { return evaluate(*options); };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <exception>
@@ -43,9 +44,21 @@ int fail(exit_code code, const std::string& what, const std::string& remedy = {}
     return to_int(code);
 }
 
-/// Runs a subcommand of that name; every exception becomes one line and an exit code, see docs/errors.md.
-int guarded(const std::function<exit_code()>& run, const std::string& name)
+/// What is wrong with a parameter of the library, in the words of the command: of the option that sets it, if one does.
+std::string in_words_of(const CLI::App* command, const parameter_error& e)
 {
+    std::string option = "--" + e.field();
+    std::replace(option.begin(), option.end(), '_', '-');
+    const std::string what = e.what(), begin = "parameter " + e.field();
+    if (!what.starts_with(begin)) return what;
+    const bool known = command != nullptr && command->get_option_no_throw(option) != nullptr;
+    return (known ? option : e.field()) + what.substr(begin.size());
+}
+
+/// Runs a subcommand; every exception becomes one line and an exit code, see docs/errors.md.
+int guarded(const std::function<exit_code()>& run, const CLI::App* command)
+{
+    const std::string name = command != nullptr ? command->get_name() : "";
     try
     {
         const exit_code code = run();
@@ -74,11 +87,11 @@ int guarded(const std::function<exit_code()>& run, const std::string& name)
     }
     catch (const size_error& e)
     {
-        return fail(exit_code::unsuitable_input, e.what());
+        return fail(exit_code::unsuitable_input, in_words_of(command, e));
     }
     catch (const parameter_error& e)
     {
-        return fail(exit_code::usage, e.what());
+        return fail(exit_code::usage, in_words_of(command, e));
     }
     catch (const no_device& e)
     {
@@ -152,7 +165,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
                 write_standard_output(text.str());
                 return exit_code::valid;
             },
-            {});
+            nullptr);
     }
     catch (const CLI::ParseError& e)
     {
@@ -160,8 +173,7 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
     }
     const auto all = program.get_subcommands({});
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k]->parsed())
-            return guarded([&] { return commands[k](outputs(files_of(*all[k]))); }, all[k]->get_name());
+        if (all[k]->parsed()) return guarded([&] { return commands[k](outputs(files_of(*all[k]))); }, all[k]);
     return to_int(exit_code::usage);
 }
 

@@ -58,6 +58,14 @@ void add_fix(CLI::App& app, std::vector<std::string>& groups)
         ->type_name("GROUP");
 }
 
+void add_zone(CLI::App& app, int& zone)
+{
+    app.add_option("--zone", zone,
+                   "Of a SU2 file with several zones: the one that is meant, from 1; others stay as they are")
+        ->type_name("N")
+        ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+}
+
 void add_refine(CLI::App& app, bool& refine, std::string& map, const std::string& help)
 {
     app.add_flag("--refine", refine, help);

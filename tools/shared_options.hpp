@@ -28,6 +28,9 @@ void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const st
 /// --fix: groups of a volume
 void add_fix(CLI::App& app, std::vector<std::string>& groups);
 
+/// --zone of a SU2 file
+void add_zone(CLI::App& app, int& zone);
+
 /// --refine and --refined-map of a volume or a planar mesh
 void add_refine(CLI::App& app, bool& refine, std::string& map, const std::string& help);
 

@@ -51,16 +51,16 @@ shell_run::shell_run(const shape_options& options, run_clock clock, progress& pr
     {
         if (given)
             throw usage_error(std::string(option) +
-                              " is of volumes and meshes of the plane, not of a surface in space");
+                              " is of volumes and meshes of the plane, not of a surface in space; leave it out");
     };
     refuse(!options.cut.empty(), "--cut");
     refuse(!options.moves.empty(), "--move");
     refuse(!options.fixed.empty(), "--fix");
     refuse(options.energy != shape_energy::isometric, "--energy");
     if (!io::is_stream(options.output) && extension(options.output) != ".obj")
-        throw usage_error("-o: a surface is written as .obj");
+        throw usage_error("-o: a surface is written as .obj; name it so");
     if (!options.picture.empty() && extension(options.picture) != ".png")
-        throw usage_error("--picture: a surface is drawn as .png");
+        throw usage_error("--picture: a surface is drawn as .png; name it so");
 }
 
 exit_code shell_run::operator()()

@@ -17,9 +17,11 @@ void require_problem_options(const untangle_options& o)
 {
     const auto refuse = [](const char* option, bool given)
     {
-        if (given) throw usage_error(std::string(option) + " is of volume files; a problem says it itself");
+        if (given)
+            throw usage_error(std::string(option) + " is of volume files; a problem says it itself, leave it out");
     };
     refuse("--rest", !o.rest.empty());
+    refuse("--zone", o.zone > 0);
     refuse("--pins", !o.pins.empty());
     refuse("--fix", !o.fixed.empty());
     refuse("--boundary", o.boundary != untangle_boundary::automatic);
@@ -46,6 +48,7 @@ void declare(CLI::App& app, untangle_options& o)
               "Vertices of the volume to hold: vertex,x,y,z, vertices from 0")
         ->type_name("FILE.csv");
     add_fix(app, o.fixed);
+    add_zone(app, o.zone);
     add_choice(app, "--boundary", o.boundary,
                std::vector<choice<untangle_boundary>>{{"auto", untangle_boundary::automatic},
                                                       {"fixed", untangle_boundary::fixed},

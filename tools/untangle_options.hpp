@@ -27,6 +27,7 @@ struct untangle_options
     untangle_boundary boundary = untangle_boundary::automatic;
     double time_limit = std::numeric_limits<double>::infinity();
     bool quiet = false, refine = false;
+    int zone = 0;            ///< of a SU2 file of several; 0: none
     std::string refined_map; ///< a table of what elements are parts of; empty: none
 };
 

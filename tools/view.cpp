@@ -115,6 +115,7 @@ command add_view(CLI::App& program)
         ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
         ->capture_default_str();
     app.add_flag("--no-browser", options->no_browser, "Only print the address");
+    add_zone(app, options->from.zone);
     add_device(app, options->device);
     app.footer("exit codes: 0 ended by its page or Ctrl-C; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no "
                "device;\n  6 no map to begin with; 9 device failure; 130 interrupted, 143 terminated");

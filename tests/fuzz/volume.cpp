@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include <taut/io/cell_faces.hpp>
+#include <taut/io/detail/coding/array_code.hpp>
 #include <taut/io/read_volume.hpp>
 #include <taut/io/write_volume.hpp>
 
@@ -28,11 +31,36 @@ using io::volume_format;
 /// between them.
 constexpr std::string_view letters = " mgvutsp";
 
+/// A code for n bytes of a VTU file.
+io::detail::array_code random_code(dice& random, const io::detail::array_code& all, std::size_t n)
+{
+    auto code = all;
+    code.apart = random.one_in(2);
+    if (n == 0) return code;
+    code.block = random.between(1, n + 3);
+    code.blocks = (n + code.block - 1) / code.block;
+    code.last = n % code.block;
+    if (code.last == 0 && random.one_in(4)) code.last = code.block;
+    return code;
+}
+
 /// A VTU file of one tetrahedron with arrays of any type, count and encoding, that may share their bytes.
 std::string generate_vtu(dice& random)
 {
+    namespace d = io::detail;
     const bool big = random.one_in(2), wide = random.one_in(2);
-    const std::string appended = std::string(random.pick({"raw", "raw", "raw", "base64"}));
+    const std::string appended = std::string(random.pick({"raw", "raw", "base64"}));
+    d::array_code all;
+    all.order = big ? std::endian::big : std::endian::little;
+    all.word = wide ? 8 : 4;
+    std::string compressor;
+    if (random.one_in(2))
+    {
+        const auto& words = d::compressors[random.below(d::compressors.size())];
+        compressor = " compressor=\"" + std::string(words.name) + '"';
+        if (words.built) all.packed = words.kind;
+    }
+    const bool inline_arrays = random.one_in(3);
     std::string data, arrays, cells;
     std::vector<std::string> places;
     const auto put = [&](std::string& to, auto value)
@@ -57,16 +85,21 @@ std::string generate_vtu(dice& random)
         std::string tag = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" ";
         if (name == "Points" || random.one_in(12)) tag += "NumberOfComponents=\"3\" ";
         if (random.one_in(4)) return tag + "format=\"ascii\">" + words + "</DataArray>";
-        if (random.one_in(30)) return tag + "format=\"binary\">BAAAAAECAwQ=</DataArray>";
-        if (places.empty() || !random.one_in(4))
+        const bool appended_here = random.one_in(20) ? inline_arrays : !inline_arrays;
+        auto code = random_code(random, all, bytes.size());
+        code.base64 = !appended_here || appended == "base64";
+        std::string text = d::coded(bytes, code);
+        if (random.one_in(60)) text.resize(random.below(text.size() + 1));
+        if (!appended_here)
+        {
+            if (random.one_in(8)) text.insert(random.below(text.size() + 1), random.pick({"\n", "  ", "\r\n", "="}));
+            return tag + "format=\"binary\">" + std::string(random.pick({"", "\n  "})) + text + "</DataArray>";
+        }
+        if (places.empty() || !random.one_in(12))
         {
             places.push_back(std::to_string(data.size()));
-            const std::size_t size = random.one_in(40) ? random.below(100) : bytes.size();
-            if (wide)
-                put(data, static_cast<std::uint64_t>(size));
-            else
-                put(data, static_cast<std::uint32_t>(size));
-            data += bytes;
+            data += text;
+            return tag + "format=\"appended\" offset=\"" + places.back() + "\"/>";
         }
         return tag + "format=\"appended\" offset=\"" + places[random.below(places.size())] + "\"/>";
     };
@@ -78,9 +111,8 @@ std::string generate_vtu(dice& random)
     for (std::size_t k = random.below(6); k > 0; --k)
         arrays += array(random.one_in(6) ? "Float64" : integers(), "a" + std::to_string(k), {1, 2, 1, 2});
     return "<VTKFile type=\"UnstructuredGrid\" byte_order=\"" + std::string(big ? "BigEndian" : "LittleEndian") +
-           "\" header_type=\"" + (wide ? "UInt64" : "UInt32") + '"' +
-           (random.one_in(20) ? " compressor=\"vtkZLibDataCompressor\"" : "") +
-           "><UnstructuredGrid>\n<Piece NumberOfPoints=\"" + random.count(5) +
+           "\" header_type=\"" + (wide ? "UInt64" : "UInt32") + '"' + compressor +
+           "><UnstructuredGrid>\n<Piece NumberOfPoints=\"" + (random.one_in(8) ? random.count(5) : "4") +
            "\" NumberOfCells=\"1\">\n<PointData>\n" + arrays + "\n</PointData>\n<Points>" + points +
            "</Points>\n<Cells>" + cells + "</Cells></Piece></UnstructuredGrid>\n<AppendedData encoding=\"" + appended +
            "\">_" + data + "</AppendedData></VTKFile>";

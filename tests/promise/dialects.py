@@ -249,6 +249,9 @@ def vtk(version):
             t.dice.shuffle(parts)
         if t.has("field before"):
             t.row(t.key("FIELD"), "FieldData", 2), t.row("TIME", 1, 1, "double"), t.row(0.5), t.row("CYCLE", 1, 1, "int"), t.row(3)
+        if t.has("strings"):
+            t.row(t.key("FIELD"), "FieldData", 2), t.row("names", 1, 2, "string"), t.row("two%20words", free=False), t.row(free=False)
+            t.row("flags", 1, 3, "bit"), t.row(1, 0, 1)
         for part in parts:
             part()
         t.row(t.key("CELL_DATA"), len(CELLS))
@@ -498,8 +501,8 @@ VOLUMES = {
               "zero counts|order of sections|no End|text behind"),
     "gmsh 2.2": (gmsh("2.2"), "//", "order of sections|order of items|other sections|gaps|short version|partition tags|latin names|comments|blank lines"),
     "gmsh 4.1": (gmsh("4.1"), "//", "order of sections|other sections|gaps|parametric|latin names|comments|blank lines"),
-    "vtk 3.0": (vtk("3.0"), None, "small letters|blank lines|no title|metadata|one a line|nine a line|order of sections|field before|field|no components|latin names"),
-    "vtk 5.1": (vtk("5.1"), None, "small letters|blank lines|no title|metadata|one a line|nine a line|order of sections|field before|field|no components"),
+    "vtk 3.0": (vtk("3.0"), None, "small letters|blank lines|no title|metadata|one a line|nine a line|order of sections|field before|strings|field|no components|latin names"),
+    "vtk 5.1": (vtk("5.1"), None, "small letters|blank lines|no title|metadata|one a line|nine a line|order of sections|field before|strings|field|no components"),
     "tetgen": (tetgen, "#", "comments|comments behind|blank lines|from 0|short counts|attributes|no markers|real markers|no labels|negative markers"),
     "su2": (su2, "%", "comments|comments behind|blank lines|small letters|blanks around signs|no blanks around signs|no numbers behind|two counts|"
             "numbers of faces|order of sections"),

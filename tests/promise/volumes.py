@@ -463,6 +463,77 @@ def su2(mesh, markers, turned=()):
     return "\n".join(lines) + "\n"
 
 
+def zones_of_su2(taut):
+    """One zone is read and written, by all commands; nothing else of the file changes, whatever it is called."""
+    names = {"lower": "hold", "upper": "push"}
+
+    def zone(number, n, at, turned=()):
+        mesh = split(quads(n, n), "triangle").moved(lambda x, y: (x + at, y))
+        row = n * (n + 1)
+        markers = {names["lower"]: [(i, i + 1) for i in range(n)],
+                   names["upper"]: [(row + i, row + i + 1) for i in range(n)]}
+        text = f"IZONE= {number}\n" + su2(mesh, markers, turned)
+        return mesh, text + f"FFD_NBOX= 1\nFFD_TAG= BOX{number}\nFFD_CORNER_POINTS= 4\n0.0 0.0\n1.0 0.0\n1.0 1.0\n0.0 1.0\n"
+
+    for order in ((1, 2), (2, 1), (1, 2, 3), (3, 1, 2)):
+        zones = [zone(number, 2 + number, 10 * k, {0} if k else ()) for k, number in enumerate(order)]
+        head = f"% several\nNZONE= {len(order)}\n"
+        taut.write("in.su2", head + "".join(text for _, text in zones))
+        count = f"{len(order)} zones"
+        for command in ("check", "eval", "deform", "smooth", "untangle"):
+            output = () if command in ("check", "eval") else ("-o", "no.su2")
+            told = taut(command, "in.su2", *output, code=3)
+            assert count in told.stdout + told.stderr and "--zone" in told.stdout + told.stderr, told
+            told = taut(command, "in.su2", *output, "--zone", len(order) + 1, code=3)
+            assert f"zone {len(order) + 1} of {len(order)}" in told.stdout + told.stderr, told
+            taut(command, "in.su2", *output, "--zone", 0, code=2)
+            assert not os.path.exists(taut.file("no.su2"))
+        for k, number in enumerate(order):
+            mesh, text = zones[k]
+            chosen = ("--zone", number)
+            assert f"{len(mesh.points)} vertices" in taut("check", "in.su2", *chosen).stdout
+            assert f"{len(mesh.points)} vertices" in taut("eval", "in.su2", *chosen).stdout
+            for command in (("deform", "--fix", "hold", "--move", "push:translate:0,0.25,0"), ("smooth",), ("untangle", "--pins", "p.csv")):
+                taut.write("p.csv", "0,%r,%r,0\n" % mesh.points[0])
+                taut(command[0], "in.su2", "-o", "out.su2", *command[1:], *chosen)
+                out = taut.read("out.su2").decode()
+                before = head + "".join(t for _, t in zones[:k])
+                after = "".join(t for _, t in zones[k + 1:])
+                assert out.startswith(before) and out.endswith(after), "other zones are byte for byte as they were"
+                written = out[len(before):len(out) - len(after)]
+                lines, old = written.splitlines(), text.splitlines()
+                at = next(i for i, line in enumerate(old) if line.startswith("NPOIN"))
+                n = len(mesh.points)
+                assert len(lines) == len(old) and lines[:at + 1] == old[:at + 1] and lines[at + 1 + n:] == old[at + 1 + n:]
+                points = [tuple(map(float, line.split()[:2])) for line in lines[at + 1:at + 1 + n]]
+                assert mesh.not_positive(points) == []
+                if command[0] == "deform":
+                    assert all(abs(points[i][1] - 1.25) < 1e-15 for i in range(n) if mesh.points[i][1] == 1)
+                taut("eval", "in.su2", "out.su2", *chosen)
+    text = head + "".join(t for _, t in zones)
+    for cut in range(0, len(text), 97):
+        taut.write("cut.su2", text[:cut])
+        taut("check", "cut.su2", "--zone", 1, code=(0, 3, 4))
+    taut.write("one.su2", "NZONE= 1\n" + zone(1, 3, 0)[1])
+    taut("check", "one.su2")
+    taut("check", "one.su2", "--zone", 1)
+    taut.write("in.mesh", split(quads(2, 2), "triangle").medit())
+    assert "SU2" in taut("smooth", "in.mesh", "-o", "no.mesh", "--zone", 1, code=3).stderr
+    taut.write("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+    for command in (("check", "in.obj"), ("eval", "in.obj"), ("deform", "in.obj", "-o", "no.obj")):
+        assert "SU2" in taut(*command, "--zone", 1, code=2).stderr
+
+
+def shared_markers_of_su2(taut):
+    """A marker of a partition says with whom it exchanges its elements."""
+    text = su2(split(quads(3, 3), "triangle"), {"lower": [(0, 1)], "upper": [(12, 13), (13, 14), (14, 15)]})
+    for keys in ("MARKER_ELEMS= 1\nSEND_RECV= 1\n", "MARKER_ELEMS= 1\nSEND_RECV= -1\n"):
+        for name in ("lower", "SEND_RECEIVE"):
+            taut.write("in.su2", text.replace("MARKER_TAG= lower\nMARKER_ELEMS= 1\n3 0 1\n", f"MARKER_TAG= {name}\n{keys}1 3 0\n"))
+            taut("check", "in.su2")
+            taut("deform", "in.su2", "-o", "out.su2", "--fix", "upper" if name != "lower" else name)
+
+
 def clockwise_su2(taut):
     """SU2 has no rule for the order of corners, and every corner of a mesh is in two markers."""
     mesh = split(quads(5, 5), "triangle")
@@ -616,4 +687,4 @@ def beside_the_boundary(taut):
 
 
 main(single_precision, pins_in_single_precision, page_saves, pins_of_untangle, winding, turned_cells, tangled_is_not_turned,
-     what_no_turning_mends, problems, clockwise_su2, interfaces, interfaces_of_any_kind, long_axes, beside_the_boundary, any_size)
+     what_no_turning_mends, problems, clockwise_su2, zones_of_su2, shared_markers_of_su2, interfaces, interfaces_of_any_kind, long_axes, beside_the_boundary, any_size)

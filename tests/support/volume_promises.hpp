@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <taut/io/write_volume.hpp>
@@ -21,9 +22,24 @@ inline bool same_point(const vec3& a, const vec3& b)
     return same;
 }
 
-/// Bytes outside the coordinates, with a mark for each coordinate; bytes of points with `kept` for those.
+/// Bytes outside the coordinates, with a mark for each coordinate; bytes of points with `kept` for those. Of
+/// coordinates in a code, and of offsets behind it, one mark each.
 inline std::string outside(const io::volume_file& file, const std::vector<bool>& kept)
 {
+    if (const auto& coded = file.places.coded)
+    {
+        std::vector<std::pair<std::size_t, std::size_t>> marked = {{coded->begin, coded->end}};
+        for (const auto& later : coded->followed_by) marked.push_back({later.begin, later.end});
+        std::sort(marked.begin(), marked.end());
+        std::string result;
+        std::size_t done = 0;
+        for (const auto& [begin, end] : marked)
+        {
+            result += file.bytes.substr(done, begin - done) + '@';
+            done = end;
+        }
+        return result + file.bytes.substr(done);
+    }
     const auto d = static_cast<std::size_t>(file.places.per_point);
     std::string result;
     std::size_t done = 0;

@@ -23,6 +23,17 @@ void declare_charts(CLI::App& app, atlas_options& o)
     app.add_flag("--repair", o.repair,
                  "Mend what is no surface: duplicate and flat triangles, edges of three triangles, winding, ...; the "
                  "files keep their vertices and faces, what is left out has no vt");
+    app.add_option_function<double>(
+           "--weld",
+           [&o](const double& d)
+           {
+               o.weld = d;
+               o.repair = true;
+           },
+           "Repair, and join corners at open edges that are at most D apart, in units of the file; 0: equal ones only. "
+           "--repair alone joins those within 1e-7 of the size, or 8 units of the last digit of the file")
+        ->type_name("D")
+        ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must be a length, 0 or more"));
     const auto distortion = number_that([](double x) { return x > 4 && std::isfinite(x); }, "is not above 4");
     app.add_option("--max-distortion", o.max_distortion,
                    "Bound of the mean isometric energy of a chart; 4 is no distortion, default 4.2")
@@ -134,7 +145,7 @@ void check(const atlas_options& o)
     if (!joined)
         for (std::size_t i = 0; i < o.inputs.size(); ++i)
             if (io::is_gltf(o.inputs[i]) && !io::is_gltf(o.outputs[i]))
-                throw usage_error("-o " + o.outputs[i] + ": a model of glTF is written as .glb or .gltf");
+                throw usage_error("-o " + o.outputs[i] + ": a model of glTF is written as .glb or .gltf; name it so");
 }
 
 std::string as_command_line(const atlas_options& o)
@@ -168,6 +179,7 @@ std::string as_command_line(const atlas_options& o)
     for (const auto& input : o.inputs) word(input);
     for (const auto& output : o.outputs) option("-o", output);
     flag("--repair", o.repair);
+    if (o.weld) option("--weld", number(*o.weld, 17));
     if (o.max_distortion) option("--max-distortion", number(*o.max_distortion, 9));
     if (o.mean_distortion) option("--mean-distortion", number(*o.mean_distortion, 9));
     if (o.keep_charts) option("--charts", "keep");
@@ -190,7 +202,8 @@ vec2 origin_of(const atlas_options& o)
 
 source_options to_source_options(const atlas_options& o)
 {
-    return {.format = o.format, .repair = o.repair, .texcoord_set = o.texcoord_set, .origin = origin_of(o)};
+    return {
+        .format = o.format, .repair = o.repair, .weld = o.weld, .texcoord_set = o.texcoord_set, .origin = origin_of(o)};
 }
 
 atlas_params to_params(const atlas_options& o)

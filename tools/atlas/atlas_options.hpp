@@ -23,6 +23,7 @@ struct atlas_options
     std::string seams, pinned, stats, picture, render, report, device, progress;
     io::surface_format format{};
     bool repair = false, keep_charts = false, keep_seams = false, symmetric = false, upright = false, quiet = false;
+    std::optional<double> weld; ///< repairs, too
     std::optional<double> max_distortion, mean_distortion;
     double padding = pack_params{}.padding;
     int resolution = pack_params{}.resolution, tiles = 1, texcoord_set = 0;

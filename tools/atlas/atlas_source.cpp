@@ -64,9 +64,12 @@ public:
         texcoord_fault = file_.texcoord_fault;
         if (file_.fault && !options.repair) throw mesh_error(*file_.fault);
         if (options.repair)
-            take(tools::repair(file_));
+            take(tools::repair(file_, options.weld));
         else
+        {
+            add_note(describe_near_edges(file_.points, file_.triangles));
             take(mesh<triangle>(file_.points, file_.triangles));
+        }
     }
 
     std::vector<idx> polygons() const override
@@ -170,13 +173,17 @@ public:
         file_vertices = static_cast<idx>(model_.points.size());
         file_triangles = static_cast<idx>(model_.triangles.size());
         notes = model_.notes;
+        const auto bodies = point_meshes();
         if (options.repair)
         {
-            const auto bodies = point_meshes();
-            take(repair_surface(model_.points, model_.triangles, {.bodies = bodies}));
+            const double weld = options.weld ? *options.weld : usual_weld_tolerance(model_.points, model_.triangles);
+            take(repair_surface(model_.points, model_.triangles, {.weld_tolerance = weld, .bodies = bodies}));
         }
         else
+        {
+            add_note(describe_near_edges(model_.points, model_.triangles, bodies));
             take(mesh<triangle>(model_.points, model_.triangles));
+        }
     }
 
     std::vector<idx> parts() const override

@@ -80,6 +80,11 @@ protected:
     vec2 from_gltf(vec2 x) const { return {x.x, origin_.y + 1 - x.y}; }
     vec2 to_gltf(vec2 x) const { return {x.x, origin_.y + 1 - x.y}; }
 
+    void add_note(std::string note)
+    {
+        if (!note.empty()) notes.push_back(std::move(note));
+    }
+
     void take(mesh<triangle> whole) { whole_.emplace(std::move(whole)); }
     void take(repaired_surface repaired) { repaired_.emplace(std::move(repaired)); }
 
@@ -108,8 +113,9 @@ struct source_options
 {
     io::surface_format format{};
     bool repair = false;
-    int texcoord_set = 0;    ///< of glTF
-    vec2 origin = vec2(0.0); ///< atlas_params::origin
+    std::optional<double> weld; ///< repair_params::weld_tolerance; nothing: the usual one
+    int texcoord_set = 0;       ///< of glTF
+    vec2 origin = vec2(0.0);    ///< atlas_params::origin
 };
 
 /// Throws io_error, mesh_error; repair_error if no triangle is left.

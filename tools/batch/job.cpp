@@ -99,14 +99,14 @@ std::vector<job> parse_manifest(std::istream& in, const std::string& path)
         const auto [before, fresh] = line_of.emplace(jobs.back().id, number);
         if (!fresh) line.refuse("has the id " + before->first + " of line " + std::to_string(before->second));
     }
-    if (in.bad()) throw io::io_error(path, "cannot be read");
+    if (in.bad()) throw io::io_error(path, "cannot be read; name a file that can");
     return jobs;
 }
 
 std::vector<job> read_manifest(const std::string& path)
 {
     std::ifstream in(path, std::ios::binary);
-    if (!in) throw io::io_error(path, "cannot be read");
+    if (!in) throw io::io_error(path, "cannot be read; name a file that can");
     return parse_manifest(in, path);
 }
 

@@ -309,10 +309,12 @@ private:
 
 std::unique_ptr<subject> make_subject(queue& q, const source& from)
 {
+    if (from.zone > 0 && (!tools::names_volume(from.path) || from.shell || !from.feature.source.empty()))
+        throw tools::usage_error("--zone is of SU2 files; leave it out");
     if (!from.feature.source.empty()) return make_paste_subject(q, from);
     if (from.shell) return std::make_unique<shell_subject>(q, from);
     if (!tools::names_volume(from.path)) return std::make_unique<map_subject>(q, from);
-    auto file = io::read_volume_file(from.path);
+    auto file = io::read_volume_file(from.path, io::volume_format::automatic, from.zone);
     tools::require_mesh(file);
     if (file.dimension == 2) return std::make_unique<shape_subject<triangle>>(q, std::move(file), from);
     return std::make_unique<shape_subject<tetrahedron>>(q, std::move(file), from);

@@ -30,6 +30,7 @@ struct source
     bool holes = false;
     bool shell = false; ///< a surface deforms in space, and is not mapped
     pasted feature;
+    int zone = 0; ///< of a SU2 file of several; 0: none
 };
 
 /// A map of the surface of a file, that surface as a shell, or the shape of a volume file or planar mesh, with its

@@ -20,11 +20,12 @@ std::optional<cut_plane> parse_cut(const std::string& text, std::span<const vec3
         const auto n = numbers_of(text, 4, "--cut " + text + ": x, y, z, x:FRACTION or nx,ny,nz,d");
         cut.normal = {n[0], n[1], n[2]};
         cut.offset = n[3];
-        if (!(glm::length(cut.normal) > 0)) throw usage_error("--cut " + text + ": the normal has no length");
+        if (!(glm::length(cut.normal) > 0))
+            throw usage_error("--cut " + text + ": the normal has no length; give one that has");
         return cut;
     }
     const double part = text.size() > 1 ? numbers_of(text.substr(2), 1, "--cut " + text)[0] : 0.5;
-    if (!(part >= 0 && part <= 1)) throw usage_error("--cut " + text + ": a fraction is from 0 to 1");
+    if (!(part >= 0 && part <= 1)) throw usage_error("--cut " + text + ": a fraction is from 0 to 1; give one");
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const vec3& p : points)
     {

@@ -174,7 +174,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
 
 exit_code evaluate_volume(const eval_volume_options& options)
 {
-    const auto file = read_volume_at_rest(options.input, options.rest);
+    const auto file = read_volume_at_rest(options.input, options.rest, options.zone);
     const drawing_options drawing{options.picture, options.cut, file.rest.empty()};
     require_drawable(file, drawing);
     require_mesh(file);

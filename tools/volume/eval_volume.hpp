@@ -14,6 +14,7 @@ struct eval_volume_options
     std::string input, rest; ///< rest: empty, if there is none
     std::string picture, cut;
     bool json = false;
+    int zone = 0; ///< of a SU2 file of several; 0: none
 };
 
 /// Measures a map of a volume, or of a planar mesh, and prints what it found. Throws as readers do.

@@ -46,7 +46,7 @@ std::vector<double> numbers_of(const std::string& text, std::size_t count, const
         double x = 0;
         const auto [last, failure] = std::from_chars(text.data() + begin, text.data() + end, x);
         if (failure != std::errc{} || last != text.data() + end || !std::isfinite(x))
-            throw usage_error(option + ": '" + text.substr(begin, end - begin) + "' is no number");
+            throw usage_error(option + ": '" + text.substr(begin, end - begin) + "' is no number; write one");
         numbers.push_back(x);
         begin = end + 1;
     }
@@ -85,7 +85,7 @@ void group_targets::move(const std::string& text)
     {
         if (!std::binary_search(members.begin(), members.end(), p.vertex))
             throw unsuitable_input(text.substr(at + 1) + ": vertex " + std::to_string(p.vertex) + " is not in group " +
-                                   name);
+                                   name + "; leave its line out, or use --pins");
         if (!p.hard() || p.held != constraints<tetrahedron>::all)
             throw unsuitable_input(text.substr(at + 1) + ": vertex " + std::to_string(p.vertex) +
                                    " has a weight or lacks a coordinate; use --pins for those");
@@ -103,7 +103,8 @@ void group_targets::transform(const std::string& name, std::size_t kind, const s
     {
         const vec3 axis(n[0], n[1], n[2]);
         const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
-        if (!(largest > 0)) throw usage_error("--move " + name + ": the axis of a rotation has no length");
+        if (!(largest > 0))
+            throw usage_error("--move " + name + ": the axis of a rotation has no length; give one that has");
         motion.axis = glm::normalize(axis / largest); // whose length may be beyond the range of numbers
         motion.angle = n[3] * std::numbers::pi / 180;
     }

@@ -32,6 +32,7 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
         ->required()
         ->type_name("OUT");
     add_fix(app, o.fixed);
+    add_zone(app, o.zone);
     app.add_option(
            "--tolerance", o.tolerance,
            "Stop at this relative gradient, below 1, or where as good as nothing is left to gain; 0: never. Default: " +

@@ -29,6 +29,7 @@ struct shape_options
     double time_limit = std::numeric_limits<double>::infinity();
     std::optional<double> tolerance; ///< relative gradient; none: as the library has it
     bool quiet = false, smoothing = false;
+    int zone = 0; ///< of a SU2 file of several; 0: none
 
     // deform
     std::string pins, rest;

@@ -88,6 +88,7 @@ private:
     void prepare()
     {
         require_name(options_.output, input_->file());
+        for (const auto& note : input_->file().notes) add_note(note);
         if (!input_->file().turned.empty()) add_note(turned_note(input_->file()));
         group_targets targets(input_->file());
         for (const auto& name : options_.fixed) targets.fix(name);

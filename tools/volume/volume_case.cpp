@@ -94,14 +94,14 @@ std::optional<bool> turned_over(const cell& a, cell b)
 
 } // namespace
 
-io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest)
+io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest, int zone)
 {
-    auto file = io::read_volume_file(path);
+    auto file = io::read_volume_file(path, io::volume_format::automatic, zone);
     if (rest.empty()) return file;
-    auto other = io::read_volume_file(rest);
+    auto other = io::read_volume_file(rest, io::volume_format::automatic, zone);
     if (other.points.size() != file.points.size())
         throw unsuitable_input(rest + " has " + count(other.points.size(), "point", "points") + ", not " +
-                               count(file.points.size()) + " as " + path);
+                               count(file.points.size()) + " as " + path + "; give the same mesh at rest");
     const auto cells = cells_of(file), at_rest = cells_of(other);
     // Which order of corners is right, the shape at rest says.
     std::vector<idx> differing;

@@ -28,8 +28,8 @@ void require_file(const std::string& output);
 void require_name(const std::string& output, const io::volume_file& file);
 
 /// Reads a volume file. rest: the file of the shape at rest, or empty; its points become the `rest` of the result.
-/// Throws io_error, and unsuitable_input where the two are not of the same vertices and cells.
-io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest);
+/// zone: of SU2 files of several, 0: none. Throws io_error, and unsuitable_input where the two are not of the same vertices and cells.
+io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest, int zone);
 
 /// "32 tetrahedra", "12 hexahedra, 3 wedges": the cells of a dimension by kind.
 std::string count_cells(const io::volume_file& file, int dimension);

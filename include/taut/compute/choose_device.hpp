@@ -36,7 +36,7 @@ std::vector<listed_device> devices(const device_requirements& needs = {});
 /// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits; what the message then
 /// calls the wish is `said` and the wish.
 device find_device(const std::string& wish, const device_requirements& needs = {},
-                               const std::string& said = "the wish ");
+                   const std::string& said = "the wish ");
 
 /// The device that TAUT_DEVICE names if it is set, else the best one; see find_device.
 device choose_device(const device_requirements& needs = {});

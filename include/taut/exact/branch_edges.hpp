@@ -101,7 +101,7 @@ private:
 /// other cells, the cell of each; a cell is then an edge of the links of its own edges alone. Smaller vertex first,
 /// ascending.
 inline std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<idx, 4>> cells, std::span<const vec3> x,
-                                             std::span<const idx> owners = {})
+                                                    std::span<const idx> owners = {})
 {
     const detail::edge_turns turns(cells, x, owners);
     using edge = detail::edge_turns::edge;

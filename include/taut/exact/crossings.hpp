@@ -387,7 +387,7 @@ struct crossing_count
 /// boundary_crossings() that ends at `most` crossings, or where there is too much to look at: charts that lie on each
 /// other have as many crossings as pairs of edges.
 inline crossing_count count_boundary_crossings(std::span<const std::vector<idx>> loops, std::span<const vec2> x,
-                                        std::size_t most = 100'000)
+                                               std::size_t most = 100'000)
 {
     const auto edges = detail::edges_of(loops);
     crossing_count count;

@@ -31,7 +31,7 @@ struct coarser_volume
 ///
 /// Throws parameter_error. About 10 us a vertex.
 inline coarser_volume make_coarser(const mesh<tetrahedron>& m, std::span<const char> kept = {}, double factor = 8,
-                            const std::function<bool()>& proceed = {})
+                                   const std::function<bool()>& proceed = {})
 {
     const std::size_t n = m.points().size();
     if (!kept.empty() && kept.size() != n) throw parameter_error("kept", "must have one flag a vertex, or none");

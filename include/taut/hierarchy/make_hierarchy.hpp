@@ -26,7 +26,7 @@ namespace taut
 /// bytes a triangle, 160 while it is built.
 /// Throws mesh_error (non_manifold_vertex) if the triangles of a vertex do not form one oriented fan, parameter_error.
 inline hierarchy<triangle> make_hierarchy(const mesh<triangle>& m, std::span<const char> keep = {},
-                                   const hierarchy_params& params = {})
+                                          const hierarchy_params& params = {})
 {
     params.validate();
     const std::size_t n = m.points().size();

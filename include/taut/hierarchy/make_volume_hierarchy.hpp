@@ -72,8 +72,8 @@ point_cloud cloud_of(const mesh<Element>& m, std::span<const char> held)
 ///
 /// Linear time, about 5 us a vertex on two cores. Throws parameter_error.
 inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<const char> held = {},
-                                      const hierarchy_params& params = {},
-                                      std::span<const std::array<idx, 3>> boundary = {})
+                                             const hierarchy_params& params = {},
+                                             std::span<const std::array<idx, 3>> boundary = {})
 {
     params.validate();
     auto cloud = detail::cloud_of(m, held);
@@ -85,7 +85,7 @@ inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::sp
 
 /// The same of the hinges of a surface: none of its vertices stands out.
 inline hierarchy<hinge> make_hierarchy(const mesh<hinge>& m, std::span<const char> held = {},
-                                const hierarchy_params& params = {})
+                                       const hierarchy_params& params = {})
 {
     params.validate();
     return detail::thinned_levels(m, detail::cloud_of(m, held), params);

@@ -120,7 +120,7 @@ inline bool place(const removals<triangle>& removed, std::size_t r, std::span<co
 ///
 /// Throws parameter_error if an argument has the wrong size.
 inline reinsertion reinsert(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
-                     std::span<const vec2> coarse, const reinsert_params& params = {})
+                            std::span<const vec2> coarse, const reinsert_params& params = {})
 {
     params.validate();
     if (level >= h.steps.size()) throw parameter_error("level", "must have a coarser level");

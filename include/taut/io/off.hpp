@@ -34,7 +34,8 @@ public:
         // The number of edges is often wrong and never needed; it may be missing.
         end_line();
         // The shortest vertex is "0 0 0\n". A count beyond the file is refused before memory is asked for.
-        if (vertices > in_.remaining() / 5 || faces > in_.remaining() / 5) in_.fail("the file ends too early");
+        if (vertices > in_.remaining() / 5 || faces > in_.remaining() / 5)
+            in_.fail("the file ends too early; correct its counts, or get it whole");
         soup_.points.reserve(vertices);
         soup_.sizes.reserve(faces);
         soup_.corners.reserve(3 * faces);
@@ -75,7 +76,9 @@ private:
         has_texcoords_ = take("ST");
         has_colours_ = take("C");
         has_normals_ = take("N");
-        if (!kind.empty()) in_.fail("not an OFF file of points in space: '" + std::string(key.substr(0, 40)) + "'");
+        if (!kind.empty())
+            in_.fail("not an OFF file of points in space: '" + std::string(key.substr(0, 40)) +
+                     "'; save it as OFF, COFF, NOFF or STOFF");
         skip_to_content();
         if (!in_.at_digit()) in_.fail_at_word("the number of vertices");
     }
@@ -84,7 +87,7 @@ private:
     {
         skip_to_content();
         const long long n = in_.integer(what);
-        if (n < 0) in_.fail(std::string(what) + " is negative");
+        if (n < 0) in_.fail(std::string(what) + " is negative; count from 0");
         return static_cast<std::size_t>(n);
     }
 

@@ -53,7 +53,8 @@ public:
     {
         if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3); // byte order mark of UTF-8
         refuse_utf16(rest_, path_);
-        if (rest_.substr(0, 4096).find('\0') != rest_.npos) throw io_error(path_, "not a text file");
+        if (rest_.substr(0, 4096).find('\0') != rest_.npos)
+            throw io_error(path_, "not a text file: it has bytes 0; save it as text");
     }
 
     /// The cells of the next line that has any; false at the end.
@@ -145,7 +146,8 @@ pin<D> read_pin(const pin_reader& in)
         p.weight = in.number<double>(cells.back(), "a weight, or nothing for a hard pin");
     if (!(p.weight >= 0)) in.fail("a weight that is negative or not a number; give one >= 0, or inf for a hard pin");
     if (p.held == 0) in.fail("no coordinate is given; give one at least, or remove the line");
-    if (!p.hard() && p.held != (1u << D) - 1) in.fail("a spring (finite weight) needs all coordinates");
+    if (!p.hard() && p.held != (1u << D) - 1)
+        in.fail("a spring (finite weight) needs all coordinates; give them, or leave the weight out");
     return p;
 }
 

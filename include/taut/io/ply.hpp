@@ -66,13 +66,14 @@ private:
         std::size_t row = 0;
         for (const ply_property& p : e.properties) row += in_.smallest(p.counts ? *p.counts : p.type);
         if (e.rows > in_.remaining() / row)
-            fail("the file ends too early for " + std::to_string(e.rows) + " rows of element " + e.name);
+            fail("the file ends too early for " + std::to_string(e.rows) + " rows of element " + e.name +
+                 "; correct its count, or get the file whole");
     }
 
     /// Lengths and vertex numbers may come in any type, even as floating point.
     long long whole(double x) const
     {
-        if (!(std::abs(x) < 1e15) || x != std::floor(x)) fail("expected a whole number");
+        if (!(std::abs(x) < 1e15) || x != std::floor(x)) fail("expected a whole number; write one");
         return static_cast<long long>(x);
     }
 
@@ -81,7 +82,7 @@ private:
     void read_property(const ply_property& p, F f)
     {
         long long n = 1;
-        if (p.counts && (n = whole(in_.next(*p.counts))) < 0) fail("a list of negative length");
+        if (p.counts && (n = whole(in_.next(*p.counts))) < 0) fail("a list of negative length; correct its count");
         for (; n > 0; --n) f(in_.next(p.type));
     }
 
@@ -132,7 +133,7 @@ private:
         }
         const auto has = [&](std::size_t first, std::size_t count)
         { return std::all_of(&unit[first], &unit[first] + count, [](double u) { return u != 0; }); };
-        if (!has(position, 3)) fail("the vertices have no x, y, z");
+        if (!has(position, 3)) fail("the vertices have no x, y, z; give them these properties");
         const bool textured = has(texcoord, 2), normals = has(normal, 3), colours = has(colour, 3);
         soup_.points.reserve(e.rows);
         std::array<double, role_count> value{};
@@ -225,7 +226,8 @@ private:
     void add_face_coords(std::size_t corners)
     {
         if (coords_.empty()) return;
-        if (coords_.size() != 2 * corners) fail("expected two texture coordinates for each corner");
+        if (coords_.size() != 2 * corners)
+            fail("expected two texture coordinates for each corner; correct the list, or leave it out");
         if (soup_.corner_coords.empty()) soup_.texcoords.clear(); // they replace those of the vertices
         soup_.corner_coords.resize(soup_.corners.size() - corners, -1);
         for (std::size_t k = 0; k < corners; ++k)

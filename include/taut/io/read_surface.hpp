@@ -20,16 +20,13 @@ enum class surface_format
 
 /// Reads a surface with its texture coordinates and notes.
 /// Throws io_error (unreadable, unknown or malformed, with line or byte), mesh_error (empty, NaN, ...).
-surface_file read_surface_file(const std::filesystem::path& path,
-                                           surface_format format = surface_format::automatic);
+surface_file read_surface_file(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
 /// Reads a file as it is, for repair_surface(). Throws io_error.
-surface_soup read_surface_soup(const std::filesystem::path& path,
-                                           surface_format format = surface_format::automatic);
+surface_soup read_surface_soup(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
 /// The surface alone.
-mesh<triangle> read_surface(const std::filesystem::path& path,
-                                        surface_format format = surface_format::automatic);
+mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
 } // namespace taut::io
 

@@ -50,7 +50,9 @@ public:
         if (!is_binary_stl(bytes_) && is_text())
             read_text();
         else if (bytes_.size() < stl_header)
-            throw io_error(in_.path(), "neither a text nor a binary STL file");
+            throw io_error(
+                in_.path(),
+                "neither a text nor a binary STL file; name it after the format that it has, or get it whole");
         else
             read_binary();
         const std::size_t corners = soup_.corners.size(), points = soup_.points.size();
@@ -79,7 +81,9 @@ private:
     {
         const std::size_t triangles = stl_triangles(bytes_);
         if (triangles > (bytes_.size() - stl_header) / stl_row)
-            throw io_error(in_.path(), "the file ends too early for " + std::to_string(triangles) + " triangles",
+            throw io_error(in_.path(),
+                           "the file ends too early for " + std::to_string(triangles) +
+                               " triangles; correct their number, or get it whole",
                            file_place{file_place::byte, 80});
         soup_.reserve(triangles / 2, 3 * triangles);
         const char* at = bytes_.data() + stl_header;
@@ -116,12 +120,12 @@ private:
             }
             else if (key == "vertex")
             {
-                if (!inside) in_.fail("a vertex outside of a loop");
+                if (!inside) in_.fail("a vertex outside of a loop; put 'outer loop' before it");
                 add_corner(in_.numbers<3>(), in_.here());
             }
             else if (key == "endloop")
             {
-                if (!inside) in_.fail("a loop ends that has not begun");
+                if (!inside) in_.fail("a loop ends that has not begun; put 'outer loop' before its vertices");
                 soup_.end_polygon(first, in_.path(), in_.here());
                 inside = false;
             }
@@ -131,7 +135,7 @@ private:
                 in_.fail_at_word("a statement of STL");
             }
         }
-        if (inside) in_.fail("the file ends in a loop");
+        if (inside) in_.fail("the file ends in a loop; get it whole, or end it with endloop");
     }
 
     template <class Where>

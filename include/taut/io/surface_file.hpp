@@ -13,7 +13,7 @@
 #include <taut/io/detail/text_list.hpp>
 #include <taut/mesh/describe.hpp>
 #include <taut/mesh/mesh.hpp>
-#include <taut/mesh/unused_vertices.hpp>
+#include <taut/mesh/detail/unused_vertices.hpp>
 
 namespace taut::io
 {

@@ -176,6 +176,7 @@ struct volume_file
 {
     std::string path;   ///< as it was given
     std::string format; ///< "MEDIT", "gmsh", "VTK", "VTU", "TetGen", "SU2" or "problem"
+    int zone = 0;       ///< of SU2: that which was asked for, from 1; 0: none
     int dimension = 3;  ///< 2: two coordinates a point, or no volume cell and all z equal
     std::vector<vec3> points;
     std::vector<vec3> rest; ///< problems: the rest shape, of which the points are a map; else empty: points at rest
@@ -183,7 +184,7 @@ struct volume_file
     std::vector<idx> turned; ///< cells whose corners the file has in the other order, as for_each_cell() counts
     std::vector<volume_group> groups;
     std::vector<volume_label> labels; ///< what groups were made of
-    std::vector<std::string> notes;   ///< what groups were not read from, in sentences
+    std::vector<std::string> notes;   ///< what was not read, and what of groups, in sentences
     std::string bytes;                ///< all of the file
     std::vector<companion_file> companions;
     coordinate_places places;

@@ -21,15 +21,13 @@ void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2>
 
 /// The same for a map of the surface cut open, which `cut` was made from `file` by cut_seams().
 /// uv: one a vertex of cut.surface.
-void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut,
-                           std::span<const vec2> uv);
+void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut, std::span<const vec2> uv);
 
 /// The same for a file as it is, whose corners have texture coordinates of their own, or none. A face gets them at all
 /// corners or at none: a corner of a polygon that has none gets what lies between those before and after it.
 /// texcoords: one a corner of file.faces, into uv; -1: none. Throws io_error; parameter_error if there are more or
 /// fewer, or one names what is not there.
-void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords,
-                           std::span<const vec2> uv);
+void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords, std::span<const vec2> uv);
 
 /// Writes the file that a surface was read from with its vertices at other places, which read back bit for bit. Of OBJ
 /// every byte stays but the coordinates of v lines, also the normals, which are those at rest; OFF and PLY become OBJ

@@ -29,7 +29,7 @@ std::string with_points(const volume_file& file, std::span<const vec3> points);
 /// PATH.ele, PATH.face. Both arguments must outlive the result.
 /// Throws parameter_error as with_points(); io_error where an output is an input, or the extension another format's.
 std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
-                                                      std::span<const vec3> points);
+                                          std::span<const vec3> points);
 
 /// Writes them; they appear together or not at all. Throws io_error, parameter_error.
 void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);

@@ -53,11 +53,13 @@ inline idx next_boundary_side(const facet_table& f, idx side)
 inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const facet_table& f)
 {
     if (!f.manifold())
-        throw mesh_error(mesh_fault::non_manifold_facet, {f.crowds[0].begin(), f.crowds[0].end()},
-                         "boundary_loops: an edge has three or more triangles; call validate() first");
+        throw mesh_error(
+            mesh_fault::non_manifold_facet, {f.crowds[0].begin(), f.crowds[0].end()},
+            "boundary_loops: an edge has three or more triangles; part them, `taut check` and validate() list all");
     if (!f.oriented())
-        throw mesh_error(mesh_fault::inconsistent_orientation, {f.clash[0][0] / 3, f.clash[0][1] / 3},
-                         "boundary_loops: neighbours are oriented differently; call validate() first");
+        throw mesh_error(
+            mesh_fault::inconsistent_orientation, {f.clash[0][0] / 3, f.clash[0][1] / 3},
+            "boundary_loops: neighbours are oriented differently; turn one over, `taut check` and validate() list all");
 
     std::vector<char> seen(f.twin.size(), 0);
     std::vector<std::vector<idx>> loops;

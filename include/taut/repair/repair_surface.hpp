@@ -15,8 +15,9 @@ namespace taut
 struct repair_params
 {
     /// Ends of open edges at most so far apart are one place, which is that of the first of them; in units of the
-    /// surface, 0 or more. 0: only equal coordinates. Raise it where edges that should meet do so in few digits only;
-    /// a length that triangles have flattens these.
+    /// surface, 0 or more. 0: only equal coordinates. Raise it where edges that should meet do so in few digits only:
+    /// usual_weld_tolerance() is such a length. Nothing moves by half of an edge that it ends, so that no edge
+    /// vanishes.
     double weld_tolerance = 0;
 
     /// Normals of the file, or none. They are compared with the triangles, nothing else.
@@ -34,6 +35,15 @@ struct repair_params
     /// Throws parameter_error. points, triangles: how many the input has
     void validate(std::size_t points, std::size_t triangles) const;
 };
+
+/// How far apart corners may be that rounding has parted: 1e-7 of the size of the surface, or eight units of the last
+/// digit that coordinates have in the file, single precision or 6 to 12 decimal digits, if these are more; 0 if there
+/// is no finite size. At most 1e-3 of the size.
+double usual_weld_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
+
+/// How many open edges repair_surface() would sew with this tolerance. bodies: as repair_params has them
+std::size_t count_near_edges(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
+                             double weld_tolerance, std::span<const idx> bodies = {});
 
 /// A surface made of raw triangles.
 struct repaired_surface

@@ -91,7 +91,8 @@ inline std::array<int, 4> flat_sides(const std::array<std::size_t, 5>& corner,
 
 /// Positions on the square [-1, 1]^2, corners at vertices. The start is the vertex that leaves the fewest interior
 /// edges with both ends on one side; the sides that keep some are bent outwards to a parabola, strictly convex.
-inline std::vector<vec2> on_square(std::span<const double> gaps, std::span<const std::pair<std::size_t, std::size_t>> dividing)
+inline std::vector<vec2> on_square(std::span<const double> gaps,
+                                   std::span<const std::pair<std::size_t, std::size_t>> dividing)
 {
     const std::size_t n = gaps.size();
     auto corner = square_corners(gaps, 0);
@@ -168,7 +169,7 @@ inline bool convex(std::span<const vec2> p, bool straight_allowed)
 /// square needs four vertices, three are laid on a circle; its sides are straight unless a dividing edge has both ends
 /// on one, which would map triangles to nothing.
 inline std::vector<vec2> boundary_polygon(std::span<const vec3> loop, const boundary_params& params, double area,
-                                   std::span<const std::pair<std::size_t, std::size_t>> dividing = {})
+                                          std::span<const std::pair<std::size_t, std::size_t>> dividing = {})
 {
     if (loop.size() < 3) throw parameter_error("loop", "a boundary loop has at least three vertices");
     if (!(area > 0) || !std::isfinite(area)) throw parameter_error("area", "must be positive and finite");

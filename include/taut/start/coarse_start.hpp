@@ -35,7 +35,8 @@ struct coarse_start_params
 /// boundary vertices were kept. uv: as of robust_start().
 /// start_map::flips tells whether it is valid, exactly. Throws mesh_error (closed_surface, degenerate_cell),
 /// parameter_error (also where the hierarchy is of another surface, or without the fixed boundary).
-inline start_map coarse_start(const mesh<triangle>& m, const hierarchy<triangle>& h, const coarse_start_params& params = {})
+inline start_map coarse_start(const mesh<triangle>& m, const hierarchy<triangle>& h,
+                              const coarse_start_params& params = {})
 {
     params.validate();
     if (h.levels[0].vertices.size() != m.points().size()) throw parameter_error("h", "must be of the same surface");

@@ -64,7 +64,7 @@ inline std::vector<front_cholesky::block> conformal_blocks(const ideal_elements<
 /// smallest eigenvalue that is not a translation, by inverse iteration (Mullen, Tong, Alliez, Desbrun 2008, "Spectral
 /// conformal parameterization"). It needs no pinned vertices, whose choice would show. It may flip triangles.
 inline std::vector<vec2> spectral_conformal_map(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
-                                         std::span<const idx> outline, int iterations)
+                                                std::span<const idx> outline, int iterations)
 {
     const auto u = [](idx v) { return static_cast<std::size_t>(v); };
     const std::vector<char> fixed(m.points().size(), 0);
@@ -114,7 +114,8 @@ inline std::vector<vec2> spectral_conformal_map(const mesh<triangle>& m, const i
 ///
 /// m: a surface that has passed validate() with `one_boundary` false; f: its facets. uv: in units of the surface, at
 /// the scale with the least isometric energy. Throws mesh_error (closed_surface, degenerate_cell), parameter_error.
-inline start_map conformal_start(const mesh<triangle>& m, const facet_table& f, const conformal_start_params& params = {})
+inline start_map conformal_start(const mesh<triangle>& m, const facet_table& f,
+                                 const conformal_start_params& params = {})
 {
     params.validate();
     const auto loops = boundary_loops(m, f);

@@ -39,8 +39,8 @@ inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
 /// The draft if there is one, else that map, moved by the similarity that brings pinned vertices nearest to their
 /// places in x (least squares). With fewer than two it gets the measure expected. Held coordinates are not put to their
 /// places.
-inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem, const std::vector<vec2>& x,
-                                            const std::vector<vec2>& draft)
+inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem,
+                                                   const std::vector<vec2>& x, const std::vector<vec2>& draft)
 {
     if (!draft.empty()) return draft;
     auto laid = unheld_map(problem.rest);

@@ -38,9 +38,10 @@ inline double tan_half_angle(const vec3& p, const vec3& q, const vec3& r)
 /// points: #V rest positions; cells: #F triangles; fixed: #V; x: #V, read where fixed; pull: #V positive factors of the
 /// weights towards each vertex, or empty.
 /// Throws `error` if a weight is not positive and finite: a degenerate triangle.
-inline barycentric_system make_barycentric_system(std::span<const vec3> points, std::span<const std::array<idx, 3>> cells,
-                                           std::span<const char> fixed, std::span<const vec2> x,
-                                           barycentric_weights weights, std::span<const double> pull = {})
+inline barycentric_system make_barycentric_system(std::span<const vec3> points,
+                                                  std::span<const std::array<idx, 3>> cells,
+                                                  std::span<const char> fixed, std::span<const vec2> x,
+                                                  barycentric_weights weights, std::span<const double> pull = {})
 {
     const auto u = [](idx v) { return static_cast<std::size_t>(v); };
     struct entry

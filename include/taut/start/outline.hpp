@@ -19,7 +19,7 @@ namespace detail
 
 /// Interior edges with both ends on one loop, as positions in it.
 inline std::vector<std::pair<std::size_t, std::size_t>> dividing_edges(const mesh<triangle>& m, const facet_table& f,
-                                                                const std::vector<idx>& loop)
+                                                                       const std::vector<idx>& loop)
 {
     std::vector<idx> position(m.points().size(), -1);
     for (std::size_t k = 0; k < loop.size(); ++k) position[static_cast<std::size_t>(loop[k])] = static_cast<idx>(k);

@@ -25,8 +25,8 @@ struct raise_params
 
 /// Scales a map of a level, all triangles of which are positive, to the least isometric energy. Where rounding would
 /// turn a triangle over, to the nearest power of two.
-inline void scale_to_fit(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points, std::vector<vec2>& uv,
-                  unsigned threads = 0)
+inline void scale_to_fit(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
+                         std::vector<vec2>& uv, unsigned threads = 0)
 {
     const double scale = isometric_scale(h, level, points, uv, threads);
     const auto& cells = h.levels[level].cells;
@@ -51,7 +51,7 @@ struct raised_map
 /// new, are improved one by one. Where no place is found for some, the coarse map is improved as a whole and it is
 /// tried again; the last attempt is returned.
 inline raised_map raise_map(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
-                     std::vector<vec2> coarse, const raise_params& params)
+                            std::vector<vec2> coarse, const raise_params& params)
 {
     const auto relax = [&](std::size_t at, std::vector<vec2>& uv, double factor, int sweeps)
     {

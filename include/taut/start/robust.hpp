@@ -82,7 +82,7 @@ inline void scale_outline(const hierarchy<triangle>& h, std::size_t level, std::
 
 /// Newton's method on the isometric energy of a level, from a map without flips. Returns the energy, as area mean.
 inline double optimize_level(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> rest,
-                      std::span<const char> fixed, const robust_start_params& params, std::vector<vec2>& uv)
+                             std::span<const char> fixed, const robust_start_params& params, std::vector<vec2>& uv)
 {
     std::vector<vec3> points;
     std::vector<char> here;
@@ -105,8 +105,8 @@ inline double optimize_level(const hierarchy<triangle>& h, std::size_t level, st
 /// A map made on a coarsest surface of a few vertices, optimised and refined in turns. Where a long tube shrinks
 /// beyond the resolution of numbers on the fine surface, it does not on the coarse one, and it is spread out before
 /// the next vertices come back.
-inline start_map nested_start(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::span<const char> fixed,
-                       const descent_plan& plan, const robust_start_params& params)
+inline start_map nested_start(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
+                              std::span<const char> fixed, const descent_plan& plan, const robust_start_params& params)
 {
     const auto h =
         make_hierarchy(m, fixed, {.factor = plan.factor, .min_vertices = plan.min_vertices, .threads = params.threads});

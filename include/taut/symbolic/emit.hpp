@@ -85,7 +85,7 @@ inline std::vector<std::size_t> accessed_by_index(const tape& t, const schedule&
 /// that a float kernel builds on devices without fp64. Throws tape_error for a free variable and for a value that left
 /// its loop.
 inline kernel_text emit(const tape& t, std::string name, std::vector<kernel_argument> arguments,
-                 kernel_form form = kernel_form::item, kernel_use use = kernel_use::often)
+                        kernel_form form = kernel_form::item, kernel_use use = kernel_use::often)
 {
     const bool is_loop = detail::has_loop(form), is_part = form == kernel_form::part;
     const detail::schedule plan(t, t.stores());

@@ -122,7 +122,8 @@ inline untangle_result<triangle> untangle(const untangle_problem<triangle>& prob
     return untangle(problem, host_stages(problem.outline_pinned()), newton_maker<triangle>(detail::direct_newton),
                     params);
 }
-inline untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem, const untangle_params& params = {})
+inline untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem,
+                                             const untangle_params& params = {})
 {
     return untangle(problem, solid_host_stages(), newton_maker<tetrahedron>(), params);
 }

@@ -81,9 +81,10 @@ TEST_CASE("gmsh: errors tell the line, or the byte, and the remedy")
     const std::string text = test::gmsh2_text(s, {}), fourth = test::gmsh4_text(s, {});
     const auto refuses = [](const std::string& bytes, const char* message)
     { CHECK_THROWS_WITH_AS(read_gmsh(bytes), doctest::Contains(message), io::io_error); };
-    refuses("", "there is no $MeshFormat");
+    refuses("x", "there is no $MeshFormat");
+    refuses("", "the file is empty; save the mesh again");
     refuses(replace_once(text, "2.2 0 8", "4.0 0 8"),
-            "line 2: this version of the format is not read; save as 2.2 or 4.1");
+            "line 2: version 4.0 of the format is not read; save as 2.2 or 4.1");
     refuses(replace_once(text, "2.2 0 8", "2.2 0 4"), "numbers of 4 bytes");
     refuses(replace_once(text, "$EndElements", ""), "no $EndElements behind this");
     refuses(replace_once(text, "\n2 4 2 1", "\n2 11 2 1"), "element type 11 is not one of first order");

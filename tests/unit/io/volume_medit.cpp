@@ -42,7 +42,7 @@ TEST_CASE("MEDIT: errors tell the line")
     const std::string head = "MeshVersionFormatted 2\nDimension 3\n", points = "Vertices\n2\n0 0 0 1\n1 0 0 1\n";
     const auto refuses = [&](const std::string& text, const char* message)
     { CHECK_THROWS_WITH_AS(read_medit(text), doctest::Contains(message), io::io_error); };
-    refuses("", "not a MEDIT mesh");
+    refuses("x", "not a MEDIT mesh");
     refuses("MeshVersionFormatted 2\nDimension 4\nVertices 0\n", "a.mesh, line 2: dimension 4; it must be 2 or 3");
     refuses(head, "no Vertices");
     refuses(head + "Vertices\n-1\n", "line 4: the number of vertices is -1");

@@ -80,6 +80,44 @@ TEST_CASE("VTK: lookup tables, scalars without a table and metadata within field
     CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
 }
 
+TEST_CASE("VTK: strings, variants and bits are passed over, before points and behind cells")
+{
+    const auto s = test::small_volume(false);
+    std::string longer(70, 'x'), longest(17000, 'y'); // with lengths in two bytes and in four
+    for (const bool text : {true, false})
+    {
+        const std::string strings =
+            text ? "names 1 4 string\none\n\ntwo%20words POINTS 3\n" + longer + "\n\n"
+                 : "names 1 4 string\n\xc3one\xc0\x80\x46" + longer + std::string("\x40\0\x42\x68", 4) + longest + "\n";
+        const std::string others = std::string("any 1 2 variant\n11 0.5\n13 a%20b\n") +
+                                   (text ? "flags 1 9 bit\n1 0 1 0 1 1 1\n0 1\n" : "flags 1 9 bit\n\xae\x80\n");
+        std::string bytes =
+            exchange(test::vtk_text(s, {text}, 3), "FIELD FieldData 1\n", "FIELD FieldData 4\n" + strings + others);
+        bytes = exchange(bytes, "SCALARS part int",
+                         "SCALARS on bit 1\nLOOKUP_TABLE default\n" + std::string(text ? "1 0 1\n" : "\xa0\n") +
+                             "SCALARS part int");
+        const auto file = io::parse_volume(bytes, volume_format::vtk);
+        CHECK(file.points.size() == s.points.size());
+        CHECK(file.notes.empty());
+        CHECK(file.find_group("part:7").vertices == std::vector<idx>{0, 1, 2});
+        CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
+    }
+}
+
+TEST_CASE("VTU: bits and strings make no groups")
+{
+    const auto s = test::small_volume(false);
+    for (const bool text : {true, false})
+        for (const char* const array : {"<DataArray type='Bit' Name='b' format='ascii'>1 0 1</DataArray>",
+                                        "<DataArray type=\"String\" Name='s' format='ascii'>65 0</DataArray>"})
+        {
+            const auto file =
+                io::parse_volume(exchange(test::vtu_text(s, {text}), "<PointData>", "<PointData>" + std::string(array)),
+                                 volume_format::vtu);
+            CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
+        }
+}
+
 TEST_CASE("VTK: voxels and pixels are hexahedra and quads, whose corners run around")
 {
     const std::string text = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
@@ -126,6 +164,9 @@ TEST_CASE("VTK: errors tell the line")
     refuses(exchange(text, "UNSTRUCTURED_GRID", "POLYDATA"), "line 4: no DATASET UNSTRUCTURED_GRID");
     refuses(exchange(text, "5 double", "5 int"), "points of integers cannot be moved");
     refuses(exchange(text, "5 double", "5 half"), "line 8: unknown type 'half'");
+    refuses(exchange(text, "1 1 double", "1 1 half"),
+            "no POINTS before 'half', a type of values that is not known; save");
+    refuses(exchange(text, "1 1 double\n0.5", "1 99999999 string\n0.5"), "more than the rest of the file can hold");
     refuses(exchange(text, "\n3 0 2 1", "\n3 0 2 9"), "point 9 of 5; they count from 0");
     refuses(exchange(text, "\n3 0 2 1", "\n9 0 2 1"), "has 9 corners");
     refuses(exchange(text, "CELL_TYPES 3\n5", "CELL_TYPES 3\n9"), "cell 0, a quad, ends at corner 3 instead of 4");
@@ -146,7 +187,7 @@ TEST_CASE("VTU: errors tell the line and the remedy")
         CHECK_THROWS_WITH_AS(io::parse_volume(bytes, volume_format::vtu, "a.vtu"), doctest::Contains(message),
                              io::io_error);
     };
-    refuses("", "there is no <VTKFile>");
+    refuses("x", "there is no <VTKFile>");
     refuses(exchange(text, "type=\"UnstructuredGrid\"", "type=\"PolyData\""), "line 3: not an UnstructuredGrid");
     refuses(exchange(text, "format=\"ascii\">0 0 0\n", "format=\"binary\">AAAA"), "array 'Points': ");
     refuses(exchange(raw, "encoding=\"raw\"", "encoding=\"base64\""), "array 'Points': ");

@@ -320,6 +320,85 @@ TEST_CASE("repair: open edges that meet nearly are sewn within a tolerance, and 
         CHECK_THROWS_AS(repair_surface(s.points, s.cells, {.weld_tolerance = bad}), parameter_error);
 }
 
+/// Coordinates with so many significant digits, of which the last is off by up to `off`.
+double in_digits(double x, int digits, std::mt19937& random, int off)
+{
+    if (x == 0) return 0;
+    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(x))) + 1 - digits);
+    return std::round(x / unit + std::uniform_int_distribution<int>(-off, off)(random)) * unit;
+}
+
+TEST_CASE(
+    "repair: the usual tolerance joins what the last digit parts, in few digits, far away and in single precision")
+{
+    std::mt19937 random(3);
+    const auto m = test::sphere(3);
+    for (const vec3 centre : {vec3(0), vec3(337), vec3(455000, 4123000, 20)})
+        for (int digits = 6; digits <= 10; ++digits)
+        {
+            if (centre.y > 1e6 && digits < 9) continue; // a digit is as long as an edge
+            auto s = apart(m);
+            for (vec3& p : s.points)
+                for (int k = 0; k < 3; ++k) p[k] = in_digits(50 * p[k] + centre[k], digits, random, 1);
+            const auto r = repair(s, {.weld_tolerance = usual_weld_tolerance(s.points, s.cells)});
+            INFO(digits, " digits at ", centre.x);
+            CHECK(closed(r.surface));
+            CHECK(r.surface.vertex_count() == m.vertex_count());
+            CHECK(count_near_edges(s.points, s.cells, usual_weld_tolerance(s.points, s.cells)) == s.points.size());
+        }
+    auto s = apart(m);
+    for (vec3& p : s.points)
+        for (int k = 0; k < 3; ++k)
+            p[k] = static_cast<double>(std::nextafter(static_cast<float>(p[k] + 5), random() % 2 ? 0.0f : 9.0f));
+    CHECK(closed(repair(s, {.weld_tolerance = usual_weld_tolerance(s.points, s.cells)}).surface));
+    CHECK(usual_weld_tolerance(raw(m).points, raw(m).cells) == doctest::Approx(2e-7 * std::sqrt(3.0)).epsilon(0.2));
+    CHECK(count_near_edges(m.points(), m.cells(), 1e-3) == 0);
+    CHECK(usual_weld_tolerance({}, {}) == 0);
+    for (const double scale : {1e-200, 1e200, 1e308})
+    {
+        auto scaled = raw(m);
+        for (vec3& p : scaled.points) p *= scale;
+        CHECK(usual_weld_tolerance(scaled.points, scaled.cells) > 0);
+        CHECK(usual_weld_tolerance(scaled.points, scaled.cells) < 1e-3 * scale);
+    }
+}
+
+TEST_CASE("repair: no tolerance makes an edge vanish, and a row of near points does not become one")
+{
+    raw_surface s;
+    const int n = 200;
+    for (int i = 0; i < n; ++i) // triangles in a row that nearly touch
+    {
+        const auto first = static_cast<idx>(s.points.size());
+        s.points.insert(s.points.end(), {vec3(i, 1e-4, 0), vec3(i + 1 - 1e-4, 0, 0), vec3(i + 0.5, 1, 0)});
+        s.cells.push_back({first, first + 1, first + 2});
+    }
+    for (const double tolerance : {0.1, 1.0, 10.0, 1e300})
+    {
+        const auto r = repair_surface(s.points, s.cells, {.weld_tolerance = tolerance});
+        CHECK(r.surface.cell_count() == n);
+    }
+    const auto m = test::sphere(3);
+    for (const double tolerance : {1e-2, 1.0, 1e3})
+        CHECK(repair(apart(m), {.weld_tolerance = tolerance}).surface.cell_count() == m.cell_count());
+}
+
+TEST_CASE("repair: many small triangles within one tolerance take no time with the square of their number")
+{
+    raw_surface s;
+    const int n = 60000;
+    for (int i = 0; i < n; ++i)
+    {
+        const auto first = static_cast<idx>(s.points.size());
+        const vec3 at(1e-5 * (i % 300), 1e-5 * (i / 300), 0);
+        s.points.insert(s.points.end(), {at, at + vec3(4e-6, 0, 0), at + vec3(0, 4e-6, 0)});
+        s.cells.push_back({first, first + 1, first + 2});
+    }
+    s.points.insert(s.points.end(), {vec3(0, 0, 9), vec3(9, 0, 9), vec3(0, 9, 9)});
+    s.cells.push_back({3 * n, 3 * n + 1, 3 * n + 2});
+    CHECK(repair_surface(s.points, s.cells, {.weld_tolerance = 1}).surface.cell_count() == n + 1);
+}
+
 TEST_CASE("repair: a tolerance leaves vertices alone that lie on no open edge")
 {
     const auto m = test::sphere(3);

@@ -456,15 +456,15 @@ private:
     }
 };
 
-uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f,
-                                               const charts_to_maps& flatten, const segment_params& params)
+uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
+                                   const segment_params& params)
 {
     params.validate();
     return segmenting(m, f, flatten, params).run();
 }
 
 segmentation cut_apart(const mesh<triangle>& m, const facet_table& f, uncut_segmentation made,
-                                   const segment_params& params)
+                       const segment_params& params)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     segmentation r{{}, cut_charts(m, f, made.seam), {}, {}, made.report};

@@ -29,7 +29,7 @@ unsigned threads_at_once()
 }
 
 void run_pieces(std::size_t n, void* body, void (*call)(void* body, std::size_t begin, std::size_t end),
-                            unsigned threads, std::size_t grain)
+                unsigned threads, std::size_t grain)
 {
     if (n == 0) return;
     static const unsigned at_once = threads_at_once(); // the answer is in a file

@@ -96,9 +96,12 @@ inline std::string_view view_bytes(const gltf_source& source, std::size_t i)
     const std::size_t buffer = view.whole("buffer"), offset = view.whole("byteOffset", 0),
                       length = view.whole("byteLength");
     if (buffer >= source.buffers.size())
-        view.fail("names buffer " + std::to_string(buffer) + " of " + std::to_string(source.buffers.size()));
+        view.fail("names buffer " + std::to_string(buffer) + " of " + std::to_string(source.buffers.size()) +
+                  ", counted from 0; name one that is there");
     const std::string_view bytes = source.buffers[buffer];
-    if (offset > bytes.size() || length > bytes.size() - offset) view.fail("goes beyond the end of its buffer");
+    if (offset > bytes.size() || length > bytes.size() - offset)
+        view.fail(
+            "goes beyond the end of its buffer; correct its byteOffset and byteLength, or export the model again");
     return bytes.substr(offset, length);
 }
 
@@ -109,16 +112,19 @@ inline gltf_elements elements_in(const gltf_source& source, const gltf_object& o
     const std::size_t view = owner.whole("bufferView"), offset = owner.whole("byteOffset", 0);
     const std::size_t length = view_bytes(source, view).size();
     const std::size_t stride = item_of(source, "bufferViews", view).whole("byteStride", size);
-    if (stride < size) owner.fail("has elements that lie on top of each other, by the byteStride of its bufferView");
+    if (stride < size)
+        owner.fail("has elements that lie on top of each other, by the byteStride of its bufferView; correct that");
     if (count > 0 && (offset > length || size > length - offset || count - 1 > (length - offset - size) / stride))
-        owner.fail("goes beyond the end of bufferView " + std::to_string(view));
+        owner.fail("goes beyond the end of bufferView " + std::to_string(view) +
+                   "; correct its count, or export the model again");
     return {view, offset, size, stride};
 }
 
 inline gltf_component component_of(const gltf_object& owner)
 {
     const auto component = static_cast<gltf_component>(owner.whole("componentType"));
-    if (size_of(component) == 0) owner.fail("has numbers of an unknown componentType");
+    if (size_of(component) == 0)
+        owner.fail("has numbers of an unknown componentType; it must be 5120 to 5126 but for 5124");
     return component;
 }
 
@@ -128,7 +134,7 @@ inline gltf_accessor accessor_of(const gltf_source& source, std::size_t i)
     const gltf_object object = item_of(source, "accessors", i);
     gltf_accessor a{object.text("type"), component_of(object), false, object.whole("count"), 0, {}, {}};
     a.size = element_size(a.type, a.component);
-    if (a.size == 0) object.fail("is of an unknown type");
+    if (a.size == 0) object.fail("is of an unknown type; it must be SCALAR, VEC2 to VEC4 or MAT2 to MAT4");
     if (const gltf_json* const n = object.find("normalized")) a.normalized = n->is_boolean() && n->get<bool>();
     if (object.find("bufferView")) a.base = elements_in(source, object, a.count, a.size);
     if (object.find("sparse"))
@@ -136,10 +142,11 @@ inline gltf_accessor accessor_of(const gltf_source& source, std::size_t i)
         const gltf_object sparse = object.object("sparse"), indices = sparse.object("indices");
         const std::size_t count = sparse.whole("count");
         const gltf_component type = component_of(indices);
-        if (type != gltf_u8 && type != gltf_u16 && type != gltf_u32) indices.fail("are no unsigned whole numbers");
+        if (type != gltf_u8 && type != gltf_u16 && type != gltf_u32)
+            indices.fail("are no unsigned whole numbers; save them as componentType 5121, 5123 or 5125");
         a.sparse = gltf_sparse{count, type, elements_in(source, indices, count, size_of(type)),
                                elements_in(source, sparse.object("values"), count, a.size)};
-        if (count > a.count) sparse.fail("has more elements than its accessor");
+        if (count > a.count) sparse.fail("has more elements than its accessor; correct its count");
     }
     return a;
 }

@@ -55,22 +55,27 @@ inline glb_chunks split_glb(std::string_view bytes, const std::string& path)
     const auto fail = [&](const std::string& what, std::size_t at) {
         throw io_error(path, what, file_place{file_place::byte, at});
     };
-    if (bytes.size() < 20) fail("the file ends in the head of GLB", bytes.size());
+    if (bytes.size() < 20)
+        fail("the file ends in the head of GLB; the file is damaged or cut off, get or save it again", bytes.size());
     if (const auto version = load_u32(bytes, 4); version != 2)
         fail("GLB of version " + std::to_string(version) + "; convert it to glTF 2.0", 4);
     const std::size_t length = load_u32(bytes, 8);
     if (length > bytes.size())
         fail("the file has " + std::to_string(bytes.size()) + " bytes, not the " + std::to_string(length) +
-                 " that it says",
+                 " that it says; the file is damaged or cut off, get or save it again",
              8);
     glb_chunks chunks;
     for (std::size_t at = 12, count = 0; at + 8 <= length; ++count)
     {
         const std::size_t size = load_u32(bytes, at);
         const auto type = load_u32(bytes, at + 4);
-        if (size > length - at - 8) fail("a chunk of " + std::to_string(size) + " bytes goes beyond the end", at);
+        if (size > length - at - 8)
+            fail("a chunk of " + std::to_string(size) +
+                     " bytes goes beyond the end; the file is damaged or cut off, get or save it again",
+                 at);
         const auto content = bytes.substr(at + 8, size);
-        if ((count == 0) != (type == glb_json)) fail("the first chunk, and no other, must be JSON", at);
+        if ((count == 0) != (type == glb_json))
+            fail("the first chunk, and no other, must be JSON; export the model again", at);
         if (type == glb_json)
             chunks.json = content;
         else if (type == glb_bin && count == 1)
@@ -126,7 +131,8 @@ inline std::filesystem::path file_of_buffer(const gltf_source& source, const glt
     if (relative.has_root_path() || std::find(relative.begin(), relative.end(), "..") != relative.end())
         refuse("outside of the folder of the document");
     std::error_code unknown;
-    if (!fs::is_regular_file(file, unknown)) buffer.fail("lies in " + file.string() + ", which is no file");
+    if (!fs::is_regular_file(file, unknown))
+        buffer.fail("lies in " + file.string() + ", which is no file; put it there");
     const fs::path real = fs::canonical(file, unknown), root = fs::canonical(folder.empty() ? "." : folder, unknown);
     if (real.empty() || root.empty() ||
         std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
@@ -142,7 +148,8 @@ inline std::string load_buffer(gltf_source& source, std::size_t i, std::optional
     std::string bytes;
     if (!buffer.find("uri"))
     {
-        if (i > 0 || !bin) buffer.fail("has no uri, and there is no binary chunk for it");
+        if (i > 0 || !bin)
+            buffer.fail("has no uri, and there is no binary chunk for it; give it one, or save the model as .glb");
         bytes = *bin;
     }
     else
@@ -152,7 +159,7 @@ inline std::string load_buffer(gltf_source& source, std::size_t i, std::optional
         {
             const auto comma = uri.find(";base64,");
             auto decoded = comma == uri.npos ? std::nullopt : from_base64(std::string_view(uri).substr(comma + 8));
-            if (!decoded) buffer.fail("has a data URI that is no base64");
+            if (!decoded) buffer.fail("has a data URI that is no base64; export the model again");
             bytes = std::move(*decoded);
         }
         else
@@ -165,7 +172,7 @@ inline std::string load_buffer(gltf_source& source, std::size_t i, std::optional
     }
     if (bytes.size() < length)
         buffer.fail("has " + std::to_string(bytes.size()) + " bytes, not the " + std::to_string(length) +
-                    " that the document says");
+                    " that the document says; put the file there that belongs to it");
     bytes.resize(length);
     return bytes;
 }

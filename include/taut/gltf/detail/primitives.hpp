@@ -100,7 +100,8 @@ inline gltf_primitive primitive_of(const gltf_source& source, std::size_t mesh, 
         for (const auto& attribute : attributes)
         {
             const std::size_t n = accessor_of(source, attribute.second).count;
-            if (count.value_or(n) != n) object.fail("has attributes of different counts: " + attribute.first);
+            if (count.value_or(n) != n)
+                object.fail("has attributes of different counts: " + attribute.first + "; give each one a vertex");
             count = n;
         }
     };
@@ -110,8 +111,8 @@ inline gltf_primitive primitive_of(const gltf_source& source, std::size_t mesh, 
     if (!p.indices) return p;
     const gltf_accessor a = accessor_of(source, *p.indices);
     if (a.type != "SCALAR" || (a.component != gltf_u8 && a.component != gltf_u16 && a.component != gltf_u32))
-        object.fail("has indices that are no unsigned whole numbers");
-    if (!a.base) object.fail("has indices without a bufferView");
+        object.fail("has indices that are no unsigned whole numbers; save them as componentType 5121, 5123 or 5125");
+    if (!a.base) object.fail("has indices without a bufferView; give them one");
     p.drawn = a.count;
     return p;
 }

@@ -45,7 +45,8 @@ public:
             if (p.count > 0) add(p, primitives.first_vertex[p.pool]);
         }
         if (model_.triangles.empty())
-            throw mesh_error(mesh_fault::empty, {}, model_.source.path + ": there are no triangles");
+            throw mesh_error(mesh_fault::empty, {},
+                             model_.source.path + ": there are no triangles; give at least one mesh of them");
         if (std::all_of(model_.texcoord_cells.begin(), model_.texcoord_cells.end(),
                         [](const auto& cell) { return cell[0] < 0; }))
             model_.texcoord_cells.clear();
@@ -75,7 +76,8 @@ private:
     {
         const element_list& positions = elements(*p.attribute("POSITION"));
         if (positions.accessor.type != "VEC3")
-            throw io_error(model_.source.path, p.name + " has a POSITION that is no VEC3");
+            throw io_error(model_.source.path,
+                           p.name + " has a POSITION that is no VEC3; save positions as three floats");
         const idx first_coord = texcoords_of(p);
         const auto drawn = drawn_vertices(model_.source, p);
         for (std::size_t t = 0; t < p.count; ++t)
@@ -118,7 +120,8 @@ private:
         if (!is_new) return at->second;
         const element_list& list = elements(*accessor);
         if (list.accessor.type != "VEC2")
-            throw io_error(model_.source.path, p.name + " has a " + set_ + " that is no VEC2");
+            throw io_error(model_.source.path,
+                           p.name + " has a " + set_ + " that is no VEC2; save texture coordinates as two numbers");
         for (std::size_t v = 0; v < list.accessor.count; ++v)
             model_.texcoords.emplace_back(load_number(list.bytes, list.accessor, 2 * v),
                                           load_number(list.bytes, list.accessor, 2 * v + 1));

@@ -39,7 +39,7 @@ public:
     gltf_object(const gltf_json& value, std::string name, const std::string& path)
         : value_(value), name_(std::move(name)), path_(path)
     {
-        if (!value.is_object()) fail("is no JSON object");
+        if (!value.is_object()) fail("is no JSON object; write it in braces");
     }
 
     const std::string& name() const { return name_; }
@@ -68,7 +68,7 @@ public:
     {
         constexpr std::int64_t most = std::int64_t(1) << 53; // of whole numbers in JSON
         const std::int64_t value = x.is_number_integer() ? x.get<std::int64_t>() : -1;
-        if (value < 0 || value > most) fail("has a " + key + " that is no whole number");
+        if (value < 0 || value > most) fail("has a " + key + " that is no whole number; give one from 0");
         return static_cast<std::size_t>(value);
     }
 
@@ -92,7 +92,7 @@ public:
     {
         static const gltf_json nothing = gltf_json::array();
         const gltf_json* const x = find(key);
-        if (x && !x->is_array()) fail("has " + std::string(key) + " that are no array");
+        if (x && !x->is_array()) fail("has " + std::string(key) + " that are no array; write them in brackets");
         return x ? *x : nothing;
     }
 
@@ -113,7 +113,7 @@ inline gltf_object item_of(const gltf_source& source, const char* list, std::siz
     const gltf_json& items = root_of(source).items(list);
     if (i >= items.size())
         throw io_error(source.path, std::string(list) + ' ' + std::to_string(i) + " is named, but there are " +
-                                        std::to_string(items.size()) + ", counted from 0");
+                                        std::to_string(items.size()) + ", counted from 0; name one that is there");
     return {items[i], std::string(list) + ' ' + std::to_string(i), source.path};
 }
 
@@ -170,7 +170,8 @@ inline bool is_deep(std::string_view text)
 /// Throws io_error for what is no JSON, or is nested too deep.
 inline gltf_json parse_gltf_json(std::string_view text, const std::string& path)
 {
-    if (is_deep(text)) throw io_error(path, "JSON that is nested too deep");
+    if (text.empty()) throw io_error(path, "the file is empty; export the model again");
+    if (is_deep(text)) throw io_error(path, "JSON that is nested too deep; no model needs that, export it again");
     try
     {
         // With a callback it would look through lists again and again.

@@ -208,7 +208,8 @@ inline vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers)
 
 inline std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path& path, const gltf_source& source)
 {
-    if (!is_gltf(path)) throw parameter_error("path", path.string() + ": glTF is written to .glb and .gltf");
+    if (!is_gltf(path))
+        throw parameter_error("path", path.string() + ": glTF is written to .glb and .gltf; name it so");
     if (path.extension().string().size() == 4 || source.data_uris) return {}; // .glb
     const auto data = std::filesystem::path(path).replace_extension(".bin");
     std::error_code unknown;

@@ -16,7 +16,8 @@ namespace taut::detail
 /// unstructured finite element problems".
 ///
 /// faces: of the boundary; unit: a power of two that brings lengths near 1
-inline std::vector<char> boundary_rank(const mesh<tetrahedron>& m, std::span<const std::array<idx, 3>> faces, double unit)
+inline std::vector<char> boundary_rank(const mesh<tetrahedron>& m, std::span<const std::array<idx, 3>> faces,
+                                       double unit)
 {
     // Of each vertex the sum of n n' / |n| over its boundary faces, n twice the area: symmetric, by (i, j), i <= j.
     struct tensor

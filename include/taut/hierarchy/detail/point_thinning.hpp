@@ -108,7 +108,8 @@ inline prolongation<4> interpolate(const point_cloud& cloud, std::span<const idx
 
 /// The chosen points as a cloud of their own: neighbours are those that some vertex is interpolated from, as the
 /// corners of a tetrahedron are.
-inline point_cloud thinned(const point_cloud& cloud, std::span<const idx> chosen, const prolongation<4>& P, unsigned threads)
+inline point_cloud thinned(const point_cloud& cloud, std::span<const idx> chosen, const prolongation<4>& P,
+                           unsigned threads)
 {
     const std::size_t n = chosen.size();
     point_cloud coarse;

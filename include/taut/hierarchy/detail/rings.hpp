@@ -118,7 +118,7 @@ inline bool order_fan(std::span<spoke_pair> fan, bool& open)
 /// The rings of a surface of `count` vertices, and which vertices are on the boundary.
 /// Throws mesh_error (non_manifold_vertex) if the triangles of a vertex do not form one oriented fan.
 inline ring_table make_rings(std::span<const std::array<idx, 3>> cells, std::size_t count, std::vector<char>& open,
-                      unsigned threads)
+                             unsigned threads)
 {
     std::vector<spoke_pair> fans(3 * cells.size());
     const auto start = counting_sort(
@@ -165,7 +165,8 @@ inline ring_table make_rings(std::span<const std::array<idx, 3>> cells, std::siz
         for (std::size_t v = 0; v < count; ++v)
             if (open[v] < 0) ids.push_back(static_cast<idx>(v));
         const std::string message =
-            "vertex " + std::to_string(ids[0]) + ": its triangles do not form one oriented fan; call validate() first";
+            "vertex " + std::to_string(ids[0]) +
+            ": its triangles do not form one oriented fan; turn or part them, `taut check` and validate() list all";
         throw mesh_error(mesh_fault::non_manifold_vertex, std::move(ids), message);
     }
     return rings;

@@ -18,7 +18,7 @@ namespace taut::io::detail
 /// texcoords: one a corner of `faces`, into uv; -1: none. What is new is appended to uv.
 /// points:    one a vertex
 inline void complete_texcoords(const file_faces& faces, std::span<const vec3> points, std::vector<idx>& texcoords,
-                        std::vector<vec2>& uv)
+                               std::vector<vec2>& uv)
 {
     std::size_t first = 0;
     for (const idx size : faces.sizes)

@@ -82,7 +82,9 @@ inline ply_type read_ply_type(scanner& in)
                                                                               {"float64", ply_type::float64}}};
     const std::string_view word = in.word();
     const auto* found = std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.first == word; });
-    if (found == names.end()) in.fail("unknown type '" + std::string(word.substr(0, 40)) + "'");
+    if (found == names.end())
+        in.fail("unknown type '" + std::string(word.substr(0, 40)) +
+                "'; it must be char, uchar, short, ushort, int, uint, float or double");
     return found->second;
 }
 
@@ -102,7 +104,8 @@ inline ply_property read_ply_property(scanner& in)
 /// Reads up to and including the line end_header. Throws io_error.
 inline ply_header read_ply_header(scanner& in)
 {
-    if (in.word() != "ply") in.fail("not a PLY file: it does not start with 'ply'");
+    if (in.word() != "ply")
+        in.fail("not a PLY file: it does not start with 'ply'; name it after the format that it has");
     std::optional<ply_header::encoding> format;
     std::vector<ply_element> elements;
     std::set<std::string> names; // of elements
@@ -110,7 +113,7 @@ inline ply_header read_ply_header(scanner& in)
     for (;;)
     {
         in.next_line();
-        if (in.done()) in.fail("the header has no end_header");
+        if (in.done()) in.fail("the header has no end_header; end it with one");
         const std::string_view key = in.word();
         if (key == "format")
         {
@@ -122,20 +125,21 @@ inline ply_header read_ply_header(scanner& in)
             else if (name == "binary_big_endian")
                 format = ply_header::big;
             else
-                in.fail("unknown format '" + std::string(name.substr(0, 40)) + "'");
+                in.fail("unknown format '" + std::string(name.substr(0, 40)) +
+                        "'; it must be ascii, binary_little_endian or binary_big_endian");
         }
         else if (key == "element")
         {
             std::string name(in.word());
             const long long rows = in.integer("the number of elements");
-            if (rows < 0) in.fail("a negative number of elements");
+            if (rows < 0) in.fail("a negative number of elements; count them from 0");
             if (!names.insert(name).second)
                 in.fail("element " + name.substr(0, 40) + " is declared twice; join the two");
             elements.push_back({std::move(name), static_cast<std::size_t>(rows), {}});
         }
         else if (key == "property")
         {
-            if (elements.empty()) in.fail("a property before the first element");
+            if (elements.empty()) in.fail("a property before the first element; put it behind the element that has it");
             elements.back().properties.push_back(read_ply_property(in));
         }
         else if (key == "end_header")
@@ -143,10 +147,11 @@ inline ply_header read_ply_header(scanner& in)
         else if (key == "comment" || key == "obj_info")
             comments.add(in.rest_of_line());
         else if (!key.empty())
-            in.fail("unknown header line '" + std::string(key.substr(0, 40)) + "'");
+            in.fail("unknown header line '" + std::string(key.substr(0, 40)) +
+                    "'; write format, comment, obj_info, element, property or end_header");
     }
     in.next_line();
-    if (!format) in.fail("the header has no format");
+    if (!format) in.fail("the header has no format; add 'format ascii 1.0', or that of its data");
     return {*format, std::move(elements), std::move(comments)};
 }
 

@@ -77,7 +77,9 @@ private:
     template <class T>
     T take()
     {
-        if (remaining() < sizeof(T)) throw io_error(path_, "the file ends too early", place());
+        if (remaining() < sizeof(T))
+            throw io_error(path_, "the file ends too early; correct the counts of its header, or get it whole",
+                           place());
         const T x = load<T>(at_, Order);
         at_ += sizeof(T);
         return x;

@@ -60,7 +60,8 @@ struct polygon_soup
     template <class Where>
     void add_point(const vec3& p, const std::string& path, Where where)
     {
-        if (points.size() >= limit) throw io_error(path, "more vertices than 32-bit numbers can name", where());
+        if (points.size() >= limit)
+            throw io_error(path, "more vertices than 32-bit numbers can name; split the surface", where());
         if (!non_finite && !is_finite(p))
         {
             non_finite =
@@ -74,7 +75,8 @@ struct polygon_soup
     template <class Where>
     void add_texcoord(const vec2& x, const std::string& path, Where where)
     {
-        if (texcoords.size() >= limit) throw io_error(path, "more texture coordinates than 32 bits can name", where());
+        if (texcoords.size() >= limit)
+            throw io_error(path, "more texture coordinates than 32-bit numbers can name; split the surface", where());
         if (texcoord_fault.empty() && (!std::isfinite(x.x) || !std::isfinite(x.y)))
             texcoord_fault = place_prefix(path, where()) + "a texture coordinate is not a finite number";
         texcoords.push_back(x);
@@ -96,7 +98,8 @@ struct polygon_soup
                                       place_prefix(path, where()) + what);
                 });
         }
-        if (corners.size() > limit) throw io_error(path, "more corners than 32-bit numbers can name", where());
+        if (corners.size() > limit)
+            throw io_error(path, "more corners than 32-bit numbers can name; split the surface", where());
         sizes.push_back(static_cast<idx>(size));
     }
 

@@ -187,7 +187,8 @@ public:
     /// The next n bytes, which are taken whatever they are. Throws io_error with the byte where there are fewer.
     std::string_view bytes(std::size_t n)
     {
-        if (n > remaining()) throw io_error(path_, "the file ends too early", byte_of(at_));
+        if (n > remaining())
+            throw io_error(path_, "the file ends too early; it is cut off, or its counts are wrong", byte_of(at_));
         at_ += n;
         return {at_ - n, n};
     }
@@ -202,7 +203,8 @@ public:
     void require_text() const
     {
         if (std::string_view(at_, remaining()).find('\0') != std::string_view::npos)
-            throw io_error(path_, "not a text file");
+            throw io_error(path_,
+                           "not a text file: it has bytes 0; save it as text, or name it after the format that it has");
     }
 
     /// The present line. Slow (it counts), hence a function to hand on, called for errors.

@@ -74,15 +74,13 @@ void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2>
     detail::write_with_texcoords(out, file, file.faces.corners, uv);
 }
 
-void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut,
-                                std::span<const vec2> uv)
+void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut, std::span<const vec2> uv)
 {
     detail::require_texcoords(uv, cut.surface);
     detail::write_with_texcoords(out, file, cut.corners, uv);
 }
 
-void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords,
-                                std::span<const vec2> uv)
+void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords, std::span<const vec2> uv)
 {
     if (texcoords.size() != file.faces.corners.size())
         throw parameter_error("texcoords", std::to_string(texcoords.size()) + " for " +

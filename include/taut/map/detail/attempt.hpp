@@ -47,7 +47,7 @@ inline attempt certified(const run_surface& in, attempt a)
 
 /// A map without what the solver was free to change and nobody asked for. start: where held coordinates are right.
 inline std::vector<vec2> restored(const map_run& run, std::vector<vec2> uv, const vec2& centre,
-                           const std::vector<vec2>& start)
+                                  const std::vector<vec2>& start)
 {
     if (run.is_free() && is_scale_invariant(run.params.energy)) keep_total_area(run.in.surface, run.in.ideal, uv);
     for (vec2& p : uv) p += centre;

@@ -26,7 +26,7 @@ inline nested_params descent_of(const map_run& run)
 
 /// An attempt with a hierarchy, `levels`. from: as attempt::arrival, where it begins; none: at the start.
 inline attempt attempt_on(const mesh_levels<triangle>& levels, const nested_params& descent, const map_run& run,
-                   const run_start& start, precision how, int max_iterations, std::vector<vec2> from)
+                          const run_start& start, precision how, int max_iterations, std::vector<vec2> from)
 {
     const auto& numbers = levels.order().vertices;
     attempt a;
@@ -67,7 +67,7 @@ inline attempt attempt_on(const mesh_levels<triangle>& levels, const nested_para
         if (a.stopped || a.arrival.empty()) return a;
     }
     typename level_solver<triangle>::level finest(*solver, take(0), a.arrival,
-                                                 run.held.beyond_pins(start.centre).renumbered(numbers));
+                                                  run.held.beyond_pins(start.centre).renumbered(numbers));
     run.clock.spent(&map_seconds::setup);
     a.stopped = !run.clock.proceed();
     if (a.stopped) return a;
@@ -87,7 +87,7 @@ inline attempt attempt_on(const mesh_levels<triangle>& levels, const nested_para
 /// An attempt with the hierarchy of the run, or with one that grows more slowly where that shows the shape to be hard
 /// and the time limit leaves room for it: the map comes later then.
 inline attempt attempt_on_levels(const map_run& run, const run_start& start, precision how, int max_iterations,
-                          const std::vector<vec2>& from)
+                                 const std::vector<vec2>& from)
 {
     nested_params descent = descent_of(run);
     if (run.vertices() >= nested_params::hard_vertices) descent.hard_from = 10; // others take 3 to 8

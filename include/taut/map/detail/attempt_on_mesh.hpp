@@ -104,7 +104,7 @@ inline attempt attempt_on_mesh(const map_run& run, const run_start& start, preci
     const auto& data = run.params.data;
     if (!data.empty()) local->attach(data.reordered(local->order.cells), permute(run.in.surface, local->order));
     map_objective<triangle> f(run.queue, local, run.params.energy, run.params.weights, types_of(how),
-                             run.held.beyond_pins(start.centre));
+                              run.held.beyond_pins(start.centre));
     auto x = f.make_point();
     f.upload(centred(start.map.uv, start.centre), x);
     run.clock.spent(&map_seconds::setup);

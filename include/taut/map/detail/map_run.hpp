@@ -59,7 +59,7 @@ struct map_run
     mesh_levels<triangle> make_levels(double factor = hierarchy_params{}.factor) const
     {
         mesh_levels<triangle> made(in.surface, held.marks().pinned(),
-                                  {.factor = factor, .proceed = [this] { return clock.proceed(); }}, params.data);
+                                   {.factor = factor, .proceed = [this] { return clock.proceed(); }}, params.data);
         clock.spent(&map_seconds::hierarchy);
         clock.stages.add({.stage = "hierarchy", .vertices = vertices()});
         return made;

@@ -66,7 +66,8 @@ inline std::vector<vec2> free_draft(const map_run& run)
 }
 
 /// All of parameterize() but the counters. params: validated.
-inline map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock)
+inline map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params,
+                         run_clock& clock)
 {
     const map_run run(q, surface, params, clock);
     map_result found = solved(run);

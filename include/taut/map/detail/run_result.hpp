@@ -54,10 +54,10 @@ inline map_result stopped_result(const map_run& run, const run_start& start, att
         {
             a.uv = restored(run, a.uv, vec2(0), a.uv);
             const means e = mean_over<triangle>(run.in.surface, run.in.ideal, a.uv,
-                                               [&run](const element<double, 2>& here) {
-                                                   return here.det > 0 ? run.params.energy(here)
-                                                                       : std::numeric_limits<double>::infinity();
-                                               });
+                                                [&run](const element<double, 2>& here) {
+                                                    return here.det > 0 ? run.params.energy(here)
+                                                                        : std::numeric_limits<double>::infinity();
+                                                });
             a.solve.value = a.solve.value_start =
                 run.params.weights == energy::weighting::measure ? e.measure : e.uniform;
             a = certified(run.in, std::move(a));

@@ -7,7 +7,7 @@
 
 #include <taut/map/parameterize_params.hpp>
 #include <taut/mesh/ideal.hpp>
-#include <taut/mesh/unused_vertices.hpp>
+#include <taut/mesh/detail/unused_vertices.hpp>
 #include <taut/mesh/validate.hpp>
 #include <taut/start/outline.hpp>
 

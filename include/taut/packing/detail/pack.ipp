@@ -325,8 +325,8 @@ packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, 
 
 } // namespace detail
 
-packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
-                         std::span<const idx> first_cell, std::span<const idx> first_vertex, const pack_params& params)
+packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells, std::span<const idx> first_cell,
+             std::span<const idx> first_vertex, const pack_params& params)
 {
     params.validate(static_cast<idx>(first_cell.size()) - 1);
     if (first_cell.size() < 2) return {};

@@ -64,38 +64,59 @@ inline std::vector<idx> equal_places(std::span<const vec3> points, std::span<con
     return place;
 }
 
-/// The same for points that may be `tolerance` apart: in their order, each of `some` joins the nearest before it that
-/// has joined none, so that nothing moves further. Those equal stay together.
+/// The same for points that may be apart: in their order, each of `some` joins the nearest before it that has joined
+/// none, if they are no further from each other than the reach of both, so that nothing moves further. Those equal stay
+/// together. Points whose reach is less than half of their distance to a third never meet there.
 /// place: of equal_places()
 /// some:  points with place[i] == i, increasing
+/// reach: one a point; 0 or more, and at most `most`. What is below 1e-9 of that counts as 0
 inline std::vector<idx> near_places(std::span<const vec3> points, std::span<const idx> bodies, std::vector<idx> place,
-                                    std::span<const idx> some, double tolerance)
+                                    std::span<const idx> some, std::span<const double> reach, double most)
 {
-    const auto cell_of = [&](const vec3& p) { return glm::floor(p / tolerance); };
-    std::unordered_multimap<std::uint64_t, idx> apart; // by cells of the size of the tolerance
+    // Those of a grid are further from each other than half the size of its cells, which so hold a few.
+    struct grid
+    {
+        double size = 0;
+        std::unordered_multimap<std::uint64_t, idx> apart{};
+        vec3 cell_of(const vec3& p) const { return glm::floor(p / size); }
+    };
+    std::array<grid, 30> grids;
+    for (std::size_t g = 0; g < grids.size(); ++g) grids[g].size = std::ldexp(most, -static_cast<int>(g));
     for (const idx i : some)
     {
-        const vec3 p = points[static_cast<std::size_t>(i)], cell = cell_of(p);
+        const vec3 p = points[static_cast<std::size_t>(i)];
+        const double r = std::min(reach[static_cast<std::size_t>(i)], most);
+        std::size_t own = 0; // the grid whose cells are the smallest that are no smaller than r
+        while (own + 1 < grids.size() && r <= grids[own + 1].size) ++own;
+        const vec3 q = grids.back().cell_of(p);
+        if (!(r > grids.back().size) || !std::isfinite(q.x) || !std::isfinite(q.y) || !std::isfinite(q.z)) continue;
         const idx body = body_of(bodies, i);
-        double least = tolerance;
+        double least = r;
         idx nearest = i;
-        for (int n = 0; n < 27; ++n)
+        for (const grid& g : grids)
         {
-            const auto [from, to] =
-                apart.equal_range(hash_place(cell + vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1), body));
-            for (auto k = from; k != to; ++k)
+            if (g.apart.empty()) continue;
+            const vec3 cell = g.cell_of(p);
+            for (int n = 0; n < 27; ++n)
             {
-                if (body_of(bodies, k->second) != body) continue;
-                const double d = glm::length(points[static_cast<std::size_t>(k->second)] - p);
-                if (d < least || (d == least && k->second < nearest))
+                const auto [from, to] =
+                    g.apart.equal_range(hash_place(cell + vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1), body));
+                for (auto k = from; k != to; ++k)
                 {
-                    least = d;
-                    nearest = k->second;
+                    if (body_of(bodies, k->second) != body) continue;
+                    const vec3 away = points[static_cast<std::size_t>(k->second)] - p;
+                    const double d = std::hypot(away.x, away.y, away.z);
+                    if (d > reach[static_cast<std::size_t>(k->second)]) continue;
+                    if (d < least || (d == least && (nearest == i || k->second < nearest)))
+                    {
+                        least = d;
+                        nearest = k->second;
+                    }
                 }
             }
         }
         place[static_cast<std::size_t>(i)] = nearest;
-        if (nearest == i) apart.emplace(hash_place(cell, body), i);
+        if (nearest == i) grids[own].apart.emplace(hash_place(grids[own].cell_of(p), body), i);
     }
     for (idx& p : place) p = place[static_cast<std::size_t>(p)];
     return place;

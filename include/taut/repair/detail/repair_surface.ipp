@@ -17,6 +17,7 @@
 #include <taut/exact/predicates.hpp>
 #include <taut/repair/detail/describe_finding.hpp>
 #include <taut/repair/detail/fans.hpp>
+#include <taut/repair/detail/last_digit.hpp>
 #include <taut/repair/detail/places.hpp>
 #include <taut/repair/repair_surface.hpp>
 
@@ -133,7 +134,7 @@ private:
         if (params_.weld_tolerance > 0 && !cells_.empty())
         {
             const auto open = open_places(); // before place_ is moved away
-            place_ = near_places(points_, params_.bodies, std::move(place_), open, params_.weld_tolerance);
+            place_ = near_places(points_, params_.bodies, std::move(place_), open, reach(), params_.weld_tolerance);
             const auto more = place_triangles();
             flat.insert(flat.end(), more.begin(), more.end());
             std::sort(flat.begin(), flat.end());
@@ -195,6 +196,21 @@ private:
                 for (const idx a : placed_triangles::ends(static_cast<idx>(s)))
                     open[u(place_[u(placed_->vertex(a))])] = 1;
         return ones_of(open);
+    }
+
+    /// How far each place may be from one that it joins: so that no two corners of a triangle meet.
+    std::vector<double> reach() const
+    {
+        std::vector<double> result(points_.size(), params_.weld_tolerance);
+        for (const idx c : cells_)
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+                const idx a = place_[u(input(c)[k])], b = place_[u(input(c)[(k + 1) % 3])];
+                const vec3 edge = points_[u(b)] - points_[u(a)];
+                const double most = 0.49 * std::hypot(edge.x, edge.y, edge.z);
+                for (const idx v : {a, b}) result[u(v)] = std::min(result[u(v)], most);
+            }
+        return result;
     }
 
     void leave_out_copies()
@@ -296,7 +312,10 @@ private:
         welded.erase(std::unique(welded.begin(), welded.end()), welded.end());
         std::vector<idx> ids;
         for (const auto& [o, v] : welded) ids.insert(ids.end(), {o, v});
+        const bool apart = std::any_of(welded.begin(), welded.end(),
+                                       [this](const auto& w) { return points_[u(w.first)] != points_[u(w.second)]; });
         note(repair_kind::coincident_vertex, std::move(ids));
+        if (apart) findings_.back().action += ", being within " + short_number(params_.weld_tolerance);
         if (!welded.empty() && unsewn_ > 0)
             findings_.back().action +=
                 "; " + counted(unsewn_, "edge", "edges") + " left open where three or more triangles would meet";
@@ -364,8 +383,42 @@ private:
 
 } // namespace detail
 
+double usual_weld_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
+{
+    const auto used = detail::named_points(points, triangles);
+    if (used.empty()) return 0;
+    const double quarter = detail::quarter_of_size(used);
+    const double usual = std::max(4e-7 * quarter, std::min(8 * detail::last_digit(used), 4e-3 * quarter));
+    return std::isfinite(usual) ? usual : 0;
+}
+
+std::size_t count_near_edges(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
+                             double weld_tolerance, std::span<const idx> bodies)
+{
+    if (triangles.empty()) return 0;
+    try
+    {
+        const auto r = repair_surface(points, triangles, {.weld_tolerance = weld_tolerance, .bodies = bodies});
+        const auto open = [](const mesh<triangle>& m)
+        {
+            const auto f = facets(m);
+            return static_cast<std::size_t>(std::count(f.twin.begin(), f.twin.end(), facet_table::boundary));
+        };
+        const auto welded = [](const repair_finding& f) { return f.kind == repair_kind::coincident_vertex; };
+        if (std::none_of(r.findings.begin(), r.findings.end(), welded)) return 0;
+        const std::size_t before =
+            open(mesh<triangle>({points.begin(), points.end()}, {triangles.begin(), triangles.end()}));
+        const std::size_t after = open(r.surface);
+        return before > after ? before - after : 0;
+    }
+    catch (const repair_error&)
+    {
+        return 0;
+    }
+}
+
 repaired_surface repair_surface(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
-                                            const repair_params& params)
+                                const repair_params& params)
 {
     params.validate(points.size(), triangles.size());
     return detail::surface_repair(points, triangles, params)();

@@ -356,7 +356,7 @@ inline std::vector<flat_side> flat_sides(const untangle_problem<tetrahedron>& p)
 /// Looks for an edge of these tetrahedra, both of its ends free, that has no direction in which what lies around it,
 /// seen from a flat side of the outline, can be positive.
 inline void judge_edges(const untangle_problem<tetrahedron>& p, std::span<const idx> cells,
-                 const std::function<bool()>& proceed, infeasibility& found)
+                        const std::function<bool()>& proceed, infeasibility& found)
 {
     constexpr int cases = 500;
     const auto sides = flat_sides(p);

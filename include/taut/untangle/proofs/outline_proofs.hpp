@@ -22,7 +22,7 @@ namespace taut::detail
 
 /// The outline of a patch as edges in the order of its loops.
 inline std::vector<std::array<idx, 2>> outline_edges(const mesh<triangle>& m, const facet_table& cut,
-                                              const pinned_patch& patch)
+                                                     const pinned_patch& patch)
 {
     std::vector<std::array<idx, 2>> edges;
     std::vector<idx> left = patch.outline; // ascending; a side that is taken becomes negative

@@ -87,7 +87,7 @@ struct negative_winding
 /// Looks for such a point: to the right of both edges at each crossing, where the winding number is least, and right of
 /// each edge that overlaps another one. What is found is exact; floating point only chooses where to look.
 inline std::optional<negative_winding> find_negative_winding(std::span<const std::array<idx, 2>> outline,
-                                                      std::span<const vec2> x)
+                                                             std::span<const vec2> x)
 {
     std::optional<negative_winding> found;
     // A look costs an edge each; what costs more in all is not worth finding.

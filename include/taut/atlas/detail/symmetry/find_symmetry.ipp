@@ -202,8 +202,7 @@ private:
 
 } // namespace detail
 
-std::string symmetry_error::message(const vec3& normal, double offset, const std::vector<idx>& vertices,
-                                                bool edges)
+std::string symmetry_error::message(const vec3& normal, double offset, const std::vector<idx>& vertices, bool edges)
 {
     const auto text = [](double x)
     {
@@ -218,7 +217,7 @@ std::string symmetry_error::message(const vec3& normal, double offset, const std
 }
 
 mirror_symmetry find_symmetry(const mesh<triangle>& m, const facet_table& f, std::span<const char> together,
-                                          double tolerance)
+                              double tolerance)
 {
     return detail::symmetry_search(m, f, together, tolerance).run();
 }

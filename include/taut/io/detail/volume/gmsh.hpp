@@ -133,7 +133,7 @@ private:
             {
                 in_.go_to(word.data());
                 in_.fail("the name of a section has " + std::to_string(name.size()) +
-                         " letters; no section of gmsh has");
+                         " letters; no section of gmsh has, the file is damaged, save it again");
             }
             const auto begin = static_cast<std::size_t>(in_.position() - in_.start());
             // Those of version 1 are $NOD to $ENDNOD, $ELM to $ENDELM.
@@ -158,14 +158,19 @@ private:
             go_to("NOD");
             in_.fail("version 1 of the format is not read; save as 2.2 or 4.1 (gmsh -format msh41)");
         }
-        if (!has("MeshFormat")) in_.fail("not a gmsh mesh of version 2 or 4: there is no $MeshFormat");
+        if (!has("MeshFormat"))
+            in_.fail("not a gmsh mesh of version 2 or 4: there is no $MeshFormat; save it with gmsh as 2.2 or 4.1");
         go_to("MeshFormat");
         const double version = in_.number();
         const long long binary = in_.integer("the type of the file"), size = in_.integer("the size of data");
         version_4_ = version == 4.1;
         if (!version_4_ && !(version >= 2 && version < 3))
-            in_.fail("this version of the format is not read; save as 2.2 or 4.1 (gmsh -format msh41)");
-        if (size != 8) in_.fail("numbers of " + std::to_string(size) + " bytes; gmsh writes 8");
+        {
+            go_to("MeshFormat");
+            in_.fail("version " + std::string(in_.word().substr(0, 40)) +
+                     " of the format is not read; save as 2.2 or 4.1 (gmsh -format msh41)");
+        }
+        if (size != 8) in_.fail("numbers of " + std::to_string(size) + " bytes; gmsh writes 8, save it so");
         if (binary == 0) return in_.require_text();
         encoding_.text = false;
         in_.next_line();
@@ -176,7 +181,8 @@ private:
                 encoding_.order = order;
                 return;
             }
-        in_.fail("the binary number 1 that tells the order of bytes is not there");
+        in_.fail(
+            "the binary number 1 that tells the order of bytes is not there; the file may be damaged, save it again");
     }
 
     void read_names()

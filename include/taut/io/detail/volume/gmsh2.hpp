@@ -74,7 +74,8 @@ private:
             const long long run = text ? 1 : from_.integer(integer, "the number of elements of this type");
             const long long tags = from_.integer(integer, "the number of tags");
             if (run < 1 || tags < 0 || run > static_cast<long long>(n - e))
-                from_.fail("a run of " + std::to_string(run) + " elements with " + std::to_string(tags) + " tags");
+                from_.fail("a run of " + std::to_string(run) + " elements with " + std::to_string(tags) +
+                           " tags; the file is damaged, save it again");
             for (long long k = 0; k < run; ++k, ++e)
             {
                 if (!text) from_.integer(integer, "the number of an element");

@@ -140,7 +140,8 @@ public:
         if (n < 0 || n > std::numeric_limits<idx>::max())
             fail(std::string(what) + " is " + std::to_string(n) + "; it must not be negative and fit 32 bits");
         if (static_cast<std::size_t>(n) > (in_->remaining() + 1) / bytes_each)
-            fail(std::string(what) + " is " + std::to_string(n) + ", more than the rest of the file can hold");
+            fail(std::string(what) + " is " + std::to_string(n) +
+                 ", more than the rest of the file can hold; correct it, or get the file whole");
         return static_cast<std::size_t>(n);
     }
 

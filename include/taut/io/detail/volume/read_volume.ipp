@@ -40,6 +40,11 @@ inline void read_gmsh(volume_file& file)
 inline void read_volume_bytes(volume_file& file, volume_format format)
 {
     file.format = name_of(format);
+    if (file.zone < 0) throw parameter_error("zone", std::to_string(file.zone) + "; they count from 1, 0 is none");
+    if (file.zone > 0 && format != volume_format::su2)
+        throw io_error(file.path, "has no zones, which are of SU2 files; leave out --zone");
+    if (file.bytes.empty() && format != volume_format::automatic)
+        throw io_error(file.path, "the file is empty; save the mesh again");
     refuse_utf16(file.bytes, file.path);
     switch (format)
     {
@@ -69,11 +74,12 @@ inline void read_volume_bytes(volume_file& file, volume_format format)
 
 } // namespace detail
 
-volume_file read_volume_file(const std::filesystem::path& path, volume_format format)
+volume_file read_volume_file(const std::filesystem::path& path, volume_format format, int zone)
 {
     if (format == volume_format::automatic) format = detail::volume_format_of_name(path);
     volume_file file;
     file.path = path.string();
+    file.zone = zone;
     if (format == volume_format::tetgen)
     {
         const auto beside = [&](const char* extension)
@@ -94,17 +100,17 @@ mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format f
     return tetrahedra_of(read_volume_file(path, format));
 }
 
-volume_file parse_volume(std::string bytes, volume_format format, const std::string& name)
+volume_file parse_volume(std::string bytes, volume_format format, const std::string& name, int zone)
 {
     volume_file file;
     file.path = name;
+    file.zone = zone;
     file.bytes = std::move(bytes);
     detail::read_volume_bytes(file, format);
     return file;
 }
 
-volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces,
-                                          const std::string& name)
+volume_file parse_tetgen(std::string nodes, std::string elements, std::string faces, const std::string& name)
 {
     volume_file file;
     file.path = name;

@@ -75,7 +75,7 @@ private:
     static long long optional(number_source& from)
     {
         const long long n = from.in().content_ends() ? 0 : from.integer(integer, "a count");
-        if (n < 0) from.fail("a negative count");
+        if (n < 0) from.fail("a negative count; count from 0");
         return n;
     }
 
@@ -83,7 +83,7 @@ private:
     static long long marker(number_source& from)
     {
         const double x = from.real(number_type::float64);
-        if (x != std::floor(x) || std::abs(x) > 1e15) from.fail("a boundary marker that is no whole number");
+        if (x != std::floor(x) || std::abs(x) > 1e15) from.fail("a boundary marker that is no whole number; write one");
         return static_cast<long long>(x);
     }
 

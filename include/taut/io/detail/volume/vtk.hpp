@@ -29,7 +29,10 @@ public:
         while (read_part())
         {
         }
-        if (to_.file().points.empty()) in_.fail("no POINTS; a mesh needs some");
+        if (to_.file().points.empty())
+            in_.fail(unread_.empty() ? "no POINTS; a mesh needs some"
+                                     : "no POINTS before '" + unread_ +
+                                           "', a type of values that is not known; save the mesh without them");
         if (cells_first_) check_corners();
         cells_.move_to(to_, from_);
         for (const auto& a : attributes_) add_attribute_groups(to_.file(), a);
@@ -41,7 +44,8 @@ private:
     void read_header()
     {
         if (in_.rest_of_line().substr(0, 22) != "# vtk DataFile Version")
-            in_.fail("not a VTK file: it does not start with '# vtk DataFile Version'");
+            in_.fail("not a VTK file: it does not start with '# vtk DataFile Version'; name it after the format that "
+                     "it has");
         in_.next_line();
         in_.next_line(); // the title
         in_.skip_space();
@@ -53,7 +57,8 @@ private:
         if (encoding_.text) in_.require_text();
         in_.skip_space();
         if (!same_letters(in_.word(), "DATASET") || !same_letters(in_.word(), "UNSTRUCTURED_GRID"))
-            in_.fail("no DATASET UNSTRUCTURED_GRID; other data sets hold no volume mesh that could be moved");
+            in_.fail("no DATASET UNSTRUCTURED_GRID; save the mesh as one, other data sets hold no cells that could be "
+                     "moved");
     }
 
     /// False at the end of what can be read.
@@ -133,7 +138,7 @@ private:
     {
         const std::string_view name = in_.word();
         if (const auto type = type_of(name)) return *type;
-        in_.fail("unknown type '" + std::string(name.substr(0, 40)) + "'");
+        in_.fail("unknown type '" + std::string(name.substr(0, 40)) + "'; save the values as int, float or double");
     }
 
     void read_points()
@@ -181,7 +186,7 @@ private:
             const long long corners = from_.integer(number_type::int32, "the number of corners");
             if (corners < 0 || corners > 8)
                 from_.fail("cell " + std::to_string(c) + " has " + std::to_string(corners) +
-                           " corners; cells of more than 8 are not read");
+                           " corners; cells of more than 8 are not read, split them");
             for (long long k = 0; k < corners; ++k) cells_.corners.push_back(read_corner(number_type::int32));
             cells_.ends.push_back(static_cast<long long>(cells_.corners.size()));
         }
@@ -247,6 +252,38 @@ private:
             in_.bytes(n * size_of(type));
     }
 
+    /// Passes over values that are no numbers, or bits; false if their type is not known.
+    bool pass_over(std::string_view type, std::size_t count)
+    {
+        const bool bits = same_letters(type, "bit"), variants = same_letters(type, "variant");
+        if (!bits && !variants && !same_letters(type, "string") && !same_letters(type, "utf8_string")) return false;
+        in_.next_line();
+        if (bits && !encoding_.text)
+        {
+            in_.bytes(count / 8 + (count % 8 != 0 ? 1 : 0));
+            return true;
+        }
+        from_.fitting(static_cast<long long>(count), "the number of values");
+        for (std::size_t i = 0; i < count; ++i)
+            if (bits)
+                from_.skip(), in_.word();
+            else if (variants || encoding_.text) // a line each; variants in binary files, too
+                in_.next_line();
+            else
+                pass_string();
+        return true;
+    }
+
+    /// A string of a binary file, behind its length: the first two bits say in how many bytes this is.
+    void pass_string()
+    {
+        static constexpr std::array<std::size_t, 4> more = {7, 3, 1, 0};
+        const auto first = static_cast<unsigned char>(in_.bytes(1)[0]);
+        std::size_t length = first % 64;
+        for (const char c : in_.bytes(more[first / 64])) length = 256 * length + static_cast<unsigned char>(c);
+        in_.bytes(length);
+    }
+
     bool read_field()
     {
         in_.word(); // its name
@@ -264,9 +301,10 @@ private:
             const std::size_t components = header_count("the number of components");
             const std::size_t tuples = header_count("the number of tuples");
             const std::string_view word = in_.word();
-            const auto type = type_of(word);
-            if (!type) return stop(word);
-            read_values(name, *type, components, tuples);
+            if (const auto type = type_of(word))
+                read_values(name, *type, components, tuples);
+            else if (!pass_over(word, components * tuples))
+                return stop(word);
         }
         return true;
     }
@@ -284,7 +322,8 @@ private:
         }
         const bool coordinates = key == "TEXTURE_COORDINATES";
         const std::size_t given = coordinates ? header_count("the number of components") : 1;
-        const auto type = type_of(in_.word());
+        const std::string_view word = in_.word();
+        const auto type = type_of(word);
         const std::size_t components = key == "SCALARS"                               ? scalar_components()
                                        : key == "GLOBAL_IDS" || key == "PEDIGREE_IDS" ? 1
                                        : key == "VECTORS" || key == "NORMALS"         ? 3
@@ -292,8 +331,11 @@ private:
                                        : key == "TENSORS6"                            ? 6
                                        : coordinates                                  ? given
                                                                                       : 0;
-        if (!type || components == 0) return stop(key);
-        read_values(name, *type, components, tuples_);
+        if (components == 0) return stop(key);
+        if (type)
+            read_values(name, *type, components, tuples_);
+        else if (!pass_over(word, components * tuples_))
+            return stop(word);
         return true;
     }
 
@@ -312,8 +354,8 @@ private:
 
     bool stop(std::string_view at)
     {
-        to_.file().notes.push_back("attributes from '" + std::string(at.substr(0, 40)) +
-                                   "' on were not read; groups in them are not known");
+        unread_ = at.substr(0, 40);
+        to_.file().notes.push_back("attributes from '" + unread_ + "' on were not read; groups in them are not known");
         return false;
     }
 
@@ -327,6 +369,7 @@ private:
     bool cells_first_ = false;
     std::optional<bool> of_cells_; ///< what attributes belong to; nothing before CELL_DATA and POINT_DATA
     std::size_t tuples_ = 0;
+    std::string unread_; ///< where reading stopped
 };
 
 } // namespace taut::io::detail

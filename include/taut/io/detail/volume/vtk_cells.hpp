@@ -58,7 +58,8 @@ struct vtk_cells
     void move_to(volume_builder& to, const number_source& from)
     {
         if (types.size() != ends.size())
-            from.fail(std::to_string(types.size()) + " cell types for " + std::to_string(ends.size()) + " cells");
+            from.fail(std::to_string(types.size()) + " cell types for " + std::to_string(ends.size()) +
+                      " cells; give one each");
         long long begin = 0;
         for (std::size_t c = 0; c < types.size(); ++c)
         {
@@ -67,7 +68,7 @@ struct vtk_cells
             if (end != needed || end > static_cast<long long>(corners.size()))
                 from.fail("cell " + std::to_string(c) + ", a " + shape_of(kind).name + ", ends at corner " +
                           std::to_string(end) + " instead of " + std::to_string(needed) + " of " +
-                          std::to_string(corners.size()));
+                          std::to_string(corners.size()) + "; correct its type or its corners");
             const auto cell =
                 std::span(corners).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
             if (types[c] == vtk_pixel || types[c] == vtk_voxel)

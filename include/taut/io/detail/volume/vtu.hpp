@@ -81,13 +81,15 @@ private:
             else if (std::find(sections.begin(), sections.end(), tag->name) != sections.end())
                 section = tag->name;
         }
-        if (!known) throw io_error(to_name(), "not a VTU file: there is no <VTKFile>");
+        if (!known)
+            throw io_error(to_name(), "not a VTU file: there is no <VTKFile>; name it after the format that it has");
     }
 
     void read_kind(const xml_tag& tag)
     {
         if (tag.attribute_or("type", "") != "UnstructuredGrid")
-            fail(tag, "not an UnstructuredGrid; other data sets hold no volume mesh that could be moved");
+            fail(tag,
+                 "not an UnstructuredGrid; save the mesh as one, other data sets hold no cells that could be moved");
         binary_.text = false;
         binary_.order =
             one_of(tag, "byte_order", "LittleEndian", "BigEndian") == 1 ? std::endian::big : std::endian::little;
@@ -121,7 +123,7 @@ private:
         const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), n);
         if (failure != std::errc{} || end != text.data() + text.size() ||
             n > (packed_ != nullptr ? allowed() : bytes_.size()))
-            fail(tag, "no " + std::string(key) + " that the file could hold");
+            fail(tag, "no " + std::string(key) + " that the file could hold; correct it, or get the file whole");
         return n;
     }
 
@@ -129,11 +131,11 @@ private:
     {
         encoding_ = tag.attribute_or("encoding", "base64");
         const auto mark = bytes_.find('_', tag.end);
-        if (mark == bytes_.npos) fail(tag, "appended data do not start with _");
+        if (mark == bytes_.npos) fail(tag, "appended data do not start with _; save the mesh again");
         appended_ = mark + 1;
     }
 
-    number_type type_of(const array& a) const
+    static std::optional<number_type> known_type_of(const array& a)
     {
         static constexpr std::array<std::pair<std::string_view, number_type>, 10> types = {{
             {"Int8", number_type::int8},
@@ -149,7 +151,13 @@ private:
         }};
         for (const auto& [word, type] : types)
             if (word == a.tag.attribute_or("type", "")) return type;
-        fail(a.tag, "an array without a known type");
+        return std::nullopt;
+    }
+
+    number_type type_of(const array& a) const
+    {
+        if (const auto type = known_type_of(a)) return *type;
+        fail(a.tag, "an array without a known type; it must be Int8 to UInt64, Float32 or Float64");
     }
 
     static std::string_view format_of(const array& a) { return a.tag.attribute_or("format", "ascii"); }
@@ -190,7 +198,9 @@ private:
     std::size_t appended_at(const array& a) const
     {
         const std::size_t begin = appended_ + number(a.tag, "offset");
-        if (begin > bytes_.size()) fail(a.tag, name_of(a) + ": an offset behind the end of the file");
+        if (begin > bytes_.size())
+            fail(a.tag,
+                 name_of(a) + ": an offset behind the end of the file; it is cut off or damaged, get or save it again");
         return begin;
     }
 
@@ -284,9 +294,10 @@ private:
         const std::size_t each = size_of(type);
         const auto complaint = [&](std::size_t size)
         {
-            return n && size / each != *n ? std::to_string(size) + " bytes for " + std::to_string(*n) +
-                                                " integers of " + std::to_string(each)
-                                          : std::string();
+            return n && size / each != *n
+                       ? std::to_string(size) + " bytes for " + std::to_string(*n) + " integers of " +
+                             std::to_string(each) + "; correct the counts or the array"
+                       : std::string();
         };
         with_numbers(a, complaint,
                      [&](number_source& from, std::size_t size)
@@ -296,7 +307,8 @@ private:
                          for (from.skip(); from.text() ? !from.in().done() : found < held; from.skip(), ++found)
                              f(from.integer(type, "an integer"), from);
                          if (n && found != *n)
-                             from.fail(std::to_string(found) + " integers where there should be " + std::to_string(*n));
+                             from.fail(std::to_string(found) + " integers where there should be " + std::to_string(*n) +
+                                       "; correct the counts or the array");
                      });
     }
 
@@ -312,11 +324,13 @@ private:
         const array& a = find("Points", "");
         const number_type type = type_of(a);
         if (!is_real(type)) fail(a.tag, "points of integers cannot be moved; save them as Float32 or Float64");
-        if (a.tag.attribute_or("NumberOfComponents", "3") != "3") fail(a.tag, "points need three components");
+        if (a.tag.attribute_or("NumberOfComponents", "3") != "3")
+            fail(a.tag, "points need three components; give z = 0 in the plane");
         const auto complaint = [&](std::size_t size)
         {
             return size != 3 * size_of(type) * points_
-                       ? std::to_string(size) + " bytes for " + std::to_string(points_) + " points"
+                       ? std::to_string(size) + " bytes for " + std::to_string(points_) +
+                             " points; correct the counts or the array"
                        : std::string();
         };
         with_numbers(a, complaint,
@@ -388,7 +402,9 @@ private:
 
     void read_attribute(const array& a)
     {
-        const number_type type = type_of(a);
+        const auto known = known_type_of(a);
+        if (!known) return; // bits and strings
+        const number_type type = *known;
         if (is_real(type) || a.tag.attribute_or("NumberOfComponents", "1") != "1") return;
         volume_label attribute{std::string(a.tag.attribute_or("Name", "")), a.section == "CellData", {}};
         const std::size_t count = attribute.of_cells ? cells_ : points_;

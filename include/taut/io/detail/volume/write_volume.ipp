@@ -167,7 +167,7 @@ std::string with_points(const volume_file& file, std::span<const vec3> points)
 }
 
 std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
-                                                           std::span<const vec3> points)
+                                          std::span<const vec3> points)
 {
     detail::require_storable(file, points);
     const auto format = detail::volume_format_of_name(path);
@@ -192,8 +192,7 @@ std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, con
     return result;
 }
 
-void write_volume(const std::filesystem::path& path, const volume_file& file,
-                                   std::span<const vec3> points)
+void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points)
 {
     write_files(volume_outputs(path, file, points));
 }

@@ -131,7 +131,7 @@ private:
 
 /// The ends of two edges of the boundary that meet, of those whose vertices all are held; none if no two do.
 inline std::vector<idx> held_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
-                             const std::vector<vec2>& x)
+                                    const std::vector<vec2>& x)
 {
     const auto& marks = run.held.marks();
     std::vector<idx> ends;

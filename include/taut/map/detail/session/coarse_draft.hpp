@@ -75,8 +75,8 @@ inline std::vector<mat3> vertex_gradients(const mesh<tetrahedron>& m, const std:
 /// its vertices, smooth in between, and the shape is the one whose gradients are nearest to them. Held coordinates have
 /// the places `to`.
 inline std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
-                             const coarser_volume& coarse, const std::vector<vec3>& x, const held_marks<3>& held,
-                             const std::vector<vec3>& to)
+                                    const coarser_volume& coarse, const std::vector<vec3>& x, const held_marks<3>& held,
+                                    const std::vector<vec3>& to)
 {
     const auto at = [](idx v) { return static_cast<std::size_t>(v); };
     const auto gradients = vertex_gradients(coarse.volume, x);

@@ -29,8 +29,8 @@ namespace taut::detail
 /// 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns change fast.
 /// from: the shape at hand, no element inverted; to: the places, of which held coordinates are read.
 inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
-                               const held_paths<3>& paths, const held_marks<3>& marks, const std::vector<vec3>& from,
-                               const std::vector<vec3>& to)
+                                      const held_paths<3>& paths, const held_marks<3>& marks,
+                                      const std::vector<vec3>& from, const std::vector<vec3>& to)
 {
     std::vector<vec3> held, places;
     for (std::size_t v = 0; v < from.size(); ++v)
