@@ -101,7 +101,10 @@ public:
         catch (const mesh_error& e)
         {
             if (options_.repair || e.fault() == mesh_fault::empty || e.fault() == mesh_fault::too_large) throw;
-            throw mesh_error(e.fault(), e.ids(), std::string(e.what()) + "; or let --repair mend it");
+            std::string more = "; or let --repair mend it";
+            for (const auto& s : sources_)
+                if (!s->near_edges.empty()) more += "; " + s->near_edges;
+            throw mesh_error(e.fault(), e.ids(), e.what() + more);
         }
         write();
         return report_.code;
@@ -124,6 +127,7 @@ private:
             told.mapped = s.surface().cell_count();
             told.repairs.assign(s.repairs().begin(), s.repairs().end());
             report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());
+            if (!s.near_edges.empty()) report_.notes.push_back(s.near_edges);
             if (!s.texcoord_fault.empty() && (options_.keep_charts || options_.keep_seams || !options_.pinned.empty()))
                 throw unsuitable_input(s.texcoord_fault +
                                        "; correct it, or leave out --charts keep, --keep-seams and --pin");

@@ -45,7 +45,7 @@ exit_code evaluate(const eval_options& options)
     refuse("MAP", !options.map.empty());
     refuse("--picture", !options.picture.empty());
     refuse("--cut", !options.cut.empty());
-    refuse("--zone", options.zone > 0);
+    if (options.zone > 0) throw usage_error("--zone is of SU2 files; leave it out");
     const auto file = io::read_surface_file(options.input, options.format);
     if (!file.texcoord_fault.empty())
         throw unsuitable_input(file.texcoord_fault + "; correct it, or let `taut unwrap` make others");

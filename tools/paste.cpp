@@ -300,6 +300,9 @@ private:
         if (const double taken = paste_->pose().softness; taken != options_.pose.softness)
             lines.add("note", "softness " + number(taken, 3) + " instead of " + number(options_.pose.softness, 3) +
                                   ", at which the seam would fold, or which finds no map");
+        for (const auto& [file, path] :
+             {std::pair(&*source_, &options_.source), std::pair(&*target_, &options_.target)})
+            for (const auto& note : file->notes) lines.add("note", *path + ": " + note);
         for (const auto& note : notes_of(quality_, meeting_)) lines.add("note", note);
         lines.add("time", duration(clock_.now()) + ": read " + duration(read_seconds_) + ", device " +
                               duration(device_seconds_) + ", paste " + duration(paste_seconds_));

@@ -86,6 +86,7 @@ exit_code shell_run::operator()()
     solve_ = clock_.timed([&] { found = deform(q, shell, wanted); });
     take(*found, rest, pins);
     if (points_.empty()) refuse();
+    run_.notes.insert(run_.notes.begin(), file.notes.begin(), file.notes.end());
     if (pins_ + springs_ == 0) run_.notes.emplace_back(nothing_held);
     write(file, rest);
     return code_;

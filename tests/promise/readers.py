@@ -170,14 +170,15 @@ def unused_in_any_format(run):
     run.write("in.gltf", json.dumps(document))
     for more in ((), ("--repair",)):
         stats = run.stats("atlas", "in.gltf", "-o", "out.glb", *more)
-        assert stats["surfaces"][0]["mapped"] == len(FACES) if "mapped" in stats["surfaces"][0] else True
+        assert stats["surfaces"][0]["mapped"] == len(FACES)
 
     # paste: in the source and in the target
     for source, target in (("in.obj", "whole.obj"), ("whole.obj", "in.obj"), ("in.obj", "in.ply")):
         run.write("whole.obj", obj())
         middle = {name: next(i for i, p in enumerate(POINTS if name == "whole.obj" else points) if p[:2] == (3, 3)) for name in (source, target)}
-        run("paste", "--source", source, "--at", middle[source], "--radius", 1.5, "--target", target, "--onto", middle[target],
+        told = run("paste", "--source", source, "--at", middle[source], "--radius", 1.5, "--target", target, "--onto", middle[target],
             "--scale", 0.8, "-o", "pasted.obj")
+        assert words in told.stdout, told.stdout
 
 
 def last_digits(run):
@@ -205,17 +206,18 @@ def last_digits(run):
         return "solid a\n" + rows + "endsolid a\n"
 
     run.write("exact.stl", text(9, (337, 337, 337), 50, 0))
-    charts = len(run.stats("atlas", "exact.stl", "-o", "out.obj", "--repair")["charts"])
+    charts = run.stats("atlas", "exact.stl", "-o", "out.obj", "--repair")["charts"]
     for digits, centre, radius in ((6, (337, 337, 337), 50), (7, (0.01, 0.02, 0.03), 1), (8, (33, -20, 7), 5), (9, (455000, 4123000, 20), 50)):
         run.write("in.stl", text(digits, centre, radius, 1))
-        told = run("atlas", "in.stl", "-o", "out.obj")
-        assert f"{3 * len(cells)} open edges lie within" in told.stderr and "--weld" in told.stderr, told.stderr
+        told = run("atlas", "in.stl", "-o", "out.obj", code=(0, 4))  # those that are equal by chance may touch
+        edges = int(told.stderr.split(" open edges lie within")[0].split()[-1])
+        assert 0.8 * 3 * len(cells) < edges <= 3 * len(cells) and "--weld" in told.stderr, told.stderr
         stats = run.stats("atlas", "in.stl", "-o", "out.obj", "--repair")
-        assert abs(len(stats["charts"]) - charts) <= 4, (digits, len(stats["charts"]), charts)
+        assert abs(stats["charts"] - charts) <= 4, (digits, stats["charts"], charts)
         assert mapped(run.read("out.obj")) == len(cells)
         length = told.stderr.split("--weld ")[1].split()[0]
-        assert len(run.stats("atlas", "in.stl", "-o", "out.obj", "--weld", length)["charts"]) == len(stats["charts"])
-        assert len(run.stats("atlas", "in.stl", "-o", "out.obj", "--weld", 0)["charts"]) > len(cells) / 2
+        assert abs(run.stats("atlas", "in.stl", "-o", "out.obj", "--weld", length)["charts"] - charts) <= 4
+        assert run.stats("atlas", "in.stl", "-o", "out.obj", "--weld", 0)["charts"] > len(cells) / 2
         assert "welded" in run("check", "in.stl", code=(0, 4)).stdout
     run("atlas", "in.stl", "-o", "no.obj", "--weld", -1, code=2)
 

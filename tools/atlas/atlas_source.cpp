@@ -67,7 +67,7 @@ public:
             take(tools::repair(file_, options.weld));
         else
         {
-            add_note(describe_near_edges(file_.points, file_.triangles));
+            near_edges = describe_near_edges(file_.points, file_.triangles);
             take(mesh<triangle>(file_.points, file_.triangles));
         }
     }
@@ -181,7 +181,7 @@ public:
         }
         else
         {
-            add_note(describe_near_edges(model_.points, model_.triangles, bodies));
+            near_edges = describe_near_edges(model_.points, model_.triangles, bodies);
             take(mesh<triangle>(model_.points, model_.triangles));
         }
     }

@@ -67,6 +67,7 @@ public:
 
     idx file_vertices = 0, file_triangles = 0;
     std::vector<std::string> notes; ///< what was changed in reading, in sentences
+    std::string near_edges;         ///< how many open edges the usual repair would sew; empty: none, or it has
     std::string texcoord_fault; ///< why the texture coordinates of the file are none here; empty: they are as it says
 
 protected:
@@ -79,11 +80,6 @@ protected:
     vec2 to_obj(vec2 x) const { return x - origin_; }
     vec2 from_gltf(vec2 x) const { return {x.x, origin_.y + 1 - x.y}; }
     vec2 to_gltf(vec2 x) const { return {x.x, origin_.y + 1 - x.y}; }
-
-    void add_note(std::string note)
-    {
-        if (!note.empty()) notes.push_back(std::move(note));
-    }
 
     void take(mesh<triangle> whole) { whole_.emplace(std::move(whole)); }
     void take(repaired_surface repaired) { repaired_.emplace(std::move(repaired)); }

@@ -79,6 +79,9 @@ public:
         if (inflating_) inflateEnd(&in_);
         if (deflating_) deflateEnd(&out_);
 #endif
+#ifdef TAUT_WITH_LZMA
+        lzma_end(&packing_);
+#endif
     }
 
     /// Whether `from` is a stream of as many bytes as `to` has, which are then there.
@@ -213,7 +216,7 @@ private:
                written == to.size();
     }
 
-    static bool packed_lzma(std::string_view from, std::string& to)
+    bool packed_lzma(std::string_view from, std::string& to)
     {
         lzma_options_lzma options;
         if (lzma_lzma_preset(&options, LZMA_PRESET_DEFAULT) != 0) return false;
@@ -221,14 +224,19 @@ private:
         const auto wanted = static_cast<std::uint32_t>(std::min<std::size_t>(from.size(), options.dict_size));
         options.dict_size = std::max<std::uint32_t>(wanted, LZMA_DICT_SIZE_MIN);
         std::array<lzma_filter, 2> filters = {{{LZMA_FILTER_LZMA2, &options}, {LZMA_VLI_UNKNOWN, nullptr}}};
-        std::size_t written = 0;
+        // As a stream, which keeps its memory from block to block: a coder takes more than a megabyte.
+        if (lzma_stream_encoder(&packing_, filters.data(), LZMA_CHECK_CRC32) != LZMA_OK) return false;
         to.resize(lzma_stream_buffer_bound(from.size()));
-        if (lzma_stream_buffer_encode(filters.data(), LZMA_CHECK_CRC32, nullptr, octets(from.data()), from.size(),
-                                      octets(to.data()), &written, to.size()) != LZMA_OK)
-            return false;
-        to.resize(written);
-        return true;
+        packing_.next_in = octets(from.data());
+        packing_.avail_in = from.size();
+        packing_.next_out = octets(to.data());
+        packing_.avail_out = to.size();
+        const bool done = lzma_code(&packing_, LZMA_FINISH) == LZMA_STREAM_END;
+        to.resize(to.size() - packing_.avail_out);
+        return done;
     }
+
+    lzma_stream packing_ = LZMA_STREAM_INIT;
 #endif
 
     compressor kind_;
