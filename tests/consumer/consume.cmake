@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# cmake -DMODE=install|subdirectory -DROOT=... -DBUILD=... -P consume.cmake
-# Builds and runs a user's project against a taut that was installed without building anything, or with taut as a
-# subdirectory.
+# cmake -DMODE=install|subdirectory|fetch|plain|forgotten -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
+# Builds and runs a user's project: against a taut that was installed without building anything, with taut as a
+# subdirectory or fetched, by a compiler alone; forgotten: without TAUT_IMPLEMENTATION, which the linker tells.
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
     if(result)
@@ -10,14 +10,32 @@ function(run)
 endfunction()
 
 file(REMOVE_RECURSE ${BUILD})
+file(MAKE_DIRECTORY ${BUILD})
 set(app ${ROOT}/tests/consumer/app)
-if(MODE STREQUAL "install")
+set(compile ${CXX} -std=c++20 -O0 -I${ROOT}/include)
+if(MODE STREQUAL "plain")
+    run(${compile} ${app}/one.cpp ${app}/two.cpp ${app}/bodies.cpp -lOpenCL -lpthread -o ${BUILD}/app)
+    run(${compile} ${app}/single.cpp -lOpenCL -lpthread -o ${BUILD}/app_single)
+    run(${BUILD}/app)
+    run(${BUILD}/app_single)
+    return()
+elseif(MODE STREQUAL "forgotten")
+    execute_process(COMMAND ${compile} ${app}/one.cpp ${app}/two.cpp -lOpenCL -lpthread -o ${BUILD}/app
+                    RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
+    if(NOT result OR NOT out MATCHES "undefined reference to `taut::devices\\(taut::device_requirements const&\\)'")
+        message(FATAL_ERROR "not the error that the documents name:\n${out}")
+    endif()
+    return()
+elseif(MODE STREQUAL "install")
     run(${CMAKE_COMMAND} -S ${ROOT} -B ${BUILD}/taut -DTAUT_TESTS=OFF)
     run(${CMAKE_COMMAND} --install ${BUILD}/taut --prefix ${BUILD}/prefix)
     run(${CMAKE_COMMAND} -S ${app} -B ${BUILD}/app -DCMAKE_PREFIX_PATH=${BUILD}/prefix)
+elseif(MODE STREQUAL "fetch")
+    run(${CMAKE_COMMAND} -S ${app} -B ${BUILD}/app -DTAUT_SOURCE=${ROOT} -DFETCH=ON)
 else()
     run(${CMAKE_COMMAND} -S ${app} -B ${BUILD}/app -DTAUT_SOURCE=${ROOT})
 endif()
 run(${CMAKE_COMMAND} --build ${BUILD}/app)
 run(${BUILD}/app/app)
-run(${BUILD}/app/app_compiled)
+run(${BUILD}/app/app_own_bodies)
+run(${BUILD}/app/app_single)

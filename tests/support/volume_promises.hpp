@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/io/detail/volume/numbers.hpp>
 #include <taut/io/write_volume.hpp>
 
 namespace taut::test

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+
+#include <taut/io/io_error.hpp>
 #include <taut/io/surface_file.hpp>
 
 namespace taut::io

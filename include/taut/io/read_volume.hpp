@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include <taut/io/io_error.hpp>
 #include <taut/io/volume_file.hpp>
 
 namespace taut::io

@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include <taut/core/detail/crew.hpp>
 #include <taut/core/parallel.hpp>
 
 using taut::parallel_for;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 #include <taut/io/read_volume.hpp>
+#include <taut/io/write_volume.hpp>
 
 #include "support/volume_texts.hpp"
 
@@ -35,6 +36,16 @@ TEST_CASE("MEDIT: a line may hold anything, the vertices come anywhere, unknown 
     CHECK(file.places.single);
     CHECK(io::tetrahedra_of(file).cell_count() == 1);
     CHECK(file.find_group("required_vertices").vertices == std::vector<idx>{3});
+}
+
+TEST_CASE("MEDIT: a coordinate with the exponent of Fortran is replaced whole")
+{
+    const auto file = read_medit("MeshVersionFormatted 2 Dimension 3\nVertices 4\n0 0 0 0\n1D+1 0 0 0\n0 1.5d1 0 0\n"
+                                 "0 0 20D-1 0\nTetrahedra 1\n1 2 3 4 0\nEnd\n");
+    CHECK(file.points[1].x == 10);
+    auto points = file.points;
+    for (auto& p : points) p *= 0.5;
+    CHECK(read_medit(io::with_points(file, points)).points == points);
 }
 
 TEST_CASE("MEDIT: errors tell the line")

@@ -12,6 +12,9 @@
 namespace taut::detail
 {
 
+/// As many as $TAUT_THREADS says, or as the machine runs at once.
+unsigned threads_at_once();
+
 /// The threads that help callers of parallel_for, kept between calls: starting one costs as much as a small piece of
 /// work. They look for work for a moment before they sleep, and give way to whoever wants their core.
 class crew

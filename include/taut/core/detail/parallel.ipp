@@ -16,7 +16,6 @@
 namespace taut::detail
 {
 
-/// As many as $TAUT_THREADS says, or as the machine runs at once.
 unsigned threads_at_once()
 {
     unsigned wished = 0;

@@ -168,14 +168,14 @@ private:
 
 } // namespace detail
 
-inline bool is_gltf(const std::filesystem::path& path)
+bool is_gltf(const std::filesystem::path& path)
 {
     std::string extension = path.extension().string();
     for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
     return extension == ".gltf" || extension == ".glb";
 }
 
-inline gltf_model parse_gltf(std::string_view bytes, const std::string& path, int texcoord_set)
+gltf_model parse_gltf(std::string_view bytes, const std::string& path, int texcoord_set)
 {
     gltf_model model{};
     model.source = detail::gltf_source_of(bytes, path);
@@ -183,7 +183,7 @@ inline gltf_model parse_gltf(std::string_view bytes, const std::string& path, in
     return model;
 }
 
-inline gltf_model read_gltf(const std::filesystem::path& path, int texcoord_set)
+gltf_model read_gltf(const std::filesystem::path& path, int texcoord_set)
 {
     return parse_gltf(read_file(path), path.string(), texcoord_set);
 }

@@ -199,14 +199,14 @@ inline file_to_write file_of(const std::filesystem::path& path, std::string byte
 
 } // namespace detail
 
-inline vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers)
+vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers)
 {
     if (numbers == gltf_numbers::floats) return {in_single(uv.x), in_single(uv.y)};
     const auto fraction = [](double x) { return std::round(std::clamp(x, 0.0, 1.0) * 65535) / 65535; };
     return {fraction(uv.x), fraction(uv.y)};
 }
 
-inline std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path& path, const gltf_source& source)
+std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path& path, const gltf_source& source)
 {
     if (!is_gltf(path))
         throw parameter_error("path", path.string() + ": glTF is written to .glb and .gltf; name it so");
@@ -224,12 +224,12 @@ inline std::optional<std::filesystem::path> gltf_data_file(const std::filesystem
     return data;
 }
 
-inline std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& path)
+std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& path)
 {
     return detail::places_of_buffers(path).files;
 }
 
-inline std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
+std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
                                              std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set,
                                              gltf_numbers numbers)
 {
@@ -252,13 +252,13 @@ inline std::vector<file_to_write> gltf_files(const std::filesystem::path& path, 
     return files;
 }
 
-inline void write_gltf(const std::filesystem::path& path, const gltf_model& model,
+void write_gltf(const std::filesystem::path& path, const gltf_model& model,
                        std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set, gltf_numbers numbers)
 {
     write_files(gltf_files(path, model, corner_uv, texcoord_set, numbers));
 }
 
-inline gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
+gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
 {
     if (points.empty() || triangles.empty()) throw mesh_error(mesh_fault::empty, {}, "there are no triangles");
     gltf_model model{};

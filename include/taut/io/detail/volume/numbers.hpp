@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -10,9 +11,18 @@
 
 #include <taut/io/detail/byte_order.hpp>
 #include <taut/io/detail/scanner.hpp>
+#include <taut/io/volume_file.hpp>
 
 namespace taut::io::detail
 {
+
+/// The bytes that the file has for the coordinate at an offset.
+inline std::size_t length_at(const volume_file& file, std::size_t offset)
+{
+    if (!file.places.text) return file.places.single ? sizeof(float) : sizeof(double);
+    const auto end = file.bytes.find_first_not_of("+-.0123456789eEdD", offset);
+    return std::min(end, file.bytes.size()) - offset;
+}
 
 enum class number_type
 {

@@ -21,6 +21,7 @@
 #include <taut/core/single.hpp>
 #include <taut/io/detail/byte_order.hpp>
 #include <taut/io/detail/volume/formats.hpp>
+#include <taut/io/detail/volume/numbers.hpp>
 #include <taut/io/io_error.hpp>
 #include <taut/io/write_volume.hpp>
 
@@ -56,14 +57,6 @@ inline void require_storable(const volume_file& file, std::span<const vec3> poin
             throw parameter_error("points", "point " + std::to_string(v) +
                                                 " has left the plane, and the file has two coordinates a point");
     }
-}
-
-/// The bytes that the file has for the coordinate at an offset.
-inline std::size_t length_at(const volume_file& file, std::size_t offset)
-{
-    if (!file.places.text) return file.places.single ? sizeof(float) : sizeof(double);
-    const auto end = file.bytes.find_first_not_of("+-.0123456789eE", offset);
-    return std::min(end, file.bytes.size()) - offset;
 }
 
 inline void append_coordinate(std::string& text, const coordinate_places& places, double x)
