@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+# A case of run.sh.
+
+# A closed fan of 12 triangles whose vt wind twice around vertex 0.
+wound_fan()
+{
+    awk 'BEGIN {
+        turn = 8 * atan2(1, 1); n = 12
+        print "v 0 0 0\nvt 0 0"
+        for (k = 0; k < n; ++k) printf "v %.17g %.17g 0.1\n", cos(turn * k / n), sin(turn * k / n)
+        for (k = 0; k < n; ++k) printf "vt %.17g %.17g\n", cos(2 * turn * k / n + 0.1), sin(2 * turn * k / n + 0.1)
+        for (k = 0; k < n; ++k) printf "f 1/1 %d/%d %d/%d\n", k + 2, k + 2, (k + 1) % n + 2, (k + 1) % n + 2
+    }'
+}
+
+# wound_problem FIXED: the same as a problem whose first FIXED vertices are fixed.
+wound_problem()
+{
+    awk -v fixed="$1" 'BEGIN {
+        turn = 8 * atan2(1, 1); n = 12
+        for (lap = 1; lap <= 2; ++lap) {
+            print n + 1, 2
+            print "0 0"
+            for (k = 0; k < n; ++k) printf "%.17g %.17g\n", cos(lap * turn * k / n + 0.1), sin(lap * turn * k / n + 0.1)
+        }
+        print n, 3
+        for (k = 0; k < n; ++k) print 0, k + 1, (k + 1) % n + 1
+        print fixed
+        for (k = 0; k < fixed; ++k) print k
+    }'
+}
+
+test_eval()
+{
+    grid 6 flat >flat.obj
+    expect 0 eval flat.obj
+    says out '49 vertices, 72 triangles' '^flipped +0 of 72' '0 crossings' '^isometric +[0-9.]+ +[0-9.]+ +4$' \
+        'stretch L2' 'stretch Linf' '^area ' '^angular '
+    silent err
+    grid 6 mirrored >mirrored.obj
+    expect 0 eval mirrored.obj
+    says out '^flipped +72 of 72'
+    says err 'mirrored as a whole'
+    grid 6 folded >folded.obj
+    expect 0 eval folded.obj --json
+    cp out folded.json
+    keys folded.json schema vertices faces flipped min_det quality.isometric.by_area quality.boundary_crossings
+    says values '^flipped=12$' '^quality.boundary_crossings=[1-9]'
+    says folded.json '"by_area": null' # an energy beyond its barrier is infinite; JSON has no word for that
+
+    # The plane as its own map is an isometry.
+    printf 'v 0 0 0\nv 2 0 0\nv 0 3 0\nv 2 3 0\nvt 0 0\nvt 2 0\nvt 0 3\nvt 2 3\nf 1/1 2/2 3/3\nf 2/2 4/4 3/3\n' >same.obj
+    expect 0 eval same.obj --json
+    cp out same.json
+    keys same.json quality.isometric.by_area quality.shape.mean quality.area.mean quality.stretch_l2.rms quality.angular
+    says values '^quality.isometric.by_area=4(\.0+)?$' '^quality.shape.mean=1(\.0+)?$' '^quality.area.mean=2(\.0+)?$'
+
+    # A branch point: no triangle is flipped, but the map winds twice around vertex 0.
+    wound_fan >wound.obj
+    expect 0 eval wound.obj
+    says out '^flipped +0 of 12' '^winding +more than once around 1 vertex: 0'
+    expect 0 eval wound.obj --json
+    cp out wound.json
+    keys wound.json flipped branch_points
+    says values '^flipped=0$' '^branch_points=1$'
+    # It is no start, and no map to keep.
+    expect 0 unwrap wound.obj -o unwound.obj --start uv --stats unwound.json
+    says out '^winding +once around every inner vertex'
+    says err 'the start had 1 vertex \(0\) that the map winds around more than once; it was untangled'
+    keys unwound.json branch_points
+    says values '^branch_points=0$'
+    expect 0 eval unwound.obj
+    says out '^winding +once'
+    # As a problem it is one; freed it is solved, pinned it is refused.
+    wound_problem 0 >wound.prob
+    expect 0 check wound.prob
+    says out '0 of 12 inverted at the start, 1 branch point'
+    expect 0 untangle wound.prob -o map.txt --stats freed.json
+    keys freed.json branch_points_start branch_points inverted
+    says values '^branch_points_start=1$' '^branch_points=0$' '^inverted=0$'
+    wound_problem 13 >held.prob
+    expect 7 check held.prob
+    says out 'run around it more than once'
+    expect 7 untangle held.prob -o held.txt --picture held.svg
+    absent held.txt
+    says held.svg '1 branch point' 'winds twice'
+
+    # A seam: vertices 2 and 3 have two texture coordinates each. And one vt a corner is no seam.
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 1\nvt 5 1\n' >seam.obj
+    printf 'f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n' >>seam.obj
+    expect 0 eval seam.obj
+    says out '4 vertices, 2 triangles, 2 vertices on seams' '2 loops, 0 crossings'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt 0 1\n' >corners.obj
+    printf 'f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n' >>corners.obj
+    expect 0 eval corners.obj
+    says out '4 vertices, 2 triangles$' '1 loop, 0 crossings'
+
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 2 0\nf 1/1 2/2 3/3\nf 1/1 4/4 2/2\n' >sliver.obj
+    expect 0 eval sliver.obj
+    says err 'note: 1 triangle without area'
+
+    grid 4 >bare.obj
+    expect 4 eval bare.obj
+    error_says 'no texture coordinates'
+    expect 2 eval
+}

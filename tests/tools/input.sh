@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# A case of run.sh.
+
+test_input()
+{
+    expect 3 unwrap nothing.obj -o out.obj
+    error_says 'nothing.obj'
+    expect 3 eval nothing.obj
+    error_says 'nothing.obj'
+    grid 4 >in.stp
+    expect 3 unwrap in.stp -o out.obj
+    error_says '.obj, .off, .ply and .stl'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n' >word.obj
+    expect 3 unwrap word.obj -o out.obj
+    error_says 'line 3'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n' >nan.obj
+    expect 3 unwrap nan.obj -o out.obj
+    error_says 'line 3'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >range.obj
+    expect 3 unwrap range.obj -o out.obj
+    error_says 'line 4|4'
+    printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n' >short.off
+    expect 3 unwrap short.off -o out.obj
+    error_says 'short.off'
+    absent out.obj
+}

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+# A case of run.sh.
+
+test_pins()
+{
+    grid 4 >in.obj
+    # The corner of the grid held exactly, one coordinate of another, a spring; the file keeps 17 digits of both.
+    printf 'vertex,u,v,weight\n0,0.1,0.3,\n24,1.7,,\n12,0.9,0.8,10\n' >pins.csv
+    expect 0 unwrap in.obj -o out.obj --pins pins.csv --stats stats.json --picture out.svg
+    says out 'constraints +2 vertices pinned, 1 spring'
+    keys stats.json constraints.pins constraints.springs seconds.untangle flipped
+    says values '^constraints.pins=2$' '^constraints.springs=1$' '^flipped=0$'
+    grep '^vt' out.obj | sed -n 1p | grep -qx 'vt 0.1 0.3' || fail "vertex 0 is not where it is pinned"
+    grep '^vt' out.obj | sed -n 25p | grep -q '^vt 1.7 ' || fail "vertex 24 has not the u that is held"
+    grep -q 'spring' out.svg || fail "the picture has no legend for springs"
+
+    printf '0,0,0\n1,1,0\n6,1,-1\n' >flip.csv # a triangle of the grid
+    expect 7 unwrap in.obj -o no.obj --pins flip.csv
+    says err 'infeasible' 'all vertices pinned, flipped or flat'
+    [ ! -e no.obj ] || fail "a map was written for an infeasible problem"
+    printf '0,0,0\n0,1,0\n' >twice.csv
+    expect 3 unwrap in.obj -o no.obj --pins twice.csv
+    says err 'twice.csv, line 2: vertex 0'
+    expect 3 unwrap in.obj -o no.obj --pins missing.csv
+}

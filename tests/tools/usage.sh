@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+# A case of run.sh.
+
+test_usage()
+{
+    grid 4 >in.obj
+    expect 0 --help
+    says out 'unwrap' 'untangle' 'check' 'eval' 'devices' 'exit codes: 0 valid map; 2 usage'
+    expect 0 unwrap --help
+    says out '--energy isometric\|shape\|area' '--time-limit' '130 interrupted'
+    expect 0 --version
+    says out '^taut [0-9]+\.[0-9]+\.[0-9]+$'
+
+    expect 2
+    error_says 'subcommand' '--help'
+    expect 2 flatten in.obj
+    error_says 'no subcommand flatten' '--help'
+    expect 2 unwarp in.obj
+    error_says 'no subcommand unwarp' 'did you mean unwrap'
+    expect 2 unwrap in.obj
+    error_says '--output is required' 'taut unwrap --help'
+    expect 2 unwrap -o out.obj
+    error_says 'IN is required'
+    expect 2 unwrap in.obj -o out.obj --colour red
+    error_says '--colour'
+    expect 2 unwrap in.obj -o out.obj --energy warm
+    error_says '--energy' 'warm' 'isometric'
+    expect 2 unwrap in.obj -o out.obj --iterations many
+    error_says '--iterations' 'many is no whole number'
+    expect 2 unwrap in.obj -o out.obj --device ''
+    error_says '--device' 'without a name'
+    expect 0 view --help
+    says out 'exit codes: 0 ended'
+    expect 2 unwrap in.obj -o out.obj --time-limit 20,5
+    error_says '--time-limit' '20,5 is no number'
+    for wrong in '--iterations -1' '--tolerance -1' '--tolerance 2' '--tolerance nan' '--time-limit 0' \
+                 '--time-limit -3' '--time-limit nan' '--boundary circle --start uv' '--precision half' \
+                 '--solver simplex' '--start tube' \
+                 '--start conformal --boundary square' '--start coarse --solver lbfgs' '--up +z' '--front -y' \
+                 '--placement here' '--placement as-solved --pins p.csv'; do
+        # shellcheck disable=SC2086
+        expect 2 unwrap in.obj -o out.obj $wrong
+        error_says "${wrong%% *}"
+        [ "$(wc -l <err)" = 1 ] || fail "more than one line for $wrong"
+    done
+    absent out.obj
+}
