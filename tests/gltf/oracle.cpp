@@ -15,6 +15,7 @@
 
 #include <support/gltf_models.hpp>
 #include <taut/gltf/gltf.hpp>
+#include <taut/io/read_file.hpp>
 
 using namespace taut;
 

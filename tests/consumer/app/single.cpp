@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A program of one file: it compiles the bodies of what it includes, and no others.
 #define TAUT_IMPLEMENTATION
-#include <cstdio>
 #include <filesystem>
+#include <iostream>
 
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_obj.hpp>
@@ -17,6 +17,6 @@ int main()
     taut::io::write_obj("roof.obj", roof, result.uv);
     const auto read = taut::io::read_surface("roof.obj");
     std::filesystem::remove("roof.obj");
-    std::printf("%s\n", taut::to_string(result.report.outcome));
+    std::cout << result.report << '\n';
     return result && read.cell_count() == 4 ? 0 : 1;
 }

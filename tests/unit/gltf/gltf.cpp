@@ -15,6 +15,8 @@
 #include <support/gltf_models.hpp>
 #include <support/temporary_folder.hpp>
 #include <taut/gltf/gltf.hpp>
+#include <taut/io/io_error.hpp>
+#include <taut/io/read_file.hpp>
 #include <taut/mesh/validate.hpp>
 
 namespace

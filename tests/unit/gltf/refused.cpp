@@ -10,6 +10,7 @@
 #include <support/gltf_models.hpp>
 #include <support/temporary_folder.hpp>
 #include <taut/gltf/gltf.hpp>
+#include <taut/io/io_error.hpp>
 
 namespace
 {

@@ -9,6 +9,7 @@
 
 #include <support/meshes.hpp>
 #include <support/temporary_folder.hpp>
+#include <taut/io/io_error.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_obj.hpp>
 

@@ -7,7 +7,12 @@
 
 #include <doctest/doctest.h>
 
+#include <taut/io/obj.hpp>
+#include <taut/io/off.hpp>
+#include <taut/io/ply.hpp>
+#include <taut/io/read_file.hpp>
 #include <taut/io/read_surface.hpp>
+#include <taut/io/stl.hpp>
 
 namespace
 {

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <taut/io/io_error.hpp>
 #include <taut/io/obj.hpp>
 
 namespace

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <taut/io/io_error.hpp>
 #include <taut/io/off.hpp>
 
 namespace

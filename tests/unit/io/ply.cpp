@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <taut/io/io_error.hpp>
 #include <taut/io/ply.hpp>
 
 namespace

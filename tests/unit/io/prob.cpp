@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
+#include <taut/io/io_error.hpp>
 #include <taut/io/prob.hpp>
 #include <taut/io/write_map.hpp>
 

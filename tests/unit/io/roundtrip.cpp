@@ -6,6 +6,7 @@
 
 #include <support/meshes.hpp>
 #include <support/temporary_folder.hpp>
+#include <taut/io/obj.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_obj.hpp>
 

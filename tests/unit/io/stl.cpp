@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
+#include <taut/io/detail/surface_formats.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/stl.hpp>
 #include <taut/mesh/validate.hpp>

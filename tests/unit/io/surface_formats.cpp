@@ -9,6 +9,7 @@
 
 #include <support/temporary_folder.hpp>
 #include <taut/io/detail/posix_file.hpp>
+#include <taut/io/io_error.hpp>
 #include <taut/io/pins.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/read_volume.hpp>

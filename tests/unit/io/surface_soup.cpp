@@ -7,6 +7,11 @@
 
 #include <support/temporary_folder.hpp>
 #include <taut/io/detail/complete_texcoords.hpp>
+#include <taut/io/io_error.hpp>
+#include <taut/io/obj.hpp>
+#include <taut/io/off.hpp>
+#include <taut/io/ply.hpp>
+#include <taut/io/read_file.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_obj.hpp>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
+#include <taut/io/io_error.hpp>
 #include <taut/io/read_volume.hpp>
 #include <taut/io/write_volume.hpp>
 

@@ -13,6 +13,7 @@
 
 #include <support/temporary_folder.hpp>
 #include <taut/io/detail/plain_file.hpp>
+#include <taut/io/io_error.hpp>
 #include <taut/io/read_file.hpp>
 #include <taut/io/read_surface.hpp>
 #include <taut/io/write_files.hpp>
