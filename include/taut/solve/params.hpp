@@ -131,7 +131,7 @@ struct stopping_params
     /// have together gained at most settled_tolerance * |f - base|, unless the last one was a full step along a
     /// definite Hessian, after which the end is near anyway. Meant for long ways through valleys at the end of which
     /// next to nothing is gained: 1e-4 left 0.07 % at most of what lies above the energy at rest on 67 maps, most of
-    /// them hard (docs/numerics.md, "End of a run"). Range [0, 1); off here, on in maps of surfaces that say nothing
+    /// them hard (docs/explanation/numerics.md, "End of a run"). Range [0, 1); off here, on in maps of surfaces that say nothing
     /// else.
     double settled_tolerance = 0;
 
