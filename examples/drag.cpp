@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A vertex of a map is dragged, as by a hand in an editor: the map stays open, and each frame goes on from the last.
+// An interactive session: a vertex of a map is dragged, as by a hand in an editor; each frame goes on from the last.
 //   drag SURFACE
 #include <chrono>
 #include <iostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hard and soft constraints: a boundary on a letter, inner vertices where they are told, and no fold.
+// Hard and soft constraints: a boundary on a letter, pinned vertices inside, a spring, and no fold.
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -41,7 +41,7 @@ int main()
     const auto surface = wavy_disk(20);
 
     // [pins]
-    // The boundary goes around a letter L; a vertex is where it is told, one has its u held, one is drawn to a place.
+    // The boundary goes around a letter L; a vertex is pinned, another has its u fixed, a third is pulled by a spring.
     auto wanted = taut::constraints(surface);
     wanted.pin_boundary(std::vector<vec2>{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
     wanted.pin(0, {0.4, 0.6}).pin_u(40, 0.7).spring(100, {0.5, 0.5}, 10.0);

@@ -32,7 +32,7 @@ class valley_with_hessian : public taut::solve::host_objective<double (*)(std::s
 public:
     explicit valley_with_hessian(std::size_t n) : host_objective(n, valley), diagonal_(n), beside_(n) {}
 
-    /// All that follows is at x. Where `exact` is false, a positive semi-definite matrix must stand in: here that of
+    /// All that follows is at x. Where `exact` is false, a positive semi-definite approximation is needed: here that of
     /// Gauss and Newton, without the curvature of the terms.
     void linearize(const std::vector<double>& x, bool exact)
     {

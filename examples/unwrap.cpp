@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // [unwrap]
+#define TAUT_IMPLEMENTATION // in one file of a program
 #include <iostream>
 #include <taut/taut.hpp>
 

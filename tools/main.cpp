@@ -55,7 +55,7 @@ std::string in_words_of(const CLI::App* command, const parameter_error& e)
     return (known ? option : e.field()) + what.substr(begin.size());
 }
 
-/// Runs a subcommand; every exception becomes one line and an exit code, see docs/errors.md.
+/// Runs a subcommand; every exception becomes one line and an exit code, see docs/reference/errors.md.
 int guarded(const std::function<exit_code()>& run, const CLI::App* command)
 {
     const std::string name = command != nullptr ? command->get_name() : "";

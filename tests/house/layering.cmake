@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.22)
 # cmake -DROOT=<repository> -P layering.cmake: holds every #include of include/taut against the layers of
-# docs/architecture.md, keeps Boost and OpenCL headers inside compute/, and looks for cycles, long headers and large rooms.
+# docs/explanation/architecture.md, keeps Boost and OpenCL headers inside compute/, and looks for cycles, long headers
+# and large rooms.
 set(allowed_core core)
 set(allowed_exact core exact)
 set(allowed_symbolic core symbolic)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# snippets.sh ROOT: every code block of README.md and docs/*.md behind a line
+# snippets.sh ROOT: every code block of README.md and docs/*/*.md behind a line
 #     <!-- snippet: FILE TAG -->
 # is the text between the two lines "// [TAG]" of FILE, less common indentation. FILE is compiled by the build.
 
@@ -8,7 +8,7 @@ set -eu
 cd "$1"
 found=0
 failed=0
-for page in README.md docs/*.md; do
+for page in README.md docs/*/*.md; do
     while IFS= read -r line; do
         [ -n "$line" ] || continue
         file=$(printf '%s\n' "$line" | awk '{print $3}')

@@ -25,7 +25,7 @@ using hashes = std::map<std::string, std::optional<std::string>>;
 
 hashes hashes_of(const std::vector<std::string>& paths);
 
-/// What became of a job, as a JSON object, docs/batch.md.
+/// What became of a job, as a JSON object, docs/howto/batch.md.
 using result = nlohmann::ordered_json;
 
 /// One word for how a job ended: a promise to scripts, as the exit codes are.

@@ -13,7 +13,7 @@
 namespace taut::view
 {
 
-/// The language of page and program: binary messages, little-endian, one a frame; docs/view.md has the table.
+/// The language of page and program: binary messages, little-endian, one a frame; docs/howto/view.md has the table.
 
 /// A message that is none. what() says where it ends to make sense.
 class message_error : public std::runtime_error

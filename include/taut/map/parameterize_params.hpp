@@ -72,8 +72,8 @@ struct parameterize_params
     bool holes = false;
 
     /// Whether the boundary of the map must not cross or touch itself, so that no two triangles overlap. Where it
-    /// would, the energy is minimised once more, through maps in which it does not (docs/overlap.md); others stay as
-    /// they are.
+    /// would, the energy is minimised once more, through maps in which it does not (docs/howto/overlap.md); others stay
+    /// as they are.
     bool no_overlap = false;
 
     taut::precision precision = precision::automatic;

@@ -15,7 +15,7 @@
 namespace taut
 {
 
-/// What one stage of a run did: a start, a reinsertion, a minimisation, on one level. docs/api.md has their names.
+/// One stage of a run: a start, a reinsertion, a minimisation, on one level. docs/reference/api.md has their names.
 struct stage_report
 {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();

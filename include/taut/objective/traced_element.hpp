@@ -48,7 +48,7 @@ struct element_inputs
 
 /// One element while a kernel is being traced: what its work-item loads and how S comes from it. S is formed in the
 /// type of positions and only then cast to that of the formula: in a thin element it is a small difference of long
-/// edges, and its rounding would be the noise of the gradient (docs/numerics.md).
+/// edges, and its rounding would be the noise of the gradient (docs/explanation/numerics.md).
 template <int D>
 class traced_element
 {

@@ -35,7 +35,8 @@ struct relaxation_result
 };
 
 /// Moves the vertices of the few worst elements of a map, each by a Newton step of its own star with all others held,
-/// so that one sliver does not cap the step of a solver that moves all at once (docs/numerics.md, "vertex relaxation").
+/// so that one sliver does not cap the step of a solver that moves all at once (docs/explanation/numerics.md,
+/// "Vertex relaxation").
 ///
 /// Vertices take turns by colours: no two that move at once share an element. A vertex goes to the best of several
 /// multiples of its step, and only if its star's energy falls; so the energy of the map can only fall, and no element

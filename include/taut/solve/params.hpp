@@ -131,8 +131,8 @@ struct stopping_params
     /// have together gained at most settled_tolerance * |f - base|, unless the last one was a full step along a
     /// definite Hessian, after which the end is near anyway. Meant for long ways through valleys at the end of which
     /// next to nothing is gained: 1e-4 left 0.07 % at most of what lies above the energy at rest on 67 maps, most of
-    /// them hard (docs/numerics.md, "End of a run"). Range [0, 1); off here, on in maps of surfaces that say nothing
-    /// else.
+    /// them hard (docs/explanation/numerics.md, "Stopping criteria"). Range [0, 1); off here, on in maps of surfaces
+    /// that say nothing else.
     double settled_tolerance = 0;
 
     /// A value that f cannot fall below, or 0. What is left above it, not the value itself, then tells what a decrease

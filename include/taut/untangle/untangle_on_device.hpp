@@ -25,7 +25,7 @@ newton_maker<Element> newton_on_device(const queue& q)
     {
         if constexpr (Element::dimension == 2)
         {
-            constexpr idx few = 4000; // docs/numerics.md, "Newton's steps"
+            constexpr idx few = 4000; // docs/explanation/numerics.md, "Newton's steps"
             if (problem.rest.cell_count() < few) return direct_newton(problem);
         }
         if (!traced) traced = multigrid_newton<Element>::trace(q);

@@ -16,7 +16,7 @@ namespace taut
 /// When the untangling operator shortens its step.
 enum class operator_schedule
 {
-    literal,  ///< by half at every increase, as Algorithm 2 is printed; it soon stands still (docs/numerics.md)
+    literal, ///< by half at every increase, as Algorithm 2 is printed; soon stands still (docs/explanation/numerics.md)
     patience, ///< by half after several increases in a row; a decrease ends the row
     constant  ///< never
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The language of page and program: binary messages, little-endian; docs/view.md has the table.
+// The language of page and program: binary messages, little-endian; docs/howto/view.md has the table.
 
 const kinds = { places: 1, release: 2, focus: 3, relax: 4, align: 5, undo: 6, redo: 7, save: 8, seen: 9, pose: 10, keep: 11 };
 
