@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 
+#include <taut/gltf/detail/container.hpp>
 #include <taut/gltf/gltf.hpp>
 
 #include "outputs.hpp"
