@@ -11,7 +11,7 @@ command -v setpriv >/dev/null || { echo "no setpriv, with which root becomes som
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 chmod 755 "$folder"
-cp "$taut" "$tests" "$here/run.sh" "$here/json.cmake" "$folder"
+cp "$taut" "$tests" "$here/run.sh" "$here/support.sh" "$here/permissions.sh" "$here/json.cmake" "$folder"
 mkdir "$folder/own"
 chown 65534:65534 "$folder/own"
 cd "$folder/own"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/detail/ply_header.hpp>
-#include <taut/io/detail/ply_values.hpp>
+#include <taut/io/detail/ply/header.hpp>
+#include <taut/io/detail/ply/values.hpp>
 #include <taut/io/detail/polygon_soup.hpp>
 
 namespace taut::io

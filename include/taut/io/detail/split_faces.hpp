@@ -139,7 +139,7 @@ private:
     {
     public:
         neighbours(const face_splitting& faces, std::size_t f)
-            : faces_(faces), f_(f), steps_(4096 + 64 * u(faces.sizes_[f]))
+            : faces_(faces), f_(f), steps_(1024 + 64 * u(faces.sizes_[f]))
         {
         }
 
@@ -153,9 +153,11 @@ private:
             {
                 const auto g = u(faces_.face_[u(corner)]);
                 const auto own = faces_.vertices_of(f_), vertices = faces_.vertices_of(g);
-                if (g == f_ || !spend(vertices.size())) continue;
+                if (!spend(vertices.size())) return false;
+                if (g == f_) continue;
                 if (std::find(vertices.begin(), vertices.end(), w) == vertices.end()) continue;
-                if (!spend(own.size() * vertices.size()) || same_vertices(own, vertices)) continue;
+                if (!spend(own.size() * vertices.size())) return false;
+                if (same_vertices(own, vertices)) continue;
                 const auto n = faces_.sizes_[g], k = corner - faces_.first_[g];
                 const bool edge = vertices[u((k + 1) % n)] == w || vertices[u((k + n - 1) % n)] == w;
                 const auto same = [v, w](idx a, idx b) { return (a == v && b == w) || (a == w && b == v); };
@@ -180,9 +182,8 @@ private:
     private:
         bool spend(std::size_t steps)
         {
-            const bool enough = steps <= steps_;
-            steps_ -= enough ? steps : 0;
-            return enough;
+            steps_ -= std::min(steps, steps_);
+            return steps_ > 0;
         }
 
         const face_splitting& faces_;

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include <taut/io/detail/byte_order.hpp>
-#include <taut/io/detail/ply_header.hpp>
+#include <taut/io/detail/ply/header.hpp>
 
 namespace taut::io::detail
 {
