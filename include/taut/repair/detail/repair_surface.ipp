@@ -133,8 +133,9 @@ private:
         auto flat = place_triangles();
         if (params_.weld_tolerance > 0 && !cells_.empty())
         {
-            const auto open = open_places(); // before place_ is moved away
-            place_ = near_places(points_, params_.bodies, std::move(place_), open, reach(), params_.weld_tolerance);
+            const auto open = open_places(); // these before place_ is moved away
+            const auto far = reach();
+            place_ = near_places(points_, params_.bodies, std::move(place_), open, far, params_.weld_tolerance);
             const auto more = place_triangles();
             flat.insert(flat.end(), more.begin(), more.end());
             std::sort(flat.begin(), flat.end());
