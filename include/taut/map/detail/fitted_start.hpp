@@ -8,7 +8,7 @@
 #include <taut/map/detail/map_run.hpp>
 #include <taut/map/detail/run_start.hpp>
 #include <taut/measure/planar_size.hpp>
-#include <taut/untangle/untangle.hpp>
+#include <taut/untangle/detail/untangle_declared.hpp>
 
 namespace taut::detail
 {
@@ -83,3 +83,8 @@ inline run_start fitted_start(const map_run& run, run_start start, bool given)
 }
 
 } // namespace taut::detail
+
+// A program that maps surfaces alone does without the bodies for tetrahedra.
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/untangle/detail/untangle_triangle.ipp>
+#endif
