@@ -14,7 +14,7 @@
 #include <taut/exact/certify.hpp>
 #include <taut/mesh/incidence.hpp>
 #include <taut/untangle/detail/local_problem.hpp>
-#include <taut/untangle/untangle.hpp>
+#include <taut/untangle/detail/untangle_declared.hpp>
 
 namespace taut::detail
 {

@@ -20,7 +20,7 @@
 #include <taut/map/detail/session/turned_draft.hpp>
 #include <taut/measure/describe_defects.hpp>
 #include <taut/untangle/proofs/infeasible.hpp>
-#include <taut/untangle/untangle.hpp>
+#include <taut/untangle/detail/untangle_declared.hpp>
 
 namespace taut::detail
 {

@@ -19,7 +19,7 @@
 #include <taut/mesh/incidence.hpp>
 #include <taut/untangle/detail/local_problem.hpp>
 #include <taut/untangle/device/live_map.hpp>
-#include <taut/untangle/untangle.hpp>
+#include <taut/untangle/detail/untangle_declared.hpp>
 
 namespace taut::detail
 {
