@@ -26,7 +26,7 @@ struct listed_device
 };
 
 /// Why d does not meet the needs, in words; empty if it does.
-std::string refusal(const device& d, const device_requirements& needs = {});
+std::string device_refusal(const device& d, const device_requirements& needs = {});
 
 /// Every device of every platform, in the order of the driver loader: TAUT_DEVICE counts them in this order, from 0.
 std::vector<listed_device> devices(const device_requirements& needs = {});

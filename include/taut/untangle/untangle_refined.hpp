@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <taut/core/budget.hpp>
+#include <taut/core/short_number.hpp>
 #include <taut/exact/certify.hpp>
 #include <taut/mesh/refine_elements.hpp>
 #include <taut/untangle/detail/local_problem.hpp>

@@ -87,8 +87,8 @@ TEST_CASE("devices: requirements refuse a device with the reason")
     CHECK(contains(text, taut::devices()[0].device.name()));
 
     const taut::device weak = taut::choose_device().without_fp64();
-    CHECK(taut::refusal(weak).empty());
-    CHECK(contains(taut::refusal(weak, {.fp64 = true}), "fp64"));
+    CHECK(taut::device_refusal(weak).empty());
+    CHECK(contains(taut::device_refusal(weak, {.fp64 = true}), "fp64"));
 }
 
 TEST_CASE("devices: double is refused by name on a device without fp64, float works")

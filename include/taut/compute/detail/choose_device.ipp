@@ -20,7 +20,7 @@
 namespace taut
 {
 
-std::string refusal(const device& d, const device_requirements& needs)
+std::string device_refusal(const device& d, const device_requirements& needs)
 {
     if (!d.available()) return "not available (in use, or disabled)";
     if (!d.has_compiler()) return "its driver has no compiler";
@@ -48,7 +48,7 @@ std::vector<listed_device> devices(const device_requirements& needs)
         for (const auto& handle : found)
         {
             device d(handle.id());
-            std::string why = refusal(d, needs);
+            std::string why = device_refusal(d, needs);
             all.push_back({std::move(d), std::move(why)});
         }
     }

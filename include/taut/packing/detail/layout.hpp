@@ -26,7 +26,7 @@ struct spot
 };
 
 /// Pieces in tiles of equal width; the last one is as high as it takes.
-struct layout
+struct tile_layout
 {
     std::vector<spot> spots;
     double width = 0, height = 0; ///< of what is taken, in cells: the most of all tiles; of the last one
@@ -63,11 +63,11 @@ struct taken_cells
 /// far left: in any gap that is left of what lies there.
 /// side:  of a tile in cells; gap: least distance of two pieces in cells; before: what is there already
 /// quick: a piece does not look below where the last one of about its width and height found room
-inline layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses,
+inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses,
                       std::span<const idx> order, idx side, idx tiles, double gap, double cells_per_length, bool quick,
                       budget& limits, std::span<const taken_cells> before = {})
 {
-    layout out;
+    tile_layout out;
     out.spots.resize(pieces.size());
     occupancy taken(side); // tiles lie on each other, with a row between them
     for (idx t = 1; t < tiles; ++t) taken.block(t * (side + 1) - 1);

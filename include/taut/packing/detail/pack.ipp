@@ -153,10 +153,10 @@ private:
         const idx cells = std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(pieces_.size()))), 512, 2048);
         draw(cells / side_of_all, !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
         idx fails = 0, fits = 0;
-        layout best;
+        tile_layout best;
         for (idx side = cells; side <= 4 * cells && !limits_.over();)
         {
-            layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(side), cells_per_length_,
+            tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(side), cells_per_length_,
                                quick, limits_, walls_in(side));
             ++packed_.layouts;
             if (l.complete && std::max(l.width, l.height) <= side)
@@ -191,12 +191,12 @@ private:
             quick ? 1024 : std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(n))), 512, 2048);
         draw(cells / length, turns);
         idx side = cells;
-        layout best;
+        tile_layout best;
         double least = std::numeric_limits<double>::infinity();
         for (int k = 0; k < (quick ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
         {
             const double most = 1.02 * side + 1; // has its padding, too, if the layout is a little larger
-            layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(most), cells_per_length_,
+            tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(most), cells_per_length_,
                                quick, limits_);
             ++packed_.layouts;
             if (!l.complete)
@@ -218,7 +218,7 @@ private:
     }
 
     /// Tries other orders near the one that was best, as many as take about as long whatever there is to lay.
-    void reorder(layout& best, double& least)
+    void reorder(tile_layout& best, double& least)
     {
         const std::size_t n = pieces_.size();
         std::minstd_rand lot(1);
@@ -232,7 +232,7 @@ private:
                 if (j < n) std::swap(order[i], order[j]);
             }
             const auto side = static_cast<idx>(least) - 1;
-            layout l = lay_out(pieces_, poses_, order, side, params_.tiles, gap_in_cells(1.02 * side + 1),
+            tile_layout l = lay_out(pieces_, poses_, order, side, params_.tiles, gap_in_cells(1.02 * side + 1),
                                cells_per_length_, n > 1500, limits_);
             ++packed_.layouts;
             const double used = std::max(l.width, l.height);
@@ -273,7 +273,7 @@ private:
     }
 
     /// Takes a layout in tiles of this side, if it is better.
-    void keep(const layout& l, double side)
+    void keep(const tile_layout& l, double side)
     {
         const double cell = (1 - 2 * border_) / side, scale = cell * cells_per_length_;
         if (scale <= packed_.scale) return;

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <sstream>
-#include <string>
 #include <vector>
 
 #include <taut/core/single.hpp>
@@ -87,15 +85,6 @@ inline double last_digit(std::span<const vec3> points)
     double last = 0;
     for (int k = 0; k < 3; ++k) last = std::max(last, last_decimal(points, k));
     return last;
-}
-
-/// "3e-05"
-inline std::string short_number(double x)
-{
-    std::ostringstream out;
-    out.precision(2);
-    out << x;
-    return out.str();
 }
 
 } // namespace taut::detail

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <taut/core/counting_sort.hpp>
+#include <taut/core/short_number.hpp>
 #include <taut/exact/predicates.hpp>
 #include <taut/repair/detail/describe_finding.hpp>
 #include <taut/repair/detail/fans.hpp>
@@ -316,7 +317,7 @@ private:
         const bool apart = std::any_of(welded.begin(), welded.end(),
                                        [this](const auto& w) { return points_[u(w.first)] != points_[u(w.second)]; });
         note(repair_kind::coincident_vertex, std::move(ids));
-        if (apart) findings_.back().action += ", being within " + short_number(params_.weld_tolerance);
+        if (apart) findings_.back().action += ", being within " + short_number(params_.weld_tolerance, 2);
         if (!welded.empty() && unsewn_ > 0)
             findings_.back().action +=
                 "; " + counted(unsewn_, "edge", "edges") + " left open where three or more triangles would meet";

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <charconv>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,18 +88,5 @@ struct infeasibility
         proofs.push_back({kind, std::move(ids), std::move(message)});
     }
 };
-
-namespace detail
-{
-
-/// Four significant digits, for messages.
-inline std::string short_number(double x)
-{
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), x, std::chars_format::general, 4).ptr;
-    return {digits.data(), end};
-}
-
-} // namespace detail
 
 } // namespace taut

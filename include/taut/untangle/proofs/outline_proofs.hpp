@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <taut/mesh/boundary.hpp>
+#include <taut/core/short_number.hpp>
 #include <taut/untangle/proofs/infeasibility.hpp>
 #include <taut/untangle/proofs/pinned_outline.hpp>
 #include <taut/untangle/proofs/pinned_patches.hpp>
