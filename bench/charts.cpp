@@ -12,8 +12,8 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/atlas/flatten_charts.hpp>
-#include <taut/map/parameterize.hpp>
+#include <taut/impl/atlas/flatten_charts.hpp>
+#include <taut/impl/map/parameterize.hpp>
 
 #include "measure.hpp"
 
@@ -21,6 +21,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 double cpu_seconds()

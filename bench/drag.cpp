@@ -16,10 +16,10 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/io/read_surface.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/map/session.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/map/session.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 #include "measure.hpp"
 
@@ -27,6 +27,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 struct setting

@@ -15,8 +15,8 @@
 #include <support/edit_meshes.hpp>
 #include <support/rbf_points.hpp>
 
-#include <taut/edit/paste.hpp>
-#include <taut/io/read_surface.hpp>
+#include <taut/impl/edit/paste.hpp>
+#include <taut/impl/io/read_surface.hpp>
 
 #include "measure.hpp"
 
@@ -24,6 +24,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 double at_rank(std::vector<double> values, double part)

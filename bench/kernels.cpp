@@ -9,9 +9,9 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/objective/mesh_levels.hpp>
-#include <taut/objective/newton_objective.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
 
 #include "measure.hpp"
 #include "native.hpp"
@@ -21,6 +21,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// The mesh with its vertices, and its cells, in random order.
 mesh<triangle> shuffled(const mesh<triangle>& m)

@@ -3,8 +3,8 @@
 
 #include <ctime>
 
-#include <taut/io/read_surface.hpp>
-#include <taut/map/parameterize.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/map/parameterize.hpp>
 
 #include "measure.hpp"
 #include "peak_memory.hpp"
@@ -13,7 +13,7 @@
 namespace bench
 {
 
-namespace detail
+namespace impl
 {
 
 /// The least that the elements alone move, in double, each array once: a value reads corners, inverses, measures,
@@ -28,7 +28,7 @@ inline std::uint64_t element_bytes(const taut::mesh<taut::triangle>& m, const ta
     return value * static_cast<std::uint64_t>(r.evaluations) + more * static_cast<std::uint64_t>(r.gradients);
 }
 
-} // namespace detail
+} // namespace impl
 
 /// One run of the library from the file to the certified map.
 inline solver_run run_library(taut::queue& q, const std::filesystem::path& path, taut::parameterize_params p,
@@ -65,7 +65,7 @@ inline solver_run run_library(taut::queue& q, const std::filesystem::path& path,
     run.flipped = r.flips.flipped;
     run.limited = r.solve.stop == taut::solve::stop::time;
     run.counters = r.counters;
-    run.bytes_moved = detail::element_bytes(m, r.solve);
+    run.bytes_moved = impl::element_bytes(m, r.solve);
     return run;
 }
 

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <vector>
 
-#include <taut/mesh/facets.hpp>
+#include <taut/impl/mesh/facets.hpp>
 
 namespace bench
 {
 
-namespace detail
+namespace impl
 {
 
 /// The weight of each of n neighbours of an interior vertex (Warren's choice; Loop's own differs little).
@@ -43,7 +43,7 @@ struct ring
     }
 };
 
-} // namespace detail
+} // namespace impl
 
 /// One round of Loop subdivision: four triangles for each, smooth inside, a cubic spline along the boundary. The old
 /// vertices come first. m: an oriented manifold, with or without boundary.
@@ -54,7 +54,7 @@ inline taut::mesh<taut::triangle> loop_subdivision(const taut::mesh<taut::triang
     const auto f = taut::facets(m);
     const auto& old = m.points();
     std::vector<taut::vec3> points(old.size());
-    std::vector<detail::ring> rings(old.size());
+    std::vector<impl::ring> rings(old.size());
     std::vector<idx> middle(f.twin.size()); // vertex of each side
     for (std::size_t s = 0; s < f.twin.size(); ++s)
     {
@@ -65,7 +65,7 @@ inline taut::mesh<taut::triangle> loop_subdivision(const taut::mesh<taut::triang
             continue;
         }
         const auto side = static_cast<idx>(s);
-        const auto [a, b] = taut::side_vertices(m, side);
+        const auto [a, b] = taut::impl::side_vertices(m, side);
         const taut::vec3 &p = old[at(a)], &q = old[at(b)];
         rings[at(a)].add(q, rim);
         rings[at(b)].add(p, rim);

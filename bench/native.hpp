@@ -45,7 +45,7 @@ template <class T>
 void triad(crew& workers, std::vector<T>& a, const std::vector<T>& b, T s, const std::vector<T>& c);
 
 /// The symmetric Dirichlet energy and its gradient in the two steps of paper Fig. 8, positions in P and the rest in R.
-/// Arrays as in taut::layout; a vertex sums its corners through a CSR of slots.
+/// Arrays as in taut::impl::layout; a vertex sums its corners through a CSR of slots.
 template <class P, class R>
 struct dirichlet
 {

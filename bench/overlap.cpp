@@ -9,9 +9,9 @@
 
 #include <support/strips.hpp>
 
-#include <taut/io/read_surface.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 #include "measure.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <support/chart_sets.hpp>
-#include <taut/packing/certificate.hpp>
-#include <taut/packing/pack.hpp>
+#include <taut/impl/packing/certificate.hpp>
+#include <taut/impl/packing/pack.hpp>
 
 #include "measure.hpp"
 

@@ -8,9 +8,9 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/io/read_surface.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/solve/line/line_search.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/solve/line/line_search.hpp>
 
 #include "measure.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <taut/mesh/ideal.hpp>
+#include <taut/impl/mesh/ideal.hpp>
 
 namespace bench::peer
 {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <taut/mesh/mesh.hpp>
+#include <taut/impl/mesh/mesh.hpp>
 
 namespace bench::peer
 {

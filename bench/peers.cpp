@@ -7,9 +7,9 @@
 
 #include <dlfcn.h>
 
-#include <taut/exact/certify.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 #include "measure.hpp"
 #include "peak_memory.hpp"

@@ -15,8 +15,8 @@
 #include <support/meshes.hpp>
 #include <support/winding.hpp>
 
-#include <taut/io/read_surface.hpp>
-#include <taut/map/parameterize.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/map/parameterize.hpp>
 
 #include "measure.hpp"
 

@@ -12,8 +12,8 @@
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 
-#include <taut/constrain/constraints.hpp>
-#include <taut/mesh/hinge.hpp>
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/mesh/hinge.hpp>
 
 namespace bench
 {

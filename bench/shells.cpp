@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include <taut/exact/collapses.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/map/deform.hpp>
+#include <taut/impl/exact/collapses.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/map/deform.hpp>
 
 #include "rigid_as_possible.hpp"
 
@@ -28,6 +28,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 double now()

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/compute/queue.hpp>
+#include <taut/impl/compute/queue.hpp>
 
 namespace bench
 {

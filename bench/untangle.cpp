@@ -13,11 +13,11 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/io/prob.hpp>
-#include <taut/map/deform.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/untangle/untangle.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/io/prob.hpp>
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/untangle/untangle.hpp>
 
 #include "measure.hpp"
 
@@ -25,6 +25,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 namespace fs = std::filesystem;
 
 std::vector<std::string> split(const std::string& text, char separator)
@@ -270,7 +271,7 @@ try
         const std::array<std::string, 2> labels =
             known == index.end() ? std::array<std::string, 2>{"-", "-"} : known->second;
         std::visit([&](auto problem) { bench.measure(name, labels, make_untangle_problem(std::move(problem))); },
-                   io::read_any_prob(file));
+                   io::impl::read_any_prob(file));
     }
     if (files.empty()) bench.measure("generated", {"-", "-"}, collapsed_square(options.quick ? 8 : 60));
     bench.print_totals();

@@ -26,9 +26,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/energy/neo_hookean.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/map/deform.hpp>
+#include <taut/impl/energy/neo_hookean.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/map/deform.hpp>
 
 #include "measure.hpp"
 #include "peak_memory.hpp"
@@ -39,6 +39,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// The energies of a run, by name.

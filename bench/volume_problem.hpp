@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/constrain/constraints.hpp>
-#include <taut/measure/rigid_motion.hpp>
-#include <taut/mesh/mesh.hpp>
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/impl/mesh/mesh.hpp>
 
 namespace bench
 {

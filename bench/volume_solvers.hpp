@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/map/deform.hpp>
-#include <taut/objective/map_evaluator.hpp>
-#include <taut/solve/minimize.hpp>
-#include <taut/untangle/untangle.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/objective/map_evaluator.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/untangle/untangle.hpp>
 
 #include "direct_solver.hpp"
 #include "measure.hpp"
@@ -92,9 +92,9 @@ public:
     {
         solver_run run;
         const stopwatch watch;
-        taut::map_objective<tetrahedra> f(queue_, std::make_shared<const taut::layout<tetrahedra>>(mesh_),
+        taut::impl::map_objective<tetrahedra> f(queue_, std::make_shared<const taut::impl::layout<tetrahedra>>(mesh_),
                                           taut::energy::isometric{}, taut::energy::weighting::measure,
-                                          taut::types_of(taut::precision::mixed));
+                                          taut::impl::types_of(taut::precision::mixed));
         f.constrain({held_, {}, {}});
         auto x = f.make_point();
         f.upload(start_, x);
@@ -181,7 +181,7 @@ private:
     const taut::mesh<tetrahedra>& mesh_;
     taut::constraints<tetrahedra> pins_;
     double limit_;
-    taut::held_marks<3> held_;
+    taut::impl::held_marks<3> held_;
     shape start_;
 };
 

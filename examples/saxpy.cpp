@@ -3,7 +3,7 @@
 #include <iostream>
 #include <vector>
 
-#include <taut/compute/handler.hpp>
+#include <taut/impl/compute/handler.hpp>
 
 int main()
 {

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <taut/atlas/detail/make_atlas.ipp>
-#include <taut/atlas/detail/segment.ipp>
-#include <taut/atlas/detail/symmetry/find_symmetry.ipp>
+#include <taut/impl/atlas/make_atlas.ipp>
+#include <taut/impl/atlas/segment.ipp>
+#include <taut/impl/atlas/symmetry/find_symmetry.ipp>

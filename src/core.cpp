@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <taut/compute/detail/choose_device.ipp>
-#include <taut/compute/detail/device.ipp>
-#include <taut/compute/detail/queue.ipp>
-#include <taut/core/detail/parallel.ipp>
-#include <taut/energy/detail/default_energy.ipp>
+#include <taut/impl/compute/detail/choose_device.ipp>
+#include <taut/impl/compute/detail/device.ipp>
+#include <taut/impl/compute/detail/queue.ipp>
+#include <taut/impl/core/parallel.ipp>
+#include <taut/impl/energy/default_energy.ipp>

@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/map/detail/session/shape_session.ipp>
+#include <taut/impl/map/session/shape_session.ipp>

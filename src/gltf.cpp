@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include <taut/gltf/detail/read_gltf.ipp>
-#include <taut/gltf/detail/write_gltf.ipp>
+#include <taut/impl/gltf/read_gltf.ipp>
+#include <taut/impl/gltf/write_gltf.ipp>

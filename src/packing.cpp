@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/packing/detail/pack.ipp>
+#include <taut/impl/packing/pack.ipp>

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include <taut/map/detail/parameterize.ipp>
-#include <taut/map/detail/session/map_session.ipp>
+#include <taut/impl/map/parameterize.ipp>
+#include <taut/impl/map/session/map_session.ipp>

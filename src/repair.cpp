@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/repair/detail/repair_surface.ipp>
+#include <taut/impl/repair/repair_surface.ipp>

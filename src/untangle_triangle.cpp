@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/untangle/detail/untangle_triangle.ipp>
+#include <taut/impl/untangle/untangle_triangle.ipp>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace taut::tools
 {
@@ -21,7 +21,7 @@ std::size_t at(idx i)
 /// The triangles that have an area at rest.
 std::vector<mesh<triangle>::cell> solid_cells(const mesh<triangle>& surface)
 {
-    auto [flat, inverted] = detail::bad_rest_cells(surface);
+    auto [flat, inverted] = impl::bad_rest_cells(surface);
     std::vector<char> keep(surface.cells().size(), 1);
     for (const idx c : flat) keep[at(c)] = 0;
     std::vector<mesh<triangle>::cell> cells;

@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/exact/convex_polygons.hpp>
-#include <taut/exact/crossings.hpp>
-#include <taut/measure/quality.hpp>
+#include <taut/impl/exact/convex_polygons.hpp>
+#include <taut/impl/exact/crossings.hpp>
+#include <taut/impl/measure/quality.hpp>
 
 #include "text_table.hpp"
 

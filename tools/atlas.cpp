@@ -23,11 +23,11 @@
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
 #include <report/atlas_page.hpp>
-#include <taut/atlas/make_atlas.hpp>
-#include <taut/atlas/symmetry.hpp>
-#include <taut/gltf/gltf.hpp>
-#include <taut/io/write_files.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/impl/atlas/symmetry.hpp>
+#include <taut/impl/gltf/gltf.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 #include "commands.hpp"
 #include "failure.hpp"
@@ -62,7 +62,7 @@ void keep_freed_memory()
 template <io::gltf_numbers Numbers>
 vec2 in_gltf(vec2 x)
 {
-    const vec2 y = io::texcoord_in_gltf({x.x, -x.y}, Numbers);
+    const vec2 y = io::impl::texcoord_in_gltf({x.x, -x.y}, Numbers);
     return {y.x, -y.y};
 }
 

@@ -50,7 +50,7 @@ std::string summary(const batch::tally& t, double seconds)
     if (t.failed_before > 0) out << ", " << t.failed_before << " of these failed";
     const std::size_t open = t.jobs - t.done - t.skipped;
     if (open > 0) out << ", " << open << " still to do";
-    out << "; " << io::detail::format_number(std::round(seconds * 10) / 10, 6) << " s\n";
+    out << "; " << io::impl::format_number(std::round(seconds * 10) / 10, 6) << " s\n";
     return out.str();
 }
 
@@ -58,7 +58,7 @@ exit_code run(batch_options options, const outputs& files, const run_clock& cloc
 {
     const auto part = batch::parse_shard(options.shard);
     if (!part) throw usage_error("--shard " + options.shard + ": is no i/N with i from 1 to N");
-    if (options.run.resume && io::is_stream(options.out))
+    if (options.run.resume && io::impl::is_stream(options.out))
         throw usage_error("--resume needs the file of results: name it with --out");
     const char* const place = options.quiet ? nullptr : files.place_of_report();
 

@@ -14,8 +14,8 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <taut/compute/quirks.hpp>
-#include <taut/sparse/block_matrix.hpp>
+#include <taut/impl/compute/quirks.hpp>
+#include <taut/impl/sparse/block_matrix.hpp>
 
 #include "child.hpp"
 #include "failure.hpp"
@@ -59,7 +59,7 @@ order order_of(const std::string& options, const taut::device& device)
 {
     for (const int dimension : {2, 3})
         for (const auto real : {scalar_type::f32, scalar_type::f64})
-            if (options == detail::block_options(real, dimension, dimension + 1, lane_form::for_device(device)))
+            if (options == impl::block_options(real, dimension, dimension + 1, lane_form::for_device(device)))
                 return {{"build-kernels", std::to_string(dimension), std::string(spelling(real))}, {}};
     return {};
 }

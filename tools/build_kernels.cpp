@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include <taut/compute/detail/signature.hpp>
-#include <taut/compute/record.hpp>
-#include <taut/objective/element_hessian.hpp>
-#include <taut/objective/mesh_levels.hpp>
-#include <taut/objective/newton_plan.hpp>
-#include <taut/sparse/block_assembly.hpp>
-#include <taut/sparse/multigrid.hpp>
+#include <taut/impl/compute/detail/signature.hpp>
+#include <taut/impl/compute/record.hpp>
+#include <taut/impl/objective/element_hessian.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_plan.hpp>
+#include <taut/impl/sparse/block_assembly.hpp>
+#include <taut/impl/sparse/multigrid.hpp>
 
 #include "commands.hpp"
 #include "shared_options.hpp"
@@ -92,13 +92,13 @@ void build_named(queue& q)
     std::istringstream each(names);
     for (std::string name; each >> name;)
     {
-        std::vector<detail::argument> arguments;
-        for (const auto& p : detail::signature_of(source, name, scalar_type::f64))
+        std::vector<impl::argument> arguments;
+        for (const auto& p : impl::signature_of(source, name, scalar_type::f64))
         {
-            const detail::argument number = p.type == "int" ? detail::argument(idx(0)) : detail::argument(0.0);
-            arguments.push_back(p.is_memory ? detail::argument(nothing) : number.as(p.type));
+            const impl::argument number = p.type == "int" ? impl::argument(idx(0)) : impl::argument(0.0);
+            arguments.push_back(p.is_memory ? impl::argument(nothing) : number.as(p.type));
         }
-        kernel(q, source, name, options)(detail::items_for(kernel_form::run, 1), arguments);
+        kernel(q, source, name, options)(impl::items_for(kernel_form::run, 1), arguments);
     }
     q.finish();
 }

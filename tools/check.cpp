@@ -11,13 +11,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/exact/certify.hpp>
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/mesh/ideal.hpp>
-#include <taut/mesh/validate.hpp>
-#include <taut/untangle/proofs/infeasible.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/untangle/proofs/infeasible.hpp>
 
 #include "check_report.hpp"
 #include "choices.hpp"
@@ -100,7 +100,7 @@ bool all_used(check_report& report, const mesh<Element>& m, const constraints<El
     if (report.kind != "surface") return true;
     try
     {
-        pins.require_used(detail::unused_vertices(m.points().size(), m.cells()));
+        pins.require_used(impl::unused_vertices(m.points().size(), m.cells()));
         return true;
     }
     catch (const constraint_error& e)
@@ -189,11 +189,11 @@ void check_surface(check_report& report, const check_options& options)
     report.cells = soup.triangles.size();
     for (const auto& note : soup.notes) report.add({false, "file", "note", {}, note}, exit_code::valid);
     const auto repairs = find_repairs(soup);
-    const auto unused = detail::unused_vertices(soup.points.size(), soup.triangles);
+    const auto unused = impl::unused_vertices(soup.points.size(), soup.triangles);
     const auto file = find_surface(report, options.input, std::move(soup), repairs);
     if (!file) return report_repairs(report, repairs, false);
     if (!unused.empty())
-        report.add({false, "mesh", to_string(mesh_fault::unreferenced_vertex), unused, detail::describe_unused(unused)},
+        report.add({false, "mesh", to_string(mesh_fault::unreferenced_vertex), unused, impl::describe_unused(unused)},
                    exit_code::valid);
     const auto cut = find_cut(report, *file);
     const auto& m = cut ? cut->surface : file->surface;
@@ -262,7 +262,7 @@ check_report examine(const check_options& options)
             check_volume(report, options);
         else if (!options.format || (by_name && extension(options.input) == ".prob"))
             std::visit([&](auto&& file) { check_problem(report, options, std::move(file)); },
-                       io::read_any_prob(options.input));
+                       io::impl::read_any_prob(options.input));
         else
             check_surface(report, options);
     }

@@ -9,11 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/constrain/constraints.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/io/pins.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 #include "failure.hpp"
 

@@ -34,18 +34,18 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts)
     return all;
 }
 
-std::pair<io::detail::descriptor, io::detail::descriptor> make_pipe()
+std::pair<io::impl::descriptor, io::impl::descriptor> make_pipe()
 {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe");
     ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
-    return {io::detail::descriptor(ends[0]), io::detail::descriptor(ends[1])};
+    return {io::impl::descriptor(ends[0]), io::impl::descriptor(ends[1])};
 }
 
 /// A file without a name, to be read from its beginning.
-io::detail::descriptor file_of(const std::string& text)
+io::impl::descriptor file_of(const std::string& text)
 {
-    io::detail::descriptor file(::memfd_create("taut", MFD_CLOEXEC));
+    io::impl::descriptor file(::memfd_create("taut", MFD_CLOEXEC));
     for (std::size_t at = 0; file && at < text.size();)
     {
         const auto written = ::write(*file, text.data() + at, text.size() - at);
@@ -103,7 +103,7 @@ child::child(const std::vector<std::string>& args, const std::vector<std::string
     if (process_ < 0) throw std::system_error(errno, std::generic_category(), "no process");
     if (process_ == 0) become(arguments.data(), values.data(), *in, *out_end, *err_end, fence, parent);
     streams_ = {std::move(out), std::move(err)};
-    over_ = io::detail::descriptor(static_cast<int>(::syscall(SYS_pidfd_open, process_, 0)));
+    over_ = io::impl::descriptor(static_cast<int>(::syscall(SYS_pidfd_open, process_, 0)));
 }
 
 child::~child()
@@ -179,7 +179,7 @@ std::uint64_t child::resident() const noexcept
     std::array<char, 32> name{};
     std::array<char, 128> text{};
     std::snprintf(name.data(), name.size(), "/proc/%d/statm", static_cast<int>(process_));
-    const io::detail::descriptor file(::open(name.data(), O_RDONLY | O_CLOEXEC));
+    const io::impl::descriptor file(::open(name.data(), O_RDONLY | O_CLOEXEC));
     unsigned long long size = 0, pages = 0;
     if (!file || ::read(*file, text.data(), text.size() - 1) <= 0) return 0;
     if (std::sscanf(text.data(), "%llu %llu", &size, &pages) != 2) return 0;
@@ -195,7 +195,7 @@ void child::drain(std::size_t stream)
     for (int k = 0; k < 64; ++k) // who never stops talking must not keep others waiting
     {
         const auto got = ::read(*streams_[stream], piece.data(), piece.size());
-        if (got == 0) streams_[stream] = io::detail::descriptor();
+        if (got == 0) streams_[stream] = io::impl::descriptor();
         if (got <= 0) return;
         said.append(piece.data(), static_cast<std::size_t>(got));
         if (said.size() > 2 * most_kept) said.erase(0, said.size() - most_kept);

@@ -13,7 +13,7 @@
 #include <poll.h>
 #include <sys/types.h>
 
-#include <taut/io/atomic_file.hpp>
+#include <taut/impl/io/atomic_file.hpp>
 
 namespace taut::tools
 {
@@ -81,8 +81,8 @@ private:
     limits bounds_;
     clock::time_point start_ = clock::now();
     pid_t process_ = 0;                             ///< 0 once its end is known
-    std::array<io::detail::descriptor, 2> streams_; ///< closed once nothing more can come
-    io::detail::descriptor over_;                   ///< readable once it has ended; none on older systems
+    std::array<io::impl::descriptor, 2> streams_; ///< closed once nothing more can come
+    io::impl::descriptor over_;                   ///< readable once it has ended; none on older systems
     std::array<std::string, 2> said_;
     child_end::cause by_ = child_end::itself;
     double killed_at_ = std::numeric_limits<double>::infinity(); ///< seconds

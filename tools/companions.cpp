@@ -4,8 +4,8 @@
 #include <string>
 #include <system_error>
 
-#include <taut/gltf/detail/container.hpp>
-#include <taut/gltf/gltf.hpp>
+#include <taut/impl/gltf/container.hpp>
+#include <taut/impl/gltf/gltf.hpp>
 
 #include "outputs.hpp"
 
@@ -57,7 +57,7 @@ std::vector<fs::path> companions_of(const fs::path& mesh)
     {
         std::error_code unknown;
         const auto folder = mesh.parent_path();
-        for (const auto& file : io::gltf_companions(mesh)) // named as the document is
+        for (const auto& file : io::impl::gltf_companions(mesh)) // named as the document is
             files.push_back(folder / fs::relative(file, folder.empty() ? "." : folder, unknown));
     }
     std::erase(files, mesh);
@@ -67,7 +67,7 @@ std::vector<fs::path> companions_of(const fs::path& mesh)
 std::vector<fs::path> written_as(const fs::path& output, const fs::path& source)
 {
     if (is_tetgen(source)) return tetgen_files(output, has_faces(source));
-    const bool inside = io::is_gltf(source) && io::detail::places_of_buffers(source).data_uris;
+    const bool inside = io::is_gltf(source) && io::impl::places_of_buffers(source).data_uris;
     return extension(output) == ".gltf" && !inside ? std::vector{output, named(output, ".bin")} : std::vector{output};
 }
 

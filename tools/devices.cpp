@@ -2,7 +2,7 @@
 #include <sstream>
 #include <string>
 
-#include <taut/compute/choose_device.hpp>
+#include <taut/impl/compute/choose_device.hpp>
 
 #include "commands.hpp"
 #include "text_table.hpp"

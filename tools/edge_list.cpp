@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <system_error>
 
-#include <taut/io/io_error.hpp>
+#include <taut/impl/io/io_error.hpp>
 
 namespace taut::tools
 {

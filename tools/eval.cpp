@@ -4,8 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include <taut/io/cut_seams.hpp>
-#include <taut/io/read_surface.hpp>
+#include <taut/impl/io/cut_seams.hpp>
+#include <taut/impl/io/read_surface.hpp>
 
 #include "assessment.hpp"
 #include "commands.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <system_error>
 
-#include <taut/io/read_file.hpp>
+#include <taut/impl/io/read_file.hpp>
 
 namespace taut::tools
 {
@@ -35,7 +35,7 @@ std::vector<idx> parse_faces(std::string_view text, const std::string& path)
 
 std::vector<idx> read_faces(const std::string& path)
 {
-    return parse_faces(io::read_file(path), path);
+    return parse_faces(io::impl::read_file(path), path);
 }
 
 } // namespace taut::tools

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/core/types.hpp>
+#include <taut/impl/core/types.hpp>
 
 namespace taut::tools
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/mesh/mesh_error.hpp>
+#include <taut/impl/mesh/mesh_error.hpp>
 
 #include "exit_codes.hpp"
 

@@ -13,7 +13,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#include <taut/io/atomic_file.hpp>
+#include <taut/impl/io/atomic_file.hpp>
 
 namespace taut::tools
 {
@@ -63,7 +63,7 @@ sigset_t watched() noexcept
     // Where nobody reads, a message is not worth waiting for.
     if (::poll(&out, 1, 0) == 1) [[maybe_unused]]
         const auto written = ::write(STDERR_FILENO, text.data(), text.size());
-    io::remove_temporaries();
+    io::impl::remove_temporaries();
     ::_exit(to_int(code));
 }
 

@@ -16,10 +16,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <taut/compute/errors.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/surface_file.hpp>
-#include <taut/mesh/mesh_error.hpp>
+#include <taut/impl/compute/errors.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/surface_file.hpp>
+#include <taut/impl/mesh/mesh_error.hpp>
 #include <taut/version.hpp>
 
 #include "command_line.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <taut/compute/queue.hpp>
+#include <taut/impl/compute/queue.hpp>
 
 #include "build_elsewhere.hpp"
 

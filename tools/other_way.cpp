@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "other_way.hpp"
 
-#include <taut/gltf/gltf.hpp>
+#include <taut/impl/gltf/gltf.hpp>
 
 namespace taut::tools
 {

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include <taut/io/io_error.hpp>
-#include <taut/mesh/mesh_error.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/mesh/mesh_error.hpp>
 
 namespace taut::tools
 {

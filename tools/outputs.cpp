@@ -9,7 +9,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <taut/io/atomic_file.hpp>
+#include <taut/impl/io/atomic_file.hpp>
 
 #include "companions.hpp"
 #include "failure.hpp"
@@ -60,7 +60,7 @@ bool require_place(const run_file& output)
         refuse(output, "there is no folder " + folder.string() + "; create it first");
     try
     {
-        const auto target = io::detail::resolve_target(output.path);
+        const auto target = io::impl::resolve_target(output.path);
         const auto& known = output.use->extensions;
         const bool named = output.path == output.given && !known.empty() && !target.stream;
         if (named && std::find(known.begin(), known.end(), extension(output.path)) == known.end())
@@ -69,7 +69,7 @@ bool require_place(const run_file& output)
             for (const auto& e : known) list += (list.empty() ? "" : " or ") + e;
             refuse(output, "the name must end in " + list);
         }
-        io::require_writable(output.path);
+        io::impl::require_writable(output.path);
         return target.number == STDOUT_FILENO;
     }
     catch (const io::io_error& e)
@@ -146,7 +146,7 @@ const char* outputs::place_of_report() const
     const char* place = standard_output_taken_ ? "/dev/stderr" : standard_output;
     try
     {
-        io::require_writable(place);
+        io::impl::require_writable(place);
     }
     catch (const io::io_error& e)
     {
@@ -157,7 +157,7 @@ const char* outputs::place_of_report() const
 
 bool has_reader(const char* place_of_report)
 {
-    pollfd stream = {io::detail::resolve_target(place_of_report).number, POLLOUT, 0};
+    pollfd stream = {io::impl::resolve_target(place_of_report).number, POLLOUT, 0};
     return ::poll(&stream, 1, 0) < 1 || (stream.revents & (POLLERR | POLLHUP)) == 0;
 }
 
@@ -172,7 +172,7 @@ std::string name_of_invalid(const std::string& output)
 {
     try
     {
-        return io::is_stream(output) ? std::string() : output + ".invalid";
+        return io::impl::is_stream(output) ? std::string() : output + ".invalid";
     }
     catch (const io::io_error&) // a folder
     {

@@ -19,12 +19,12 @@
 #include <nlohmann/json.hpp>
 
 #include <picture/render_picture.hpp>
-#include <taut/edit/parameterize_feature.hpp>
-#include <taut/edit/tessellate.hpp>
-#include <taut/edit/write_feature_map.hpp>
-#include <taut/edit/write_paste.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/write_files.hpp>
+#include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/tessellate.hpp>
+#include <taut/impl/edit/write_feature_map.hpp>
+#include <taut/impl/edit/write_paste.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_files.hpp>
 
 #include "commands.hpp"
 #include "face_list.hpp"
@@ -140,7 +140,7 @@ private:
     /// Of corners, middles of edges and centroids of one surface from another one.
     static double largest_distance(const mesh<triangle>& from, const mesh<triangle>& to)
     {
-        const taut::detail::surface_tree tree(to.points(), to.cells());
+        const taut::impl::surface_tree tree(to.points(), to.cells());
         double largest = 0;
         for (idx f = 0; f < from.cell_count(); ++f)
         {

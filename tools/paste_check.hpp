@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/edit/paste.hpp>
+#include <taut/impl/edit/paste.hpp>
 
 #include "failure.hpp"
 #include "text_table.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <picture/image.hpp>
-#include <taut/core/error.hpp>
+#include <taut/impl/core/error.hpp>
 
 namespace taut::tools
 {

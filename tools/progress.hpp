@@ -98,9 +98,9 @@ public:
         }
         line += report.phase;
         if (report.step > 0 || report.most_steps > 0) line += "  step " + std::to_string(report.step);
-        if (std::isfinite(report.inverted)) line += "  inverted " + io::detail::format_number(report.inverted, 9);
-        if (std::isfinite(report.energy)) line += "  energy " + io::detail::format_number(report.energy);
-        return line + "  " + io::detail::format_number(std::round(report.seconds * 100) / 100, 6) + " s";
+        if (std::isfinite(report.inverted)) line += "  inverted " + io::impl::format_number(report.inverted, 9);
+        if (std::isfinite(report.energy)) line += "  energy " + io::impl::format_number(report.energy);
+        return line + "  " + io::impl::format_number(std::round(report.seconds * 100) / 100, 6) + " s";
     }
 
     /// One object, numbers with the digits that identify them; what is not known is null:

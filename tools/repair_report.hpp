@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/io/surface_file.hpp>
-#include <taut/repair/repair_surface.hpp>
+#include <taut/impl/io/surface_file.hpp>
+#include <taut/impl/repair/repair_surface.hpp>
 
 #include "text_table.hpp"
 

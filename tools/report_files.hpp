@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/io/write_files.hpp>
+#include <taut/impl/io/write_files.hpp>
 
 #include "outputs.hpp"
 #include "progress.hpp"

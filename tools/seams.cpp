@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/chart_mesh.hpp>
-#include <taut/atlas/cut_to_disk.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
+#include <taut/impl/atlas/cut_to_disk.hpp>
 
 #include "failure.hpp"
 #include "text_table.hpp"

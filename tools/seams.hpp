@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include <taut/io/cut_seams.hpp>
-#include <taut/io/pins.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/io/cut_seams.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/mesh/validate.hpp>
 #include <vector>
 
 namespace taut::tools

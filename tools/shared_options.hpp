@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <taut/io/read_surface.hpp>
+#include <taut/impl/io/read_surface.hpp>
 
 #include "command_line.hpp"
 #include "progress.hpp"

@@ -16,14 +16,14 @@
 #include <nlohmann/json.hpp>
 
 #include <picture/render_picture.hpp>
-#include <taut/exact/collapses.hpp>
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/io/pins.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/write_files.hpp>
-#include <taut/io/write_obj.hpp>
-#include <taut/map/deform.hpp>
-#include <taut/measure/describe_defects.hpp>
+#include <taut/impl/exact/collapses.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/io/write_obj.hpp>
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/measure/describe_defects.hpp>
 
 #include "assessment.hpp"
 #include "failure.hpp"
@@ -57,7 +57,7 @@ shell_run::shell_run(const shape_options& options, run_clock clock, progress& pr
     refuse(!options.moves.empty(), "--move");
     refuse(!options.fixed.empty(), "--fix");
     refuse(options.energy != shape_energy::isometric, "--energy");
-    if (!io::is_stream(options.output) && extension(options.output) != ".obj")
+    if (!io::impl::is_stream(options.output) && extension(options.output) != ".obj")
         throw usage_error("-o: a surface is written as .obj; name it so");
     if (!options.picture.empty() && extension(options.picture) != ".png")
         throw usage_error("--picture: a surface is drawn as .png; name it so");
@@ -70,7 +70,7 @@ exit_code shell_run::operator()()
     const thin_shell shell(rest);
     auto pins = taut::constraints(shell.hinges());
     if (!options_.pins.empty()) add_pins(pins, io::read_pins<3>(options_.pins, file.surface.vertex_count()));
-    pins.require_used(detail::unused_vertices(rest.points().size(), rest.cells()));
+    pins.require_used(impl::unused_vertices(rest.points().size(), rest.cells()));
     vertices_ = file.surface.points().size();
     triangles_ = file.surface.cells().size();
     pins_ = pins.pins().size();

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/constrain/constraints.hpp>
-#include <taut/io/surface_file.hpp>
-#include <taut/map/session_result.hpp>
-#include <taut/map/shell_params.hpp>
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/io/surface_file.hpp>
+#include <taut/impl/map/session_result.hpp>
+#include <taut/impl/map/shell_params.hpp>
 
 #include "exit_codes.hpp"
 #include "progress.hpp"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/objective/stage_report.hpp>
+#include <taut/impl/objective/stage_report.hpp>
 
 namespace taut::tools
 {

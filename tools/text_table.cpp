@@ -10,12 +10,12 @@ namespace taut::tools
 
 std::string number(double x, int digits)
 {
-    return io::detail::format_number(x, digits);
+    return io::impl::format_number(x, digits);
 }
 
 std::string count(std::uint64_t n)
 {
-    return io::detail::format_count(n);
+    return io::impl::format_count(n);
 }
 
 std::string count(std::uint64_t n, const std::string& noun, const std::string& nouns)

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include <taut/io/make_untangle_problem.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
 
 #include "commands.hpp"
 #include "failure.hpp"
@@ -52,8 +52,8 @@ exit_code run(const untangle_options& options, const outputs& files, std::chrono
     if (names_surface(options.input))
         throw io::io_error(options.input, "is a surface in space, of which no element is inverted; `taut deform` moves "
                                           "one, `taut unwrap` maps it to the plane");
-    std::optional<decltype(io::read_any_prob({}))> file;
-    report.seconds.read = clock.timed([&] { file = io::read_any_prob(options.input); });
+    std::optional<decltype(io::impl::read_any_prob({}))> file;
+    report.seconds.read = clock.timed([&] { file = io::impl::read_any_prob(options.input); });
     return std::visit(
         [&]<class Element>(io::prob_file<Element>& read)
         {

@@ -4,8 +4,8 @@
 #include <picture/layout_svg.hpp>
 #include <picture/side_by_side_svg.hpp>
 #include <picture/symmetric_distortion.hpp>
-#include <taut/exact/branch_points.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/exact/branch_points.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 #include "outputs.hpp"
 #include "png.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <picture/layout_picture.hpp>
-#include <taut/constrain/untangle_problem.hpp>
-#include <taut/io/volume_file.hpp>
+#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/io/volume_file.hpp>
 
 namespace taut::tools
 {

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/untangle/result.hpp>
+#include <taut/impl/untangle/result.hpp>
 
 #include "exit_codes.hpp"
 #include "untangle_options.hpp"

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/write_files.hpp>
-#include <taut/io/write_map.hpp>
-#include <taut/io/write_volume.hpp>
-#include <taut/measure/describe_defects.hpp>
-#include <taut/untangle/proofs/infeasible.hpp>
-#include <taut/untangle/untangle.hpp>
-#include <taut/untangle/untangle_refined.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/io/write_map.hpp>
+#include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/measure/describe_defects.hpp>
+#include <taut/impl/untangle/proofs/infeasible.hpp>
+#include <taut/impl/untangle/untangle.hpp>
+#include <taut/impl/untangle/untangle_refined.hpp>
 
 #include "failure.hpp"
 #include "interrupt.hpp"
@@ -256,14 +256,14 @@ private:
         // A map with defects never gets the name that was asked for.
         if (!map_.empty()) report_.written = valid_ ? options_.output : name_of_invalid(options_.output);
         if (input_ && valid_)
-            files = io::volume_outputs(report_.written, input_->file(), points_);
+            files = io::impl::volume_outputs(report_.written, input_->file(), points_);
         else if (!report_.written.empty())
             files.push_back({report_.written, [&](io::atomic_file& file)
                              {
                                  if (input_)
-                                     file.write(io::with_points(input_->file(), points_));
+                                     file.write(io::impl::with_points(input_->file(), points_));
                                  else if (problem_file_)
-                                     file.write(io::with_points(*problem_file_, in_space()));
+                                     file.write(io::impl::with_points(*problem_file_, in_space()));
                                  else
                                      io::write_map<D>(file, map_);
                              }});

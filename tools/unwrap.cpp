@@ -9,13 +9,13 @@
 
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
-#include <taut/exact/settle_map.hpp>
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/write_files.hpp>
-#include <taut/io/write_obj.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/measure/describe_defects.hpp>
+#include <taut/impl/exact/settle_map.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/io/write_obj.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/measure/describe_defects.hpp>
 
 #include "commands.hpp"
 #include "failure.hpp"

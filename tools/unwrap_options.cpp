@@ -3,9 +3,9 @@
 
 #include <chrono>
 
-#include <taut/energy/area.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/energy/shape.hpp>
+#include <taut/impl/energy/area.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/energy/shape.hpp>
 
 #include "choices.hpp"
 #include "failure.hpp"

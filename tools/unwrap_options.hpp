@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <taut/io/read_surface.hpp>
-#include <taut/map/parameterize_params.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/map/parameterize_params.hpp>
 
 namespace taut::tools
 {

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/map/map_result.hpp>
+#include <taut/impl/map/map_result.hpp>
 
 #include "assessment.hpp"
 #include "exit_codes.hpp"

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/io/atomic_file.hpp>
-#include <taut/io/write_files.hpp>
+#include <taut/impl/io/atomic_file.hpp>
+#include <taut/impl/io/write_files.hpp>
 
 #include "failure.hpp"
 #include "interrupt.hpp"

@@ -10,17 +10,15 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <taut/constrain/constraints.hpp>
-#include <taut/mesh/arrays.hpp>
-#include <taut/sparse/block_rows.hpp>
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/mesh/arrays.hpp>
+#include <taut/impl/sparse/block_rows.hpp>
 
 /// Meshes, maps, constraints and Hessians as matrices of Eigen, in the conventions of libigl: V has a vertex a row (2
 /// or 3 columns, float or double), F a triangle and T a tetrahedron (integers of any width), by rows or by columns.
 /// Whatever has its numbers in memory is read where it lies: matrices, Map, Ref, blocks. An optional header: taut.hpp
 /// does not include it, as it needs Eigen.
-namespace taut
-{
-namespace detail
+namespace taut::impl
 {
 
 /// The rows of a matrix where they lie; name: of the matrix in messages.
@@ -62,27 +60,30 @@ constraints<Element> constraints_of_rows(const mesh<Element>& m, const Vertices&
 template <class T, int K>
 using packed_rows = Eigen::Matrix<T, Eigen::Dynamic, K, Eigen::RowMajor>;
 
-} // namespace detail
+} // namespace taut::impl
+
+namespace taut
+{
 
 /// A surface of V and F. Throws parameter_error for another number of columns, mesh_error as the constructor of mesh.
 template <class Points, class Cells>
 mesh<triangle> mesh_from(const Eigen::DenseBase<Points>& V, const Eigen::DenseBase<Cells>& F)
 {
-    return detail::mesh_of_matrices<triangle>(V, F, "F");
+    return impl::mesh_of_matrices<triangle>(V, F, "F");
 }
 
 /// A volume of V and T.
 template <class Points, class Cells>
 mesh<tetrahedron> volume_from(const Eigen::DenseBase<Points>& V, const Eigen::DenseBase<Cells>& T)
 {
-    return detail::mesh_of_matrices<tetrahedron>(V, T, "T");
+    return impl::mesh_of_matrices<tetrahedron>(V, T, "T");
 }
 
 /// Points of a matrix with D columns.
 template <int D, class Points>
 std::vector<vec<D>> points_from(const Eigen::DenseBase<Points>& X)
 {
-    return points_of<D>(detail::rows_of<D>(X, "X"));
+    return points_of<D>(impl::rows_of<D>(X, "X"));
 }
 
 /// Points as a matrix with one row a point. It is the memory of x and no copy: assign it to a matrix of your own,
@@ -92,12 +93,12 @@ std::vector<vec<D>> points_from(const Eigen::DenseBase<Points>& X)
 ///
 /// or write to it.
 template <int D>
-Eigen::Map<const detail::packed_rows<double, D>> matrix_of(const std::vector<vec<D>>& x)
+Eigen::Map<const impl::packed_rows<double, D>> matrix_of(const std::vector<vec<D>>& x)
 {
     return {numbers_of<D>(x).data(), static_cast<Eigen::Index>(x.size()), D};
 }
 template <int D>
-Eigen::Map<detail::packed_rows<double, D>> matrix_of(std::vector<vec<D>>& x)
+Eigen::Map<impl::packed_rows<double, D>> matrix_of(std::vector<vec<D>>& x)
 {
     return {x.empty() ? nullptr : &x[0].x, static_cast<Eigen::Index>(x.size()), D};
 }
@@ -106,7 +107,7 @@ void matrix_of(const std::vector<vec<D>>&&) = delete; // a temporary would be go
 
 /// Cells of a mesh as F or T.
 template <std::size_t K>
-Eigen::Map<const detail::packed_rows<idx, static_cast<int>(K)>> matrix_of(const std::vector<std::array<idx, K>>& cells)
+Eigen::Map<const impl::packed_rows<idx, static_cast<int>(K)>> matrix_of(const std::vector<std::array<idx, K>>& cells)
 {
     return {cells.empty() ? nullptr : cells[0].data(), static_cast<Eigen::Index>(cells.size()), static_cast<int>(K)};
 }
@@ -123,7 +124,7 @@ enum class unknown_order
 /// A symmetric matrix of blocks, as map_evaluator::hessian gives it, for Eigen's solvers. Throws size_error where its
 /// entries exceed 32-bit numbering.
 template <int D>
-Eigen::SparseMatrix<double> matrix_of(const block_rows<D>& H, unknown_order order = unknown_order::by_point)
+Eigen::SparseMatrix<double> matrix_of(const impl::block_rows<D>& H, unknown_order order = unknown_order::by_point)
 {
     constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<int>::max());
     if (H.blocks.size() > limit / (D * D)) throw size_error("H", "more entries than 32-bit numbers count");
@@ -159,7 +160,7 @@ template <class Element, class Vertices, class Points>
 constraints<Element> constraints_from(const mesh<Element>& m, const Eigen::DenseBase<Vertices>& b,
                                       const Eigen::DenseBase<Points>& bc)
 {
-    return detail::constraints_of_rows(m, b, bc, [](auto& wanted, idx v, const auto& x) { wanted.pin(v, x); });
+    return impl::constraints_of_rows(m, b, bc, [](auto& wanted, idx v, const auto& x) { wanted.pin(v, x); });
 }
 
 /// Springs of one weight instead, as libigl's soft_p.
@@ -167,7 +168,7 @@ template <class Element, class Vertices, class Points>
 constraints<Element> constraints_from(const mesh<Element>& m, const Eigen::DenseBase<Vertices>& b,
                                       const Eigen::DenseBase<Points>& bc, double weight)
 {
-    return detail::constraints_of_rows(m, b, bc,
+    return impl::constraints_of_rows(m, b, bc,
                                        [weight](auto& wanted, idx v, const auto& x) { wanted.spring(v, x, weight); });
 }
 template <class Element, class... Rows>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An array that was declared as written only cannot be read.
-#include <taut/symbolic/recording.hpp>
+#include <taut/impl/symbolic/recording.hpp>
 
 int main()
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <taut/symbolic/sym.hpp>
+#include <taut/impl/symbolic/sym.hpp>
 
 taut::sym<float> clamp(taut::sym<float> x)
 {

@@ -5,17 +5,17 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/objective/map_objective.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/objective/map_objective.hpp>
 
 namespace
 {
 
 void launch_all(taut::queue& q, const taut::mesh<taut::triangle>& surface, taut::precision how)
 {
-    const auto local = std::make_shared<const taut::layout<taut::triangle>>(surface);
-    taut::map_objective<taut::triangle> f(q, local, taut::energy::isometric{}, taut::energy::weighting::uniform,
-                                          taut::types_of(how));
+    const auto local = std::make_shared<const taut::impl::layout<taut::triangle>>(surface);
+    taut::impl::map_objective<taut::triangle> f(q, local, taut::energy::isometric{}, taut::energy::weighting::uniform,
+                                          taut::impl::types_of(how));
     std::vector<taut::vec2> flat;
     for (const auto& p : surface.points()) flat.emplace_back(p.x, p.y);
     auto x = f.make_point();

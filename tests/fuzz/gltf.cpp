@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <sanitizer/allocator_interface.h>
-#include <taut/gltf/gltf.hpp>
+#include <taut/impl/gltf/gltf.hpp>
 
 #include "../support/gltf_models.hpp"
 #include "mutator.hpp"
@@ -120,21 +120,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     allocated = 0;
     try
     {
-        const auto model = io::parse_gltf({reinterpret_cast<const char*>(data), size}, "/dev/null/a.gltf");
+        const auto model = io::impl::parse_gltf({reinterpret_cast<const char*>(data), size}, "/dev/null/a.gltf");
         const auto n = static_cast<idx>(model.points.size());
         for (const auto& t : model.triangles)
             for (const idx v : t) fuzz::require(v >= 0 && v < n, "triangles name points");
         const auto uv = corner_uv(model);
-        auto [document, bytes] = io::detail::gltf_writer(model, uv, 0, io::gltf_numbers::floats).write();
-        const auto again = io::detail::join_glb(document.dump(), bytes, {}, "again");
+        auto [document, bytes] = io::impl::gltf_writer(model, uv, 0, io::gltf_numbers::floats).write();
+        const auto again = io::impl::join_glb(document.dump(), bytes, {}, "again");
         try
         {
-            const auto back = io::parse_gltf(again, "again");
+            const auto back = io::impl::parse_gltf(again, "again");
             fuzz::require(back.triangles == model.triangles, "the same triangles");
             for (std::size_t t = 0; t < uv.size(); ++t)
                 for (std::size_t k = 0; k < 3; ++k)
                     fuzz::require(back.texcoords[static_cast<std::size_t>(back.texcoord_cells[t][k])] ==
-                                      io::texcoord_in_gltf(uv[t][k]),
+                                      io::impl::texcoord_in_gltf(uv[t][k]),
                                   "the texture coordinates that were written");
         }
         catch (const error& e)

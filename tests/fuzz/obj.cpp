@@ -127,7 +127,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     try
     {
-        const std::string written = fuzz::require_promises(io::parse_obj(bytes));
+        const std::string written = fuzz::require_promises(io::impl::parse_obj(bytes));
         const std::string before = without_texcoords(bytes), after = without_texcoords(written);
         if (before != after) std::fprintf(stderr, "--- read\n%s\n--- written\n%s\n", before.c_str(), after.c_str());
         fuzz::require(before == after, "only texture coordinates change");
@@ -137,7 +137,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     try
     {
-        fuzz::require_repairable(io::parse_obj_soup(bytes));
+        fuzz::require_repairable(io::impl::parse_obj_soup(bytes));
     }
     catch (const error&)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <taut/io/off.hpp>
+#include <taut/impl/io/off.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"
@@ -53,14 +53,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const taut::fuzz::budget limit(size);
     try
     {
-        fuzz::require_promises(io::parse_off(std::string_view(reinterpret_cast<const char*>(data), size)));
+        fuzz::require_promises(io::impl::parse_off(std::string_view(reinterpret_cast<const char*>(data), size)));
     }
     catch (const error&)
     {
     }
     try
     {
-        fuzz::require_repairable(io::parse_off_soup(std::string_view(reinterpret_cast<const char*>(data), size)));
+        fuzz::require_repairable(io::impl::parse_off_soup(std::string_view(reinterpret_cast<const char*>(data), size)));
     }
     catch (const error&)
     {

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include <taut/constrain/constraints.hpp>
-#include <taut/io/make_untangle_problem.hpp>
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"
@@ -43,7 +43,7 @@ void examine(std::string_view bytes, const mesh<Element>& m)
 {
     try
     {
-        const auto pins = io::parse_pins<Element::dimension>(bytes, "pins", vertices);
+        const auto pins = io::impl::parse_pins<Element::dimension>(bytes, "pins", vertices);
         for (const auto& p : pins)
         {
             fuzz::require(p.vertex >= 0 && p.vertex < vertices, "vertices in range");

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-#include <taut/io/ply.hpp>
+#include <taut/impl/io/ply.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"
@@ -173,14 +173,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const taut::fuzz::budget limit(size);
     try
     {
-        fuzz::require_promises(io::parse_ply(std::string_view(reinterpret_cast<const char*>(data), size)));
+        fuzz::require_promises(io::impl::parse_ply(std::string_view(reinterpret_cast<const char*>(data), size)));
     }
     catch (const error&)
     {
     }
     try
     {
-        fuzz::require_repairable(io::parse_ply_soup(std::string_view(reinterpret_cast<const char*>(data), size)));
+        fuzz::require_repairable(io::impl::parse_ply_soup(std::string_view(reinterpret_cast<const char*>(data), size)));
     }
     catch (const error&)
     {

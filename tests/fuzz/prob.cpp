@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include <taut/exact/certify.hpp>
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/untangle/proofs/infeasible.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/untangle/proofs/infeasible.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"
@@ -53,7 +53,7 @@ void examine(std::string_view bytes)
     try
     {
         constexpr int D = Element::dimension;
-        auto file = io::parse_prob<Element>(bytes);
+        auto file = io::impl::parse_prob<Element>(bytes);
         const auto n = static_cast<idx>(file.rest.size());
         fuzz::require(file.initial.size() == file.rest.size(), "one position a vertex");
         for (const auto& cell : file.cells)

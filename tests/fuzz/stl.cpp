@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <taut/io/stl.hpp>
+#include <taut/impl/io/stl.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"
@@ -42,7 +42,7 @@ std::string generate_binary(dice& random)
     const auto add = [&](auto x)
     {
         char to[sizeof x];
-        io::detail::store(to, x, std::endian::little);
+        io::impl::store(to, x, std::endian::little);
         bytes.append(to, sizeof x);
     };
     const std::size_t n = random.between(1, 12);
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const taut::fuzz::budget limit(size);
     try
     {
-        fuzz::require_promises(io::parse_stl(std::string_view(reinterpret_cast<const char*>(data), size)));
+        fuzz::require_promises(io::impl::parse_stl(std::string_view(reinterpret_cast<const char*>(data), size)));
     }
     catch (const error&)
     {

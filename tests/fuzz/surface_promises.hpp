@@ -6,13 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/io/cut_seams.hpp>
-#include <taut/io/detail/obj_output.hpp>
-#include <taut/io/obj.hpp>
-#include <taut/mesh/boundary.hpp>
-#include <taut/mesh/order.hpp>
-#include <taut/mesh/validate.hpp>
-#include <taut/repair/repair_surface.hpp>
+#include <taut/impl/io/cut_seams.hpp>
+#include <taut/impl/io/detail/obj_output.hpp>
+#include <taut/impl/io/obj.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/mesh/order.hpp>
+#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/repair/repair_surface.hpp>
 
 #include "require.hpp"
 
@@ -65,10 +65,10 @@ inline std::string require_round_trip(const io::surface_file& file, const std::v
     std::vector<vec2> uv;
     for (std::size_t v = 0; v < vertices; ++v) uv.emplace_back(static_cast<double>(v), 0.1);
     text_output out;
-    io::detail::write_with_texcoords(out, file, corners, uv);
+    io::impl::write_with_texcoords(out, file, corners, uv);
     try
     {
-        const auto back = io::parse_obj(out.text);
+        const auto back = io::impl::parse_obj(out.text);
         require(back.surface.points() == file.surface.points(), "the same vertices");
         require(back.surface.cells() == file.surface.cells(), "the same triangles");
         require(back.texcoords == uv && back.texcoord_cells == cells, "the texture coordinates that were written");

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/io/cell_faces.hpp>
-#include <taut/io/detail/coding/array_code.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/io/coding/array_code.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/write_volume.hpp>
 
 #include "../support/volume_promises.hpp"
 #include "../support/volume_texts.hpp"
@@ -32,7 +32,7 @@ using io::volume_format;
 constexpr std::string_view letters = " mgvutsp";
 
 /// A code for n bytes of a VTU file.
-io::detail::array_code random_code(dice& random, const io::detail::array_code& all, std::size_t n)
+io::impl::array_code random_code(dice& random, const io::impl::array_code& all, std::size_t n)
 {
     auto code = all;
     code.apart = random.one_in(2);
@@ -230,8 +230,8 @@ void examine(const io::volume_file& file, const std::function<io::volume_file(co
     attempt([&] { io::triangles_of(file); });
     attempt([&] { io::corner_simplices_of(file); });
     attempt([&] { io::corner_simplices_of<triangle>(file); });
-    attempt([&] { io::check_sides(file); });
-    attempt([&] { io::kept_facets(file, true); });
+    attempt([&] { io::impl::check_sides(file); });
+    attempt([&] { io::impl::kept_facets(file, true); });
     attempt([&] { file.find_group("1"); });
 }
 
@@ -254,8 +254,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto cut = std::min(bytes.find('\f'), size), second = std::min(bytes.find('\f', cut + 1), size);
     const auto read = [&](const std::string& text)
     {
-        if (formats[letter] != volume_format::tetgen) return io::parse_volume(text, formats[letter]);
-        return io::parse_tetgen(text, bytes.substr(std::min(cut + 1, size), second - std::min(cut + 1, second)),
+        if (formats[letter] != volume_format::tetgen) return io::impl::parse_volume(text, formats[letter]);
+        return io::impl::parse_tetgen(text, bytes.substr(std::min(cut + 1, size), second - std::min(cut + 1, second)),
                                 bytes.substr(std::min(second + 1, size)));
     };
     attempt(

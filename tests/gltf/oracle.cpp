@@ -14,8 +14,8 @@
 #include <tiny_gltf.h>
 
 #include <support/gltf_models.hpp>
-#include <taut/gltf/gltf.hpp>
-#include <taut/io/read_file.hpp>
+#include <taut/impl/gltf/gltf.hpp>
+#include <taut/impl/io/read_file.hpp>
 
 using namespace taut;
 
@@ -73,7 +73,7 @@ std::vector<std::size_t> drawn(const tinygltf::Model& m, const tinygltf::Primiti
 
 void compare(const test::gltf_builder& builder, std::size_t chart, const std::string& name)
 {
-    const auto model = io::parse_gltf(builder.glb());
+    const auto model = io::impl::parse_gltf(builder.glb());
     std::vector<std::array<vec2, 3>> uv;
     for (std::size_t t = 0; t < model.triangles.size(); ++t)
     {
@@ -86,7 +86,7 @@ void compare(const test::gltf_builder& builder, std::size_t chart, const std::st
     const auto written =
         std::filesystem::temp_directory_path() / ("taut-tinygltf-" + std::to_string(std::random_device{}()) + ".glb");
     io::write_gltf(written, model, uv);
-    const auto before = load(builder.glb(), name), after = load(io::read_file(written), name);
+    const auto before = load(builder.glb(), name), after = load(io::impl::read_file(written), name);
     std::filesystem::remove(written);
     require(before.materials == after.materials && before.nodes == after.nodes && before.skins == after.skins &&
                 before.animations == after.animations && before.cameras == after.cameras &&

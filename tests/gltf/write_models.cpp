@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <support/gltf_models.hpp>
-#include <taut/gltf/gltf.hpp>
+#include <taut/impl/gltf/gltf.hpp>
 
 using namespace taut;
 

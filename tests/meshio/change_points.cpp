@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iostream>
 
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/write_volume.hpp>
 
 namespace
 {
@@ -27,7 +27,7 @@ void describe(std::ostream& out, const io::volume_file& file)
     for (const auto& block : file.cells)
         for (std::size_t c = 0; c < block.size(); ++c)
         {
-            out << "cell " << io::shape_of(block.kind).name;
+            out << "cell " << io::impl::shape_of(block.kind).name;
             for (const idx v : block.cell(c)) out << ' ' << v;
             out << '\n';
         }

@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include <taut/atlas/chart_mesh.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace taut::test
 {

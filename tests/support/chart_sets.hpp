@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/core/types.hpp>
+#include <taut/impl/core/types.hpp>
 
 namespace support
 {

@@ -71,7 +71,7 @@ private:
     std::vector<long double> values_;
 };
 
-/// What detail::dense_inverse computes: the inverse of the matrix, scaled to a unit diagonal and shifted. Unknowns
+/// What impl::dense_inverse computes: the inverse of the matrix, scaled to a unit diagonal and shifted. Unknowns
 /// without a positive diagonal get 0. d: unknown i is one of component i % d, and is stiff against translations of
 /// those components that nothing in the matrix holds; 0: there are none.
 inline dense_matrix shifted_inverse(const dense_matrix& A, double shift, std::size_t d = 0)

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <support/size.hpp>
-#include <taut/compute/queue.hpp>
-#include <taut/symbolic/scalar_type.hpp>
+#include <taut/impl/compute/queue.hpp>
+#include <taut/impl/symbolic/scalar_type.hpp>
 
 namespace taut::test
 {

@@ -12,14 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include <taut/gltf/detail/arrays.hpp>
-#include <taut/gltf/detail/container.hpp>
+#include <taut/impl/gltf/arrays.hpp>
+#include <taut/impl/gltf/container.hpp>
 
 /// glTF files made for tests.
 namespace taut::test
 {
 
-using gltf_json = io::gltf_json;
+using gltf_json = io::impl::gltf_json;
 
 /// How a model keeps its data.
 enum class gltf_form
@@ -63,8 +63,8 @@ public:
     std::size_t array(const std::vector<T>& numbers, unsigned component, const char* type,
                       gltf_json members = gltf_json::object(), gltf_json view_members = gltf_json::object())
     {
-        const std::size_t size = io::detail::element_size(type, static_cast<io::detail::gltf_component>(component));
-        const std::size_t v = view(io::detail::bytes_of<T>(numbers), std::move(view_members));
+        const std::size_t size = io::impl::element_size(type, static_cast<io::impl::gltf_component>(component));
+        const std::size_t v = view(io::impl::bytes_of<T>(numbers), std::move(view_members));
         return accessor(v, component, type, numbers.size() * sizeof(T) / size, std::move(members));
     }
 
@@ -76,10 +76,10 @@ public:
         return d.dump();
     }
 
-    std::string glb() const { return io::detail::join_glb(gltf(""), bytes, {}, "a test"); }
+    std::string glb() const { return io::impl::join_glb(gltf(""), bytes, {}, "a test"); }
     std::string with_data_uri() const
     {
-        return gltf("data:application/octet-stream;base64," + io::detail::to_base64(bytes));
+        return gltf("data:application/octet-stream;base64," + io::impl::to_base64(bytes));
     }
 };
 
@@ -151,10 +151,10 @@ inline gltf_builder textured_model(std::uint32_t n = 8)
     }
     const std::size_t colour = b.array(colours, 5121, "VEC4", {{"normalized", true}}, vertex);
     const std::size_t id =
-        b.accessor(b.view(io::detail::bytes_of<std::uint8_t>(ids), {{"byteStride", 4}, {"target", 34962}}), 5121,
+        b.accessor(b.view(io::impl::bytes_of<std::uint8_t>(ids), {{"byteStride", 4}, {"target", 34962}}), 5121,
                    "VEC3", torus.vertices);
     const std::string png = // one pixel
-        *io::detail::from_base64(
+        *io::impl::from_base64(
             "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mP436AAAAQhAaBzQuE8AAAAAElFTkSuQmCC");
     b.document["images"] = gltf_json::array({{{"bufferView", b.view(png)}, {"mimeType", "image/png"}}});
     b.document["textures"] = gltf_json::array({{{"source", 0}, {"extras", nullptr}}});
@@ -201,7 +201,7 @@ inline gltf_builder skinned_model(std::uint32_t n = 8)
         for (std::size_t k = 0; k < 3; ++k) record.push_back(torus.positions[3 * v + k]);
         for (std::size_t k = 0; k < 3; ++k) record.push_back(torus.normals[3 * v + k]);
         for (std::size_t k = 0; k < 2; ++k) record.push_back(torus.texcoords[2 * v + k]);
-        records += io::detail::bytes_of<float>(record);
+        records += io::impl::bytes_of<float>(record);
         joints.insert(joints.end(), {0, 1, 0, 0});
         const float w = static_cast<float>(v % n) / static_cast<float>(n);
         for (const float x : {1 - w, w, 0.0f, 0.0f}) weights.push_back(x);
@@ -246,8 +246,8 @@ inline gltf_builder morphing_model(std::uint32_t n = 8)
     {
         return gltf_json{
             {"count", indices.size()},
-            {"indices", {{"bufferView", b.view(io::detail::bytes_of<std::uint8_t>(indices))}, {"componentType", 5121}}},
-            {"values", {{"bufferView", b.view(io::detail::bytes_of<float>(values))}}}};
+            {"indices", {{"bufferView", b.view(io::impl::bytes_of<std::uint8_t>(indices))}, {"componentType", 5121}}},
+            {"values", {{"bufferView", b.view(io::impl::bytes_of<float>(values))}}}};
     };
     gltf_json members = bounds;
     members["sparse"] = sparse({2}, moved);

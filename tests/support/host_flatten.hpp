@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <support/chart_checks.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/start/barycentric_map.hpp>
-#include <taut/start/isometric_newton.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/start/isometric_newton.hpp>
 
 namespace taut::test
 {
@@ -33,7 +33,7 @@ struct host_maps
 inline host_maps::report flatten_on_host(const mesh<triangle>& m, std::span<vec2> uv)
 {
     const std::vector<char> fixed(m.points().size(), 0);
-    detail::isometric_newton newton(m.points(), m.cells(), fixed);
+    impl::isometric_newton newton(m.points(), m.cells(), fixed);
     std::vector<vec2> x = barycentric_map(m, facets(m), {.stretch_rounds = 2}).uv;
     host_maps::report report;
     double energy = newton.value(x);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <taut/energy/element.hpp>
+#include <taut/impl/energy/element.hpp>
 
 namespace taut::test
 {

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include <taut/core/types.hpp>
-#include <taut/edit/rbf_basis.hpp>
+#include <taut/impl/core/types.hpp>
+#include <taut/impl/edit/rbf_basis.hpp>
 
 namespace taut::test
 {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include <taut/mesh/layout.hpp>
-#include <taut/objective/traced_element.hpp>
-#include <taut/solve/host_objective.hpp>
-#include <taut/symbolic/evaluate.hpp>
+#include <taut/impl/mesh/layout.hpp>
+#include <taut/impl/objective/traced_element.hpp>
+#include <taut/impl/solve/host_objective.hpp>
+#include <taut/impl/symbolic/evaluate.hpp>
 
 namespace taut::test
 {

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/core/observer.hpp>
+#include <taut/impl/core/observer.hpp>
 
 namespace taut::test
 {

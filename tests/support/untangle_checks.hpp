@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/constrain/untangle_problem.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/untangle/result.hpp>
+#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/untangle/result.hpp>
 
 namespace taut::test
 {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/detail/volume/numbers.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/impl/io/volume/numbers.hpp>
+#include <taut/impl/io/write_volume.hpp>
 
 namespace taut::test
 {
@@ -47,7 +47,7 @@ inline std::string outside(const io::volume_file& file, const std::vector<bool>&
     for (std::size_t i = 0; i < file.places.offsets.size(); ++i)
     {
         const std::size_t begin = file.places.offsets[i];
-        const std::size_t end = begin + io::detail::length_at(file, begin);
+        const std::size_t end = begin + io::impl::length_at(file, begin);
         result += file.bytes.substr(done, begin - done);
         result += kept[i / d] ? file.bytes.substr(begin, end - begin) : "@";
         done = end;
@@ -59,7 +59,7 @@ inline std::string outside(const io::volume_file& file, const std::vector<bool>&
 inline std::vector<io::cell_block> cells_in_file(const io::volume_file& file)
 {
     auto copy = file;
-    io::turn_cells(copy, file.turned);
+    io::impl::turn_cells(copy, file.turned);
     return copy.cells;
 }
 
@@ -76,7 +76,7 @@ inline std::string broken_promise(const io::volume_file& file,
         if (!std::is_sorted(group.vertices.begin(), group.vertices.end(), std::less_equal<>()) ||
             (!group.vertices.empty() && (group.vertices.front() < 0 || group.vertices.back() >= static_cast<idx>(n))))
             return "vertices of groups ascending and in range";
-    if (io::with_points(file, file.points) != file.bytes) return "the same points make the same bytes";
+    if (io::impl::with_points(file, file.points) != file.bytes) return "the same points make the same bytes";
 
     auto points = file.points;
     std::vector<bool> kept(n, true);
@@ -85,8 +85,8 @@ inline std::string broken_promise(const io::volume_file& file,
         kept[v] = false;
         for (int k = 0; k < file.places.per_point; ++k) points[v][k] = 0.1 * static_cast<double>(v) + 1. / 3 + k;
     }
-    if (!file.places.text) points = io::rounded_to_file(file, points);
-    const auto back = read(io::with_points(file, points));
+    if (!file.places.text) points = io::impl::rounded_to_file(file, points);
+    const auto back = read(io::impl::with_points(file, points));
     if (!std::equal(points.begin(), points.end(), back.points.begin(), back.points.end(), same_point))
         return "the points that were written";
     if (back.cells.size() != file.cells.size() || back.groups.size() != file.groups.size()) return "blocks and groups";

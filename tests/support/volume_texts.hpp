@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/detail/byte_order.hpp>
-#include <taut/io/volume_file.hpp>
+#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/volume_file.hpp>
 
 /// Small volume meshes, and their files in every format as other programs write them.
 namespace taut::test
@@ -97,7 +97,7 @@ public:
             return *this;
         }
         std::array<char, sizeof(T)> bytes;
-        io::detail::store(bytes.data(), x, encoding_.order);
+        io::impl::store(bytes.data(), x, encoding_.order);
         text.append(bytes.data(), bytes.size());
         return *this;
     }
@@ -216,7 +216,7 @@ inline std::string gmsh4_text(const volume_sample& s, const volume_encoding& e)
     std::array<std::vector<int>, 4> tags; // of entities, by dimension
     for (const auto& c : s.cells)
     {
-        auto& of = tags[static_cast<std::size_t>(io::shape_of(c.kind).dimension)];
+        auto& of = tags[static_cast<std::size_t>(io::impl::shape_of(c.kind).dimension)];
         if (std::find(of.begin(), of.end(), c.tag) == of.end()) of.push_back(c.tag);
     }
     for (const auto& of : tags) out.put_i64(of.size());
@@ -244,7 +244,7 @@ inline std::string gmsh4_text(const volume_sample& s, const volume_encoding& e)
     for (std::size_t c = 0; c < s.cells.size(); ++c)
     {
         const auto& cell = s.cells[c];
-        out.put(io::shape_of(cell.kind).dimension).put(cell.tag + 40).put(gmsh_number(cell.kind)).put_i64(1).row();
+        out.put(io::impl::shape_of(cell.kind).dimension).put(cell.tag + 40).put(gmsh_number(cell.kind)).put_i64(1).row();
         out.put_i64(c + 1);
         for (const idx v : cell.corners) out.put_i64(static_cast<std::size_t>(gmsh_id(s, v)));
         out.row();
@@ -350,7 +350,7 @@ inline std::string su2_text(const volume_sample& s, int dimension = 3, const std
     number_text out({}, end), below({}, end);
     std::size_t elements = 0, markers = 0;
     for (const auto& c : s.cells)
-        if (io::shape_of(c.kind).dimension == dimension)
+        if (io::impl::shape_of(c.kind).dimension == dimension)
             ++elements;
         else
             ++markers;
@@ -359,7 +359,7 @@ inline std::string su2_text(const volume_sample& s, int dimension = 3, const std
     for (std::size_t i = 0; i < s.cells.size(); ++i)
     {
         const auto& c = s.cells[i];
-        const bool marker = io::shape_of(c.kind).dimension != dimension;
+        const bool marker = io::impl::shape_of(c.kind).dimension != dimension;
         if (marker) below.say("MARKER_TAG= side" + std::to_string(c.tag) + end + "MARKER_ELEMS= 1" + end);
         (marker ? below : out).put(vtk_number(c.kind));
         for (const idx v : s.vtk_corners(i)) (marker ? below : out).put(v);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 namespace taut::test
 {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include <taut/gltf/gltf.hpp>
+#include <taut/impl/gltf/gltf.hpp>
 
 #include "../choices.hpp"
 #include "../failure.hpp"

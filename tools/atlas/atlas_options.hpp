@@ -8,8 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <taut/atlas/atlas_params.hpp>
-#include <taut/io/read_surface.hpp>
+#include <taut/impl/atlas/atlas_params.hpp>
+#include <taut/impl/io/read_surface.hpp>
 
 #include "atlas_source.hpp"
 

@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/io/detail/obj_output.hpp>
-#include <taut/mesh/ideal.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/io/detail/obj_output.hpp>
+#include <taut/impl/mesh/ideal.hpp>
 
 #include "../assessment.hpp"
 #include "../repair_report.hpp"
@@ -91,14 +91,14 @@ void write_stats(io::atomic_file& file, const atlas_run_report& r, const atlas_o
     head.erase(head.rfind("\n}")); // charts follow, a line each: there may be tens of thousands
     file.write(head + ",\n  \"chart_table\": [");
     const auto& charts = r.atlas.charts;
-    io::detail::write_items(file, charts.size(),
+    io::impl::write_items(file, charts.size(),
                             [&](std::string& text, std::size_t k)
                             {
                                 const auto& c = charts[k];
                                 text += k == 0 ? "\n    {\"triangles\": " : ",\n    {\"triangles\": ";
-                                io::detail::append_number(text, c.triangles);
+                                io::impl::append_number(text, c.triangles);
                                 text += ", \"tile\": ";
-                                io::detail::append_number(text, c.tile);
+                                io::impl::append_number(text, c.tile);
                                 text += ", \"area\": ";
                                 append_json(text, c.area);
                                 text += ", \"energy\": ";

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <report/atlas_page.hpp>
-#include <taut/atlas/make_atlas.hpp>
-#include <taut/io/atomic_file.hpp>
-#include <taut/repair/repair_finding.hpp>
+#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/impl/io/atomic_file.hpp>
+#include <taut/impl/repair/repair_finding.hpp>
 
 #include "../exit_codes.hpp"
 #include "atlas_options.hpp"

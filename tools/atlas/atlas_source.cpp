@@ -6,10 +6,10 @@
 #include <map>
 #include <string_view>
 
-#include <taut/core/disjoint_sets.hpp>
-#include <taut/io/detail/obj_statements.hpp>
-#include <taut/io/write_obj.hpp>
-#include <taut/mesh/describe.hpp>
+#include <taut/impl/core/disjoint_sets.hpp>
+#include <taut/impl/io/detail/obj_statements.hpp>
+#include <taut/impl/io/write_obj.hpp>
+#include <taut/impl/mesh/describe.hpp>
 
 #include "../failure.hpp"
 #include "../repair_report.hpp"
@@ -26,12 +26,12 @@ std::vector<idx> face_materials(std::string_view text)
     std::map<std::string_view, idx> numbers{{"", 0}}; // of faces before the first name
     std::vector<idx> materials;
     idx now = 0;
-    io::detail::scanner in(text, {});
-    io::detail::for_each_statement(
+    io::impl::scanner in(text, {});
+    io::impl::for_each_statement(
         in,
         [&](std::string_view key, const char*)
         {
-            if (io::detail::is_face(key)) materials.push_back(now);
+            if (io::impl::is_face(key)) materials.push_back(now);
             if (key == "usemtl")
                 now = numbers.emplace(in.rest_of_line(), static_cast<idx>(numbers.size())).first->second;
         });
@@ -59,7 +59,7 @@ public:
     {
         file_vertices = static_cast<idx>(file_.points.size());
         file_triangles = static_cast<idx>(file_.triangles.size());
-        if (!file_.fault && !options.repair) io::ignore_unused_vertices(file_);
+        if (!file_.fault && !options.repair) io::impl::ignore_unused_vertices(file_);
         notes = file_.notes;
         texcoord_fault = file_.texcoord_fault;
         if (file_.fault && !options.repair) throw mesh_error(*file_.fault);
@@ -136,7 +136,7 @@ private:
         }
         if (!parted.empty())
             changes.push_back(
-                taut::detail::list_ids("face", "faces", parted) +
+                taut::impl::list_ids("face", "faces", parted) +
                 " of which repair has left pieces apart: without texture coordinates; write as triangles");
     }
 
@@ -267,7 +267,7 @@ std::vector<io::file_to_write> atlas_source::gltf_files(const std::string& path,
         }
     if (const std::size_t out = result.size() - map.cells.size())
         changes.push_back(
-            taut::detail::counted(out, "triangle", "triangles") +
+            taut::impl::counted(out, "triangle", "triangles") +
             " left out: all corners in one point of the map, as glTF has no triangle without coordinates");
     return io::gltf_files(path, model, result, set, numbers);
 }

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/gltf/gltf.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/write_files.hpp>
-#include <taut/repair/repair_surface.hpp>
+#include <taut/impl/gltf/gltf.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/repair/repair_surface.hpp>
 
 namespace taut::tools
 {

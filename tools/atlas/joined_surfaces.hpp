@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <taut/atlas/make_atlas.hpp>
-#include <taut/mesh/facets.hpp>
+#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/impl/mesh/facets.hpp>
 
 #include "atlas_source.hpp"
 

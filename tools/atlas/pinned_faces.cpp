@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <taut/atlas/chart_mesh.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
 
 #include "../face_list.hpp"
 #include "../failure.hpp"

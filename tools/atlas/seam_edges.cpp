@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include <taut/io/read_file.hpp>
+#include <taut/impl/io/read_file.hpp>
 
 #include "../edge_list.hpp"
 #include "../failure.hpp"
@@ -60,7 +60,7 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
     if (options.seams.empty() && !options.keep_charts && !options.keep_seams) return {};
     std::vector<char> seam(f.twin.size(), 0);
     if (!options.seams.empty())
-        mark_edges(seam, parse_edges(io::read_file(options.seams), options.seams, sources[0]->file_vertices),
+        mark_edges(seam, parse_edges(io::impl::read_file(options.seams), options.seams, sources[0]->file_vertices),
                    *sources[0], options.seams);
     if (options.keep_charts) mark_texcoords(seam, joined.surface, f, texcoords_of(sources));
     if (!options.keep_seams) return seam;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/mesh/facets.hpp>
+#include <taut/impl/mesh/facets.hpp>
 
 #include "atlas_options.hpp"
 #include "joined_surfaces.hpp"

@@ -13,14 +13,14 @@
 
 #include <openssl/evp.h>
 
-#include <taut/io/atomic_file.hpp>
+#include <taut/impl/io/atomic_file.hpp>
 
 namespace taut::tools::batch
 {
 
 std::optional<std::string> content_hash(const std::string& path)
 {
-    const io::detail::descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+    const io::impl::descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     struct stat status = {};
     if (!file || ::fstat(*file, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
 

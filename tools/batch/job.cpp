@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/io/io_error.hpp>
+#include <taut/impl/io/io_error.hpp>
 
 namespace taut::tools::batch
 {

@@ -48,7 +48,7 @@ kernel_cache::kernel_cache(const fs::path& caches)
     {
         folder_ = caches / std::to_string(k);
         const auto lock = caches / (std::to_string(k) + ".lock");
-        lock_ = io::detail::descriptor(::open(lock.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
+        lock_ = io::impl::descriptor(::open(lock.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
         if (!lock_ && (errno == EMFILE || errno == ENFILE))
             throw std::system_error(errno, std::generic_category(), "no kernel cache");
         if (!lock_) refuse(errno);

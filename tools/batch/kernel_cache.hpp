@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include <taut/io/atomic_file.hpp>
+#include <taut/impl/io/atomic_file.hpp>
 
 namespace taut::tools::batch
 {
@@ -25,7 +25,7 @@ public:
 
 private:
     std::filesystem::path folder_;
-    io::detail::descriptor lock_; ///< held as long as it is open
+    io::impl::descriptor lock_; ///< held as long as it is open
 };
 
 } // namespace taut::tools::batch

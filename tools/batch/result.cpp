@@ -211,9 +211,9 @@ std::map<std::string, earlier_result> parse_results(std::istream& text)
 
 result_file::result_file(const std::string& path) : path_(path)
 {
-    if (io::is_stream(path)) return;
-    file_ = io::detail::descriptor(::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
-    if (!file_) io::detail::cannot_write(path, errno);
+    if (io::impl::is_stream(path)) return;
+    file_ = io::impl::descriptor(::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
+    if (!file_) io::impl::cannot_write(path, errno);
     const file_lock held(*file_);
     std::ifstream in(path, std::ios::binary);
     const auto found = ending_of(in);
@@ -223,7 +223,7 @@ result_file::result_file(const std::string& path) : path_(path)
                           " line is no result of a batch; name another file, or move it away");
     if ((found.needs == result_ending::line_end && ::write(*file_, "\n", 1) != 1) ||
         (found.needs == result_ending::cut && ::ftruncate(*file_, static_cast<off_t>(found.last_begins)) != 0))
-        io::detail::cannot_write(path, errno);
+        io::impl::cannot_write(path, errno);
 }
 
 std::map<std::string, earlier_result> result_file::read() const
@@ -246,10 +246,10 @@ void result_file::append(const result& r)
         else if (const int why = errno; why != EINTR)
         {
             if (::ftruncate(*file_, before) != 0) errno = 0; // the next run cuts it off
-            io::detail::cannot_write(path_, why);
+            io::impl::cannot_write(path_, why);
         }
     }
-    if (::fdatasync(*file_) != 0 && errno != EINVAL) io::detail::cannot_write(path_, errno);
+    if (::fdatasync(*file_) != 0 && errno != EINVAL) io::impl::cannot_write(path_, errno);
 }
 
 } // namespace taut::tools::batch

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/io/atomic_file.hpp>
+#include <taut/impl/io/atomic_file.hpp>
 
 #include "../child.hpp"
 #include "../exit_codes.hpp"
@@ -85,7 +85,7 @@ public:
 
 private:
     std::string path_;
-    io::detail::descriptor file_; ///< none where what is written goes on at once: a pipe, standard output
+    io::impl::descriptor file_; ///< none where what is written goes on at once: a pipe, standard output
 };
 
 } // namespace taut::tools::batch

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include <taut/core/types.hpp>
+#include <taut/impl/core/types.hpp>
 
 namespace taut::io
 {
@@ -32,7 +32,7 @@ struct orientation
     vec3 front{0, 0, 1};
 };
 
-namespace detail
+namespace impl
 {
 
 inline bool drawable(std::span<const vec3> points, const std::array<idx, 3>& cell)
@@ -54,7 +54,7 @@ inline vec3 area_vector(std::span<const vec3> points, const std::array<idx, 3>& 
            2.0;
 }
 
-} // namespace detail
+} // namespace impl
 
 /// Guesses how a model stands, among the coordinate axes, since models are built along them. Up is +y, the habit of OBJ
 /// files. The front is the axis that shows the most surface, twice the silhouette where nothing is hidden: the flank of
@@ -64,9 +64,9 @@ inline orientation guess_orientation(std::span<const vec3> points, std::span<con
 {
     vec3 sum(0), spread(0);
     for (const auto& cell : cells)
-        if (detail::drawable(points, cell))
+        if (impl::drawable(points, cell))
         {
-            const vec3 a = detail::area_vector(points, cell);
+            const vec3 a = impl::area_vector(points, cell);
             sum += a;
             spread += glm::abs(a);
         }

@@ -26,9 +26,9 @@ public:
         vec2 low(std::numeric_limits<double>::infinity()), high(-low);
         double area = 0;
         for (const auto& cell : cells)
-            if (detail::drawable(uv, cell))
+            if (impl::drawable(uv, cell))
             {
-                const auto t = detail::corners(uv, cell);
+                const auto t = impl::corners(uv, cell);
                 area += std::abs(uv_determinant(t[0], t[1], t[2])) / 2;
                 for (const vec2& p : t)
                 {

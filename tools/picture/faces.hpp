@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include <taut/core/error.hpp>
-#include <taut/core/types.hpp>
+#include <taut/impl/core/error.hpp>
+#include <taut/impl/core/types.hpp>
 
 /// What pictures need to know about the faces of a map: which can be drawn, which are flipped, how distortions spread.
 namespace taut::io
@@ -32,7 +32,7 @@ struct face_survey
     bool measured = false;                         ///< there is at least one such face
 };
 
-namespace detail
+namespace impl
 {
 
 /// Coordinates beyond this are as good as infinite: their areas overflow.
@@ -63,7 +63,7 @@ inline bool flipped(const std::array<vec2, 3>& t)
     return !(uv_determinant(t[0], t[1], t[2]) > 0);
 }
 
-} // namespace detail
+} // namespace impl
 
 /// Looks at all faces. distortion: one number a face, or empty for "not measured".
 /// Errors: parameter_error for any other number of distortions.
@@ -78,9 +78,9 @@ inline face_survey survey_faces(std::span<const vec2> uv, std::span<const std::a
     known.reserve(distortion.size());
     for (std::size_t f = 0; f < cells.size(); ++f)
     {
-        if (!detail::drawable(uv, cells[f]))
+        if (!impl::drawable(uv, cells[f]))
             ++s.undrawable;
-        else if (detail::flipped(detail::corners(uv, cells[f])))
+        else if (impl::flipped(impl::corners(uv, cells[f])))
             s.flipped.push_back(f);
         else if (distortion.empty())
             continue;

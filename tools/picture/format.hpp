@@ -10,7 +10,7 @@
 #include <string_view>
 
 /// Numbers and texts for captions and SVG; never by the locale of the user.
-namespace taut::io::detail
+namespace taut::io::impl
 {
 
 /// 4 significant digits, without trailing zeros: 7.446, 0.0123, 1.5e+12; inf and nan by name.
@@ -82,4 +82,4 @@ inline std::string escape_xml(std::string_view text)
     return out;
 }
 
-} // namespace taut::io::detail
+} // namespace taut::io::impl

@@ -16,7 +16,7 @@
 ///
 /// `Mxy` lifts the pen and puts it down at (x, y), a further `xy` draws a straight line there, and `QxyXY` draws a
 /// quarter of an ellipse to (X, Y), with (x, y) the corner of the box around it. Blanks only help the reader.
-namespace taut::io::detail
+namespace taut::io::impl
 {
 
 struct glyph
@@ -132,4 +132,4 @@ constexpr const glyph& glyph_of(char c)
     return code >= 32 && code < 127 ? glyphs[static_cast<std::size_t>(code - 32)] : unknown_glyph;
 }
 
-} // namespace taut::io::detail
+} // namespace taut::io::impl

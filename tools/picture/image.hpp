@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <picture/color.hpp>
-#include <taut/core/error.hpp>
+#include <taut/impl/core/error.hpp>
 
 namespace taut::io
 {

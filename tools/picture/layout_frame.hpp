@@ -40,7 +40,7 @@ public:
 
         vec2 low(std::numeric_limits<double>::infinity()), high(-low);
         for (const vec2& p : uv)
-            if (detail::drawable(p))
+            if (impl::drawable(p))
             {
                 low = glm::min(low, p);
                 high = glm::max(high, p);

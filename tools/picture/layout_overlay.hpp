@@ -35,7 +35,7 @@ struct layout_overlay
     bool empty() const { return pins.empty() && branch_points.empty(); }
 };
 
-namespace detail
+namespace impl
 {
 
 /// How a pin is drawn, in pixels.
@@ -113,6 +113,6 @@ inline std::vector<vec2> with_targets(std::span<const vec2> uv, const layout_ove
     return points;
 }
 
-} // namespace detail
+} // namespace impl
 
 } // namespace taut::io

@@ -17,7 +17,7 @@
 #include <picture/layout_overlay.hpp>
 
 /// What a UV layout consists of, worked out once for the pixels and the SVG, which only paint it.
-namespace taut::io::detail
+namespace taut::io::impl
 {
 
 inline constexpr rgb ink{38, 42, 50}, soft_ink{98, 104, 116}, edge_ink{40, 30, 20};
@@ -109,4 +109,4 @@ inline std::vector<std::array<idx, 2>> layout_edges(std::span<const vec2> uv, st
     return edges;
 }
 
-} // namespace taut::io::detail
+} // namespace taut::io::impl

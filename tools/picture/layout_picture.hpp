@@ -13,7 +13,7 @@
 namespace taut::io
 {
 
-namespace detail
+namespace impl
 {
 
 inline void draw_faces(canvas& paper, const layout_frame& frame, std::span<const vec2> uv,
@@ -130,7 +130,7 @@ inline void draw_legend(canvas& paper, const layout_frame& frame, const face_sur
     }
 }
 
-} // namespace detail
+} // namespace impl
 
 /// A picture of a UV layout: every face in the colour of its distortion on a fixed scale with a legend, flipped faces
 /// in magenta on top, the boundary in dark, triangle edges if there are few.
@@ -147,27 +147,27 @@ inline image layout_picture(std::span<const vec2> uv, std::span<const std::array
 {
     const face_survey faces = survey_faces(uv, cells, distortion);
     const distortion_scale scale(style.lowest, style.highest);
-    const layout_frame frame(detail::with_targets(uv, overlay), style);
+    const layout_frame frame(impl::with_targets(uv, overlay), style);
     canvas paper(style.width, style.height, style.samples, {255, 255, 255});
 
-    detail::draw_faces(paper, frame, uv, cells, distortion, scale);
+    impl::draw_faces(paper, frame, uv, cells, distortion, scale);
     // A pen thinner than the samples lie apart would miss some lines entirely.
     const double edge_pen = std::max(0.8 * frame.unit, 1.0 / style.samples);
     if (cells.size() < style.most_edges)
-        for (const auto& [a, b] : detail::layout_edges(uv, cells))
+        for (const auto& [a, b] : impl::layout_edges(uv, cells))
             paper.line(frame(uv[static_cast<std::size_t>(a)]), frame(uv[static_cast<std::size_t>(b)]), edge_pen,
-                       detail::edge_ink, 0.35);
-    detail::draw_boundary(paper, frame, uv, boundary_loops);
-    detail::draw_flips(paper, frame, uv, cells, faces, style.most_rings);
-    detail::draw_overlay(paper, frame, overlay);
+                       impl::edge_ink, 0.35);
+    impl::draw_boundary(paper, frame, uv, boundary_loops);
+    impl::draw_flips(paper, frame, uv, cells, faces, style.most_rings);
+    impl::draw_overlay(paper, frame, overlay);
 
     const double u = frame.unit;
-    draw_text(paper, vec2(36, 48) * u, style.title, {.size = 28 * u, .weight = 0.1, .color = detail::ink});
-    draw_text(paper, vec2(36, 80) * u, detail::layout_caption(faces, style, overlay),
-              {.size = 17 * u, .color = detail::soft_ink});
-    draw_text(paper, vec2(36, 106) * u, style.note, {.size = 17 * u, .color = detail::soft_ink});
+    draw_text(paper, vec2(36, 48) * u, style.title, {.size = 28 * u, .weight = 0.1, .color = impl::ink});
+    draw_text(paper, vec2(36, 80) * u, impl::layout_caption(faces, style, overlay),
+              {.size = 17 * u, .color = impl::soft_ink});
+    draw_text(paper, vec2(36, 106) * u, style.note, {.size = 17 * u, .color = impl::soft_ink});
     if (!distortion.empty() || !faces.flipped.empty() || !overlay.empty())
-        detail::draw_legend(paper, frame, faces, scale, style, overlay);
+        impl::draw_legend(paper, frame, faces, scale, style, overlay);
     return paper.resolve();
 }
 

@@ -14,7 +14,7 @@
 namespace taut::io
 {
 
-namespace detail
+namespace impl
 {
 
 inline void svg_triangle(svg_writer& svg, const std::array<vec2, 3>& t)
@@ -191,7 +191,7 @@ inline void svg_legend(svg_writer& svg, const layout_frame& frame, const face_su
     }
 }
 
-} // namespace detail
+} // namespace impl
 
 /// The picture of layout_picture as the text of an SVG 1.1 document: triangles merged into one path a colour (64 steps
 /// of the scale), coordinates in tenths of a pixel, captions as text. 15 to 25 bytes a face; faces too small to cover a
@@ -205,21 +205,21 @@ inline std::string layout_svg(std::span<const vec2> uv, std::span<const std::arr
     if (style.height < 1) throw parameter_error("height", "must be positive");
     const face_survey faces = survey_faces(uv, cells, distortion);
     const distortion_scale scale(style.lowest, style.highest);
-    const layout_frame frame(detail::with_targets(uv, overlay), style);
-    detail::svg_writer svg(style.width, style.height);
+    const layout_frame frame(impl::with_targets(uv, overlay), style);
+    impl::svg_writer svg(style.width, style.height);
 
-    detail::svg_faces(svg, frame, uv, cells, distortion, scale);
-    if (cells.size() < style.most_edges) detail::svg_edges(svg, frame, uv, cells);
-    detail::svg_boundary(svg, frame, uv, boundary_loops);
-    detail::svg_flips(svg, frame, uv, cells, faces, style.most_rings);
-    detail::svg_overlay(svg, frame, overlay);
+    impl::svg_faces(svg, frame, uv, cells, distortion, scale);
+    if (cells.size() < style.most_edges) impl::svg_edges(svg, frame, uv, cells);
+    impl::svg_boundary(svg, frame, uv, boundary_loops);
+    impl::svg_flips(svg, frame, uv, cells, faces, style.most_rings);
+    impl::svg_overlay(svg, frame, overlay);
 
     const double u = frame.unit;
-    svg.words(vec2(36, 48) * u, style.title, 28 * u, detail::ink, true);
-    svg.words(vec2(36, 80) * u, detail::layout_caption(faces, style, overlay), 17 * u, detail::soft_ink);
-    svg.words(vec2(36, 106) * u, style.note, 17 * u, detail::soft_ink);
+    svg.words(vec2(36, 48) * u, style.title, 28 * u, impl::ink, true);
+    svg.words(vec2(36, 80) * u, impl::layout_caption(faces, style, overlay), 17 * u, impl::soft_ink);
+    svg.words(vec2(36, 106) * u, style.note, 17 * u, impl::soft_ink);
     if (!distortion.empty() || !faces.flipped.empty() || !overlay.empty())
-        detail::svg_legend(svg, frame, faces, scale, style, overlay);
+        impl::svg_legend(svg, frame, faces, scale, style, overlay);
     return svg.finish();
 }
 

@@ -35,7 +35,7 @@ struct render_style
     double rise = 12;               ///< degrees from above
 };
 
-namespace detail
+namespace impl
 {
 
 /// Unit normals of the vertices, each the mean of its faces by area; 0 where there is none.
@@ -151,7 +151,7 @@ inline void draw_view(image& grid, int left, int width, const render_scene& scen
         }
 }
 
-} // namespace detail
+} // namespace impl
 
 /// A shaded picture of a surface with the checkerboard of its UV map on it: front and back side by side, at one scale,
 /// orthographic. Insides of open surfaces are brown, flipped faces magenta.
@@ -172,8 +172,8 @@ inline image render_picture(std::span<const vec3> points, std::span<const std::a
         std::fill_n(&grid(0, y), grid.width(), c);
     }
 
-    const detail::render_scene scene{
-        points, cells, uv, detail::vertex_normals(points, cells), {uv, cells, style.checks}};
+    const impl::render_scene scene{
+        points, cells, uv, impl::vertex_normals(points, cells), {uv, cells, style.checks}};
     orientation stance = guess_orientation(points, cells);
     stance.up = style.up.value_or(stance.up);
     stance.front = style.front.value_or(stance.front);
@@ -182,7 +182,7 @@ inline image render_picture(std::span<const vec3> points, std::span<const std::a
     const int half = grid.width() / 2;
     const std::array eyes{turned_camera(stance, style.turn, style.rise),
                           turned_camera(stance, style.turn + 180, style.rise)};
-    const std::array boxes{detail::view_box(scene, eyes[0]), detail::view_box(scene, eyes[1])};
+    const std::array boxes{impl::view_box(scene, eyes[0]), impl::view_box(scene, eyes[1])};
     const vec2 room = vec2(half, grid.height()) - style.samples * unit * vec2(70, 150);
     double scale = std::numeric_limits<double>::infinity();
     for (const auto& [low, high] : boxes)
@@ -193,7 +193,7 @@ inline image render_picture(std::span<const vec3> points, std::span<const std::a
     {
         const int left = static_cast<int>(k) * half, width = k == 0 ? half : grid.width() - half;
         if (scale > 0 && std::isfinite(scale) && width > 0)
-            detail::draw_view(grid, left, width, scene,
+            impl::draw_view(grid, left, width, scene,
                               {eyes[k], (boxes[k][0] + boxes[k][1]) / 2.0, scale, vec2(width, grid.height()) / 2.0});
         draw_text(paper, vec2((left + width / 2.0) / style.samples, style.height - 30 * unit), names[k],
                   {.size = 20 * unit, .color = {98, 104, 116}, .at = anchor::middle});

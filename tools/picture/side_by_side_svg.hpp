@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include <taut/core/error.hpp>
+#include <taut/impl/core/error.hpp>
 
 namespace taut::io
 {

@@ -13,7 +13,7 @@
 #include <picture/color.hpp>
 #include <picture/format.hpp>
 
-namespace taut::io::detail
+namespace taut::io::impl
 {
 
 /// Collects the text of an SVG document. Face coordinates are whole tenths of a pixel, in relative path commands:
@@ -116,4 +116,4 @@ private:
     std::array<std::int64_t, 2> pen_{};
 };
 
-} // namespace taut::io::detail
+} // namespace taut::io::impl

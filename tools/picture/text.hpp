@@ -29,7 +29,7 @@ struct text_style
     anchor at = anchor::left;
 };
 
-namespace detail
+namespace impl
 {
 
 inline constexpr double base_line = 6;         // of the glyph grid
@@ -89,35 +89,35 @@ void trace_glyph(const glyph& g, Stroke&& stroke)
     }
 }
 
-} // namespace detail
+} // namespace impl
 
 /// The width of a line of text in pixels.
 inline double text_width(std::string_view text, double size)
 {
     double cells = 0;
     for (char c : text)
-        if (detail::starts_character(c)) cells += detail::glyph_of(c).width + detail::letter_gap;
-    return cells > 0 ? (cells - detail::letter_gap) * detail::grid_cell * size : 0;
+        if (impl::starts_character(c)) cells += impl::glyph_of(c).width + impl::letter_gap;
+    return cells > 0 ? (cells - impl::letter_gap) * impl::grid_cell * size : 0;
 }
 
 /// Draws one line of text whose base line starts, is centred or ends at `position`, by style.at.
 inline void draw_text(canvas& paper, vec2 position, std::string_view text, const text_style& style)
 {
-    const double cell = detail::grid_cell * style.size;
+    const double cell = impl::grid_cell * style.size;
     if (style.at != anchor::left) position.x -= text_width(text, style.size) * (style.at == anchor::middle ? 0.5 : 1);
     for (char c : text)
     {
-        if (!detail::starts_character(c)) continue;
-        const detail::glyph& g = detail::glyph_of(c);
-        const auto place = [&](const vec2& p) { return position + cell * vec2(p.x, detail::base_line - p.y); };
-        detail::trace_glyph(g,
+        if (!impl::starts_character(c)) continue;
+        const impl::glyph& g = impl::glyph_of(c);
+        const auto place = [&](const vec2& p) { return position + cell * vec2(p.x, impl::base_line - p.y); };
+        impl::trace_glyph(g,
                             [&](const vec2& a, const vec2& b)
                             {
                                 // A dot needs a little more ink than a line to look as heavy.
                                 const double pen = style.weight * style.size * (a == b ? 1.35 : 1);
                                 paper.line(place(a), place(b), pen, style.color);
                             });
-        position.x += cell * (g.width + detail::letter_gap);
+        position.x += cell * (g.width + impl::letter_gap);
     }
 }
 

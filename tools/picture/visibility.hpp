@@ -11,7 +11,7 @@
 
 #include <picture/camera.hpp>
 
-namespace taut::io::detail
+namespace taut::io::impl
 {
 
 /// Which face is in front at each sample of a grid, by a z-buffer. Shading comes after, once a visible sample instead
@@ -90,4 +90,4 @@ private:
     std::vector<float> depth_;
 };
 
-} // namespace taut::io::detail
+} // namespace taut::io::impl

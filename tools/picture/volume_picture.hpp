@@ -48,7 +48,7 @@ struct volume_style
     std::string formula = "max(s1, 1/s3)"; ///< what it is, below the name
 };
 
-namespace detail
+namespace impl
 {
 
 /// The colour of a face with the unit normal n in the camera's frame, n.z >= 0: bright enough that the scale is read.
@@ -136,7 +136,7 @@ private:
     double mean_edge_;
 };
 
-} // namespace detail
+} // namespace impl
 
 /// Pictures of volumes side by side, seen from one point at one scale: each face in the colour of its distortion on a
 /// fixed scale with a legend, those of inverted cells in magenta, with their edges where there is room.
@@ -177,14 +177,14 @@ inline image volume_picture(const std::vector<volume_view>& views, const volume_
         if (fit > 0 && std::isfinite(fit))
         {
             const vec2 centre(width / 2.0, (top + style.height - margin) / 2);
-            const detail::view_frame frame{eye, (low + high) / 2.0, fit, centre * double(style.samples)};
-            detail::drawn_skin(view, frame)
+            const impl::view_frame frame{eye, (low + high) / 2.0, fit, centre * double(style.samples)};
+            impl::drawn_skin(view, frame)
                 .draw(paper.grid(), k * width * style.samples, width * style.samples, scale,
                       std::max(1.0, 0.9 * unit * style.samples));
         }
         draw_text(paper, {left + margin, 44 * unit}, view.title,
-                  {.size = 24 * unit, .weight = 0.1, .color = detail::ink});
-        draw_text(paper, {left + margin, 72 * unit}, view.note, {.size = 15 * unit, .color = detail::soft_ink});
+                  {.size = 24 * unit, .weight = 0.1, .color = impl::ink});
+        draw_text(paper, {left + margin, 72 * unit}, view.note, {.size = 15 * unit, .color = impl::soft_ink});
     }
 
     // The legend takes its place from the frame of a layout as large as the sheet.
@@ -200,12 +200,12 @@ inline image volume_picture(const std::vector<volume_view>& views, const volume_
     frame.bar_high = frame.bar_low + vec2(26, 380) * unit;
     face_survey survey;
     survey.unknown = unknown ? 1 : 0;
-    detail::draw_legend(paper, frame, survey, scale, sheet, {});
+    impl::draw_legend(paper, frame, survey, scale, sheet, {});
     if (inverted)
     {
         const double y = frame.bar_high.y + (unknown ? 68 : 40) * unit;
         paper.fill_rectangle({frame.bar_low.x, y - 15 * unit}, {frame.bar_high.x, y + 3 * unit}, magenta);
-        draw_text(paper, {frame.bar_high.x + 14 * unit, y}, "inverted", {.size = 17 * unit, .color = detail::ink});
+        draw_text(paper, {frame.bar_high.x + 14 * unit, y}, "inverted", {.size = 17 * unit, .color = impl::ink});
     }
     return paper.resolve();
 }

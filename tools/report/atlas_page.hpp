@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/core/types.hpp>
+#include <taut/impl/core/types.hpp>
 
 namespace taut::report
 {

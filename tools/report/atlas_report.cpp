@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <openssl/evp.h>
 
-#include <taut/core/error.hpp>
+#include <taut/impl/core/error.hpp>
 
 #include "atlas_page.hpp"
 #include "chart_table.hpp"

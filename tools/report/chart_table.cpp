@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <taut/core/error.hpp>
+#include <taut/impl/core/error.hpp>
 
 namespace taut::report
 {

@@ -10,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include <taut/core/counting_sort.hpp>
-#include <taut/core/disjoint_sets.hpp>
+#include <taut/impl/core/counting_sort.hpp>
+#include <taut/impl/core/disjoint_sets.hpp>
 
 namespace taut::report
 {
@@ -171,7 +171,7 @@ shown_mesh::shown_mesh(std::span<const vec3> model, std::span<const std::array<i
 {
     std::iota(origins.begin(), origins.end(), idx(0));
     std::vector<std::size_t> corners(3 * cells.size());
-    const auto start = detail::counting_sort(
+    const auto start = impl::counting_sort(
         corners.size(), points.size(), [&](std::size_t c) { return cells[c / 3][c % 3]; },
         [&](std::size_t c, std::size_t place) { corners[place] = c; });
     for (std::size_t v = 0; v < points.size(); ++v)

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <taut/io/atomic_file.hpp>
+#include <taut/impl/io/atomic_file.hpp>
 
 extern char** environ;
 
@@ -29,7 +29,7 @@ std::string page_that_leads_to(const std::string& url)
 
 void write_private(const std::filesystem::path& path, const std::string& text)
 {
-    const io::detail::descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+    const io::impl::descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
     if (!file || ::write(*file, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
         throw std::system_error(errno, std::generic_category(), path.string());
 }

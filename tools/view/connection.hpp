@@ -26,7 +26,7 @@
 namespace taut::view
 {
 
-namespace detail
+namespace impl
 {
 
 namespace asio = boost::asio;
@@ -286,6 +286,6 @@ private:
     bool head_ = false;
 };
 
-} // namespace detail
+} // namespace impl
 
 } // namespace taut::view

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/edit/paste.hpp>
-#include <taut/io/detail/obj_output.hpp>
-#include <taut/io/read_surface.hpp>
+#include <taut/impl/edit/paste.hpp>
+#include <taut/impl/io/detail/obj_output.hpp>
+#include <taut/impl/io/read_surface.hpp>
 
 #include "../paste_check.hpp"
 #include "floats.hpp"
@@ -25,14 +25,14 @@ namespace
 std::string obj_of(const std::vector<vec3>& points, const std::vector<mesh<triangle>::cell>& cells)
 {
     std::string text;
-    for (const vec3& p : points) io::detail::append_line(text, "v", {p.x, p.y, p.z});
+    for (const vec3& p : points) io::impl::append_line(text, "v", {p.x, p.y, p.z});
     for (const auto& c : cells)
     {
         text += 'f';
         for (const idx v : c)
         {
             text += ' ';
-            io::detail::append_number(text, v + 1);
+            io::impl::append_number(text, v + 1);
         }
         text += '\n';
     }

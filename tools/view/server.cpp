@@ -14,7 +14,7 @@
 namespace taut::view
 {
 
-using namespace detail;
+using namespace impl;
 
 class server::body
 {

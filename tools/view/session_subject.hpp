@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/map/session.hpp>
-#include <taut/untangle/untangle.hpp>
+#include <taut/impl/map/session.hpp>
+#include <taut/impl/untangle/untangle.hpp>
 
 #include "subject.hpp"
 

@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/cell_faces.hpp>
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/io/pins.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_obj.hpp>
-#include <taut/map/deform.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/mesh/thin_shell.hpp>
+#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/write_obj.hpp>
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/mesh/thin_shell.hpp>
 
 #include "../failure.hpp"
 #include "../seams.hpp"
@@ -234,7 +234,7 @@ public:
         const tools::written_shape<Element> written(input, base::x(),
                                                     [&](std::size_t v, int k) { return !held.test(v, k); });
         if (auto why = written.defects(input); !why.empty()) throw error(why);
-        return {name_, io::with_points(opened::file, written.points)};
+        return {name_, io::impl::with_points(opened::file, written.points)};
     }
 
 private:

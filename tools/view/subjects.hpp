@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include <taut/compute/queue.hpp>
-#include <taut/io/read_surface.hpp>
+#include <taut/impl/compute/queue.hpp>
+#include <taut/impl/io/read_surface.hpp>
 
 #include "subject.hpp"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include <taut/io/cell_faces.hpp>
-#include <taut/measure/describe_defects.hpp>
-#include <taut/mesh/cell_corners.hpp>
+#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/measure/describe_defects.hpp>
+#include <taut/impl/mesh/cell_corners.hpp>
 
 #include "text_table.hpp"
 #include "volume/shape_report.hpp"
@@ -22,7 +22,7 @@ template <class Element>
 std::string list_cells(const volume_case<Element>& input, const std::vector<idx>& ids)
 {
     const bool mixed = input.parts().overlapping;
-    return detail::list_ids(mixed ? "cell" : Element::name, mixed ? "cells" : Element::names, ids);
+    return impl::list_ids(mixed ? "cell" : Element::name, mixed ? "cells" : Element::names, ids);
 }
 
 /// The cells of simplices, each once.
@@ -39,7 +39,7 @@ std::vector<idx> owners_of(const std::vector<idx>& simplices, const std::vector<
 template <class Element>
 void report_signs(check_report& report, const volume_case<Element>& input, const volume_state& state)
 {
-    auto [flat, inverted] = detail::bad_rest_cells(input.simplices());
+    auto [flat, inverted] = impl::bad_rest_cells(input.simplices());
     auto thin = owners_of(flat, input.parts().cells);
     auto turned = owners_of(inverted, input.parts().cells);
     if (Element::dimension == 2) // triangles at rest lie in space, and have no sign there
@@ -99,7 +99,7 @@ void report_open_quads(check_report& report, const io::cell_faces& sides)
         if (std::binary_search(in_quads.begin(), in_quads.end(), t)) ids.insert(ids.end(), t.begin(), t.end());
     if (!ids.empty())
         report.add({false, "mesh", "open_quads", ids,
-                    detail::list_ids("triangle", "triangles", ids, 3) +
+                    impl::list_ids("triangle", "triangles", ids, 3) +
                         " against a quad: both count as boundary; put pyramids between, or split the cell"},
                    exit_code::valid);
 }
@@ -108,7 +108,7 @@ void report_open_quads(check_report& report, const io::cell_faces& sides)
 void report_faces(check_report& report, const io::volume_file& file)
 {
     if (file.dimension == 3) report_open_quads(report, io::cell_faces_of(file));
-    for (const auto& found : io::check_sides(file)) report_mesh(report, found, true);
+    for (const auto& found : io::impl::check_sides(file)) report_mesh(report, found, true);
 }
 
 } // namespace
@@ -127,9 +127,9 @@ void report_contents(check_report& report, const io::volume_file& file)
     std::vector<char> used(file.points.size(), 0);
     for (const auto& block : file.cells)
     {
-        auto& n = report.details["elements"][io::shape_of(block.kind).names];
+        auto& n = report.details["elements"][io::impl::shape_of(block.kind).names];
         n = (n.is_null() ? std::size_t{0} : n.get<std::size_t>()) + block.size();
-        if (io::shape_of(block.kind).dimension != file.dimension) continue;
+        if (io::impl::shape_of(block.kind).dimension != file.dimension) continue;
         report.cells += block.size();
         for (const idx v : block.corners) used[static_cast<std::size_t>(v)] = 1;
     }
@@ -138,7 +138,7 @@ void report_contents(check_report& report, const io::volume_file& file)
         if (!used[v]) unused.push_back(static_cast<idx>(v));
     if (!unused.empty())
         report.add({false, "mesh", to_string(mesh_fault::unreferenced_vertex), unused,
-                    detail::list_ids("vertex", "vertices", unused) + " without a cell; they stay where they are"},
+                    impl::list_ids("vertex", "vertices", unused) + " without a cell; they stay where they are"},
                    exit_code::valid);
 
     std::string names;
@@ -161,7 +161,7 @@ void report_cells(check_report& report, const volume_case<Element>& input)
     report.map = state.simplices;
     report.map.flipped = state.inverted.size();
     report.has_map = true;
-    const auto components = detail::components(input.simplices()).first.size();
+    const auto components = impl::components(input.simplices()).first.size();
     const auto boundary = boundary_facets(input.simplices(), input.owners()).size();
     report.details["components"] = components;
     report.details["quality"] = shapes_json(state.shapes);

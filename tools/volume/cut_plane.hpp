@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include <taut/core/types.hpp>
+#include <taut/impl/core/types.hpp>
 
 namespace taut::tools
 {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/measure/describe_defects.hpp>
-#include <taut/measure/quality.hpp>
+#include <taut/impl/measure/describe_defects.hpp>
+#include <taut/impl/measure/quality.hpp>
 
 #include "assessment.hpp"
 #include "outputs.hpp"
@@ -63,7 +63,7 @@ volume_map measure(const volume_case<Element>& input, const std::vector<vec<Elem
 {
     constexpr int D = Element::dimension;
     const auto& whole = input.simplices();
-    auto [flat, inverted] = detail::bad_rest_cells(whole);
+    auto [flat, inverted] = impl::bad_rest_cells(whole);
     std::vector<char> keep(whole.cells().size(), 1);
     for (const auto* bad : {&flat, &inverted})
         for (const idx c : *bad) keep[static_cast<std::size_t>(c)] = 0;
@@ -111,7 +111,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
     if (has_rest) map = measure(input, x);
     if (!has_rest) notes.push_back("no shape at rest, so no distortion: name its file first, `taut eval REST MAP`");
     if (map.left_out > 0)
-        notes.push_back(detail::counted(map.left_out, "corner", "corners") +
+        notes.push_back(impl::counted(map.left_out, "corner", "corners") +
                         " not positive at rest: left out of everything but the count of inverted cells");
     const distortion_summary distortion(has_rest ? input.distortion(x) : input.shape_distortion(x));
 

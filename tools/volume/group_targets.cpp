@@ -10,10 +10,10 @@
 #include <string_view>
 #include <utility>
 
-#include <taut/constrain/constraints.hpp>
-#include <taut/io/pins.hpp>
-#include <taut/measure/rigid_motion.hpp>
-#include <taut/mesh/describe.hpp>
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/impl/mesh/describe.hpp>
 
 #include "failure.hpp"
 
@@ -115,7 +115,7 @@ void group_targets::transform(const std::string& name, std::size_t kind, const s
 std::string group_targets::note() const
 {
     if (settled_.empty()) return {};
-    return taut::detail::list_ids("vertex", "vertices", settled_) +
+    return taut::impl::list_ids("vertex", "vertices", settled_) +
            " in two groups, whose places differ by rounding; that of the first counts, of --fix before --move";
 }
 

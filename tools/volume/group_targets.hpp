@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/io/volume_file.hpp>
+#include <taut/impl/io/volume_file.hpp>
 
 namespace taut::tools
 {

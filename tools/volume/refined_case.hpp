@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/io/write_volume.hpp>
-#include <taut/mesh/refine_elements.hpp>
+#include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/mesh/refine_elements.hpp>
 
 #include "failure.hpp"
 #include "volume/volume_case.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "volume/shape_options.hpp"
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/area.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/energy/neo_hookean.hpp>
-#include <taut/energy/shape.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/area.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/energy/neo_hookean.hpp>
+#include <taut/impl/energy/shape.hpp>
 
 #include "choices.hpp"
 #include "shared_options.hpp"

@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <taut/map/smooth.hpp>
+#include <taut/impl/map/smooth.hpp>
 
 namespace taut::tools
 {

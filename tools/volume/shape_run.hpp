@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include <taut/io/cell_faces.hpp>
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/io/pins.hpp>
-#include <taut/io/write_files.hpp>
-#include <taut/io/write_volume.hpp>
-#include <taut/map/deform_refined.hpp>
-#include <taut/map/smooth.hpp>
+#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/map/deform_refined.hpp>
+#include <taut/impl/map/smooth.hpp>
 
 #include "failure.hpp"
 #include "interrupt.hpp"
@@ -116,7 +116,7 @@ private:
     {
         if (options_.free_interfaces) return;
         const auto& file = input_->file();
-        kept_facets_ = io::kept_facets(file, options_.boundary == smooth_boundary::sliding);
+        kept_facets_ = io::impl::kept_facets(file, options_.boundary == smooth_boundary::sliding);
         std::vector<char> outside(file.points.size(), 0), inside = outside;
         for (const auto& facet : boundary_facets(input_->simplices(), input_->owners()))
             for (const idx v : facet) outside[static_cast<std::size_t>(v)] = 1;
@@ -287,7 +287,7 @@ private:
     {
         tell("write");
         const auto note_time = [&] { report_.seconds.total = clock_.now(); };
-        auto files = io::volume_outputs(options_.output, input_->file(), points_);
+        auto files = io::impl::volume_outputs(options_.output, input_->file(), points_);
         if (!options_.refined_map.empty())
             files.push_back({options_.refined_map, [&](io::atomic_file& file) { file.write(table_of_parts(parts_)); }});
         drawing_options drawing{options_.picture, options_.cut, options_.smoothing};

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include <taut/exact/cell_validity.hpp>
-#include <taut/io/cell_faces.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/impl/exact/cell_validity.hpp>
+#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/write_volume.hpp>
 
 #include "failure.hpp"
 #include "outputs.hpp"
@@ -36,7 +36,7 @@ void require_name(const std::string& output, const io::volume_file& file)
 {
     try
     {
-        io::volume_outputs(output, file, file.points);
+        io::impl::volume_outputs(output, file, file.points);
     }
     catch (const io::io_error& e)
     {
@@ -52,7 +52,7 @@ using cell = std::pair<io::cell_kind, std::vector<idx>>;
 std::vector<cell> cells_of(const io::volume_file& file)
 {
     std::vector<cell> cells;
-    io::for_each_cell(file, file.dimension,
+    io::impl::for_each_cell(file, file.dimension,
                       [&](io::cell_kind kind, idx, std::span<const idx> corners)
                       { cells.emplace_back(kind, std::vector<idx>(corners.begin(), corners.end())); });
     return cells;
@@ -87,7 +87,7 @@ std::optional<bool> turned_over(const cell& a, cell b)
                  from += static_cast<std::ptrdiff_t>(around))
                 std::rotate(from, from + 1, from + static_cast<std::ptrdiff_t>(around));
         }
-        io::turn_cell(b.first, corners);
+        io::impl::turn_cell(b.first, corners);
     }
     return std::nullopt;
 }
@@ -113,19 +113,19 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
         if (turned.value_or(false)) differing.push_back(static_cast<idx>(c));
     }
     if (!same) throw unsuitable_input(rest + " has other cells than " + path + "; give the same mesh at rest");
-    io::turn_cells(file, differing);
+    io::impl::turn_cells(file, differing);
     file.rest = std::move(other.points);
     return file;
 }
 
 void require_mesh(const io::volume_file& file)
 {
-    if (auto found = io::check_sides(file); !found.empty()) throw mesh_error(std::move(found.front()));
+    if (auto found = io::impl::check_sides(file); !found.empty()) throw mesh_error(std::move(found.front()));
 }
 
 void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_state& state)
 {
-    io::for_each_cell(file, 3,
+    io::impl::for_each_cell(file, 3,
                       [&](io::cell_kind, idx number, std::span<const idx> corners)
                       {
                           if (std::binary_search(state.inverted.begin(), state.inverted.end(), number)) return;
@@ -139,7 +139,7 @@ void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_
 
 std::string turned_note(const io::volume_file& file)
 {
-    return io::describe_turned(file) + "; read turned over, and written as the file has it";
+    return io::impl::describe_turned(file) + "; read turned over, and written as the file has it";
 }
 
 std::string count_cells(const io::volume_file& file, int dimension)
@@ -149,7 +149,7 @@ std::string count_cells(const io::volume_file& file, int dimension)
     std::string text;
     for (std::size_t k = 0; k < counts.size(); ++k)
     {
-        const auto shape = io::shape_of(static_cast<io::cell_kind>(k));
+        const auto shape = io::impl::shape_of(static_cast<io::cell_kind>(k));
         if (shape.dimension == dimension && counts[k] > 0)
             text += (text.empty() ? "" : ", ") + count(counts[k], shape.name, shape.names);
     }

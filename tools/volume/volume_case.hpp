@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/exact/certify.hpp>
-#include <taut/io/write_volume.hpp>
-#include <taut/measure/shape_quality.hpp>
-#include <taut/measure/singular_values.hpp>
-#include <taut/mesh/ideal.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/measure/shape_quality.hpp>
+#include <taut/impl/measure/singular_values.hpp>
+#include <taut/impl/mesh/ideal.hpp>
 
 namespace taut::tools
 {
@@ -34,7 +34,7 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
 /// "32 tetrahedra", "12 hexahedra, 3 wedges": the cells of a dimension by kind.
 std::string count_cells(const io::volume_file& file, int dimension);
 
-/// What is wrong with cells, and their shapes; ids as io::for_each_cell() counts.
+/// What is wrong with cells, and their shapes; ids as io::impl::for_each_cell() counts.
 struct volume_state
 {
     certificate simplices;                       ///< of the corners of all cells, or of these themselves
@@ -84,7 +84,7 @@ public:
     /// The map that readers of the file will have.
     map as_written(std::span<const vec<D>> x) const
     {
-        const auto kept = io::rounded_to_file(file_, in_file(x));
+        const auto kept = io::impl::rounded_to_file(file_, in_file(x));
         return {kept.begin(), kept.end()};
     }
 
@@ -122,10 +122,10 @@ public:
         return worst_of_cells(
             [&](std::size_t c)
             {
-                const mat<D> W = detail::ideal_of(simplices(), static_cast<idx>(c), unit);
+                const mat<D> W = impl::ideal_of(simplices(), static_cast<idx>(c), unit);
                 if (!(Element::flatness(W) > flattest)) return std::numeric_limits<double>::quiet_NaN();
                 const auto s =
-                    singular_values<D>(shape_matrix<D>(simplices().cells()[c], x, unit * detail::invert_upper(W)));
+                    singular_values<D>(shape_matrix<D>(simplices().cells()[c], x, unit * impl::invert_upper(W)));
                 return std::max(s.front(), 1 / s.back());
             });
     }
@@ -162,7 +162,7 @@ private:
     io::corner_simplices<Element> parts_;
 };
 
-/// Throws mesh_error for cells that cannot all be positive and not overlap, by how they meet: io::check_sides().
+/// Throws mesh_error for cells that cannot all be positive and not overlap, by how they meet: io::impl::check_sides().
 void require_mesh(const io::volume_file& file);
 
 /// On cells that were turned while the file was read, of which there are some.

@@ -8,8 +8,8 @@
 #include <picture/layout_svg.hpp>
 #include <picture/side_by_side_svg.hpp>
 #include <picture/volume_picture.hpp>
-#include <taut/io/cell_faces.hpp>
-#include <taut/mesh/cell_corners.hpp>
+#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/mesh/cell_corners.hpp>
 
 #include "failure.hpp"
 #include "outputs.hpp"
@@ -50,7 +50,7 @@ std::vector<char> kept_cells(const io::volume_file& file, std::span<const vec3> 
                              const std::optional<cut_plane>& cut)
 {
     std::vector<char> kept;
-    io::for_each_cell(file, 3,
+    io::impl::for_each_cell(file, 3,
                       [&](io::cell_kind, idx, std::span<const idx> corners)
                       {
                           vec3 centre(0.0);
@@ -110,7 +110,7 @@ std::string draw_layouts(const io::volume_file& file, const std::vector<drawn_st
     constexpr int gap = 24;
     std::vector<std::array<idx, 3>> triangles;
     std::vector<std::size_t> owners;
-    io::for_each_cell(file, 2,
+    io::impl::for_each_cell(file, 2,
                       [&](io::cell_kind, idx number, std::span<const idx> corners)
                       {
                           for (std::size_t k = 2; k < corners.size(); ++k)

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/mesh/cell_corners.hpp>
+#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/mesh/cell_corners.hpp>
 
 #include "untangle_report.hpp"
 #include "volume/group_targets.hpp"

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/core/single.hpp>
-#include <taut/exact/mend_rounding.hpp>
-#include <taut/io/pins.hpp>
-#include <taut/measure/describe_defects.hpp>
-#include <taut/mesh/describe.hpp>
+#include <taut/impl/core/single.hpp>
+#include <taut/impl/exact/mend_rounding.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/measure/describe_defects.hpp>
+#include <taut/impl/mesh/describe.hpp>
 
 #include "failure.hpp"
 #include "text_table.hpp"
@@ -22,7 +22,7 @@
 namespace taut::tools
 {
 
-/// A shape as a file holds it: what io::volume_outputs() writes, and what is true of that. Where the file has single
+/// A shape as a file holds it: what io::impl::volume_outputs() writes, and what is true of that. Where the file has single
 /// precision, coordinates are rounded, and free vertices move by units of their last digit where cells would be flat.
 template <class Element>
 struct written_shape
@@ -122,7 +122,7 @@ public:
     std::string note() const
     {
         if (vertices_.empty()) return {};
-        return detail::list_ids("pin", "pins", vertices_) + (vertices_.size() == 1 ? " is" : " are") +
+        return impl::list_ids("pin", "pins", vertices_) + (vertices_.size() == 1 ? " is" : " are") +
                " rounded to the single precision of the file, by " + number(largest_) + " at most, and held there";
     }
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <iostream>
 
-#include <taut/io/read_surface.hpp>
-#include <taut/io/write_obj.hpp>
-#include <taut/map/parameterize.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_obj.hpp>
+#include <taut/impl/map/parameterize.hpp>
 
 int main()
 {

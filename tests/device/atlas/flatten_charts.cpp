@@ -14,11 +14,11 @@
 
 #include <support/meshes.hpp>
 #include <support/size.hpp>
-#include <taut/atlas/detail/chart_start.hpp>
-#include <taut/atlas/flatten_charts.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/start/isometric_newton.hpp>
+#include <taut/impl/atlas/chart_start.hpp>
+#include <taut/impl/atlas/flatten_charts.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/start/isometric_newton.hpp>
 
 using namespace taut;
 
@@ -150,8 +150,8 @@ TEST_CASE("flatten_charts: the energy is that of Newton's method on the host")
     const auto charts = charts_of({m});
     const auto flat = flatten_charts(q, charts, {.tolerance = 1e-10});
     const std::vector<char> fixed(m.points().size(), 0);
-    detail::isometric_newton host(m.points(), m.cells(), fixed);
-    auto x = detail::projected(m);
+    impl::isometric_newton host(m.points(), m.cells(), fixed);
+    auto x = impl::projected(m);
     double value = host.value(x);
     for (double before = 2 * value; value < before * (1 - 1e-14);) value = host.step(x, before = value);
     CHECK(flat.charts[0].energy == doctest::Approx(value).epsilon(1e-9));

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/compute/buffer.hpp>
+#include <taut/impl/compute/buffer.hpp>
 
 #include "support/device.hpp"
 

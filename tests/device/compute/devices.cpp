@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/compute/buffer.hpp>
-#include <taut/compute/quirks.hpp>
+#include <taut/impl/compute/buffer.hpp>
+#include <taut/impl/compute/quirks.hpp>
 
 #include "support/device.hpp"
 
@@ -87,8 +87,8 @@ TEST_CASE("devices: requirements refuse a device with the reason")
     CHECK(contains(text, taut::devices()[0].device.name()));
 
     const taut::device weak = taut::choose_device().without_fp64();
-    CHECK(taut::device_refusal(weak).empty());
-    CHECK(contains(taut::device_refusal(weak, {.fp64 = true}), "fp64"));
+    CHECK(taut::impl::device_refusal(weak).empty());
+    CHECK(contains(taut::impl::device_refusal(weak, {.fp64 = true}), "fp64"));
 }
 
 TEST_CASE("devices: double is refused by name on a device without fp64, float works")

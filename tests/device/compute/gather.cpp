@@ -3,11 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/compute/gather.hpp>
+#include <taut/impl/compute/gather.hpp>
 
 #include "support/device.hpp"
 
-using taut::real_buffer;
+using taut::impl::real_buffer;
 using taut::scalar_type;
 using taut::test::random_reals;
 using taut::test::sized_count;
@@ -41,14 +41,14 @@ struct incidence
 TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in order, at every valence", T, float, double)
 {
     taut::queue q;
-    constexpr scalar_type type = taut::scalar_type_of<T>;
+    constexpr scalar_type type = taut::impl::scalar_type_of<T>;
     for (const int D : {2, 3})
     {
         CAPTURE(D);
-        const std::size_t rows = sized_count(1000, 150), vertices = taut::padded(rows + 3, 64), cells = 192;
+        const std::size_t rows = sized_count(1000, 150), vertices = taut::impl::padded(rows + 3, 64), cells = 192;
         const auto corners = static_cast<std::size_t>(D) + 1;
         const incidence meet(rows, 190, static_cast<taut::idx>(corners));
-        const taut::gather sum(q, meet.offsets, meet.cells, meet.corners, {D, cells, vertices}, type, type);
+        const taut::impl::gather sum(q, meet.offsets, meet.cells, meet.corners, {D, cells, vertices}, type, type);
 
         const auto d = static_cast<std::size_t>(D);
         const auto host = random_reals(type, corners * d * cells, 3);
@@ -94,7 +94,7 @@ TEST_CASE("gather: agrees with the host at every width that its kernels have")
             }
             offsets.push_back(static_cast<taut::idx>(cell.size()));
         }
-        const taut::gather sum(q, offsets, cell, corner, {3, cells, 64}, scalar_type::f64, scalar_type::f64);
+        const taut::impl::gather sum(q, offsets, cell, corner, {3, cells, 64}, scalar_type::f64, scalar_type::f64);
         real_buffer out(q, scalar_type::f64, 3 * 64);
         sum(contributions, out);
         CHECK(out.download() == expected);
@@ -118,7 +118,7 @@ TEST_CASE("gather: sums are formed in the type of the terms, and stored in anoth
     for (const scalar_type term : {scalar_type::f32, scalar_type::f64})
         for (const scalar_type sum : {scalar_type::f32, scalar_type::f64})
         {
-            const taut::gather add(q, offsets, cell, corner, {2, cells, 64}, term, sum);
+            const taut::impl::gather add(q, offsets, cell, corner, {2, cells, 64}, term, sum);
             const real_buffer contributions(q, term, host);
             real_buffer out(q, sum, 128);
             add(contributions, out);
@@ -137,7 +137,7 @@ TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
     taut::queue q;
     // One vertex, in corner 1 of cell 1; the place that fillers read, cell 0, holds NaN.
     const std::vector<taut::idx> offsets = {0, 1}, cells = {1}, corners = {1};
-    const taut::gather sum(q, offsets, cells, corners, {2, 64, 64}, scalar_type::f64, scalar_type::f64);
+    const taut::impl::gather sum(q, offsets, cells, corners, {2, 64, 64}, scalar_type::f64, scalar_type::f64);
     std::vector<double> host(3 * 2 * 64, std::numeric_limits<double>::quiet_NaN());
     host[2 * 64 + 1] = 5;
     host[3 * 64 + 1] = 6;
@@ -155,14 +155,14 @@ TEST_CASE("gather: layouts that do not hold the mesh are refused")
 {
     taut::queue q;
     const std::vector<taut::idx> offsets = {0, 1}, cells = {70}, corners = {0};
-    const auto make = [&](const taut::gather_layout& layout)
-    { return taut::gather(q, offsets, cells, corners, layout, scalar_type::f64, scalar_type::f64); };
+    const auto make = [&](const taut::impl::gather_layout& layout)
+    { return taut::impl::gather(q, offsets, cells, corners, layout, scalar_type::f64, scalar_type::f64); };
     CHECK_THROWS_AS(make({2, 64, 64}), taut::parameter_error);
     CHECK_THROWS_AS(make({2, 128, 100}), taut::parameter_error);
     CHECK_THROWS_AS(make({2, 128, 0}), taut::parameter_error);
 
     const std::vector<taut::idx> first = {0};
-    const taut::gather one(q, offsets, first, first, {2, 64, 64}, scalar_type::f64, scalar_type::f64);
+    const taut::impl::gather one(q, offsets, first, first, {2, 64, 64}, scalar_type::f64, scalar_type::f64);
     real_buffer enough(q, scalar_type::f64, 128), few(q, scalar_type::f64, 64), narrow(q, scalar_type::f32, 128);
     CHECK_THROWS_AS(one(few, enough), taut::parameter_error);
     CHECK_THROWS_AS(one(enough, few), taut::parameter_error);
@@ -173,7 +173,7 @@ TEST_CASE("gather: layouts that do not hold the mesh are refused")
 TEST_CASE("gather: without any cell all sums are zero")
 {
     taut::queue q;
-    const taut::gather nothing(q, {}, {}, {}, {3, 0, 64}, scalar_type::f32, scalar_type::f32);
+    const taut::impl::gather nothing(q, {}, {}, {}, {3, 0, 64}, scalar_type::f32, scalar_type::f32);
     real_buffer none(q, scalar_type::f32, 0), out(q, scalar_type::f32, 192);
     nothing(none, out);
     CHECK(out.download() == std::vector<double>(192, 0.0));

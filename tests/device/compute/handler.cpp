@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/compute/handler.hpp>
-#include <taut/symbolic/loop.hpp>
+#include <taut/impl/compute/handler.hpp>
+#include <taut/impl/symbolic/loop.hpp>
 
 #include "support/device.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/compute/detail/few_functions.hpp>
-#include <taut/compute/kernel.hpp>
-#include <taut/compute/quirks.hpp>
+#include <taut/impl/compute/detail/few_functions.hpp>
+#include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/compute/quirks.hpp>
 
 #include "support/device.hpp"
 
@@ -57,10 +57,10 @@ TEST_CASE("kernel: the local size is the one asked for, or a usual one, or the d
 TEST_CASE("kernel: equal source and options are built once, other options again")
 {
     taut::queue q;
-    using k = taut::typed_kernel<float, const taut::buffer<float>, taut::buffer<float>>;
+    using k = taut::impl::typed_kernel<float, const taut::buffer<float>, taut::buffer<float>>;
     k(q, axpy, "axpy");
     k(q, axpy, "axpy");
-    taut::typed_kernel<taut::buffer<taut::idx>>(q, axpy, "count");
+    taut::impl::typed_kernel<taut::buffer<taut::idx>>(q, axpy, "count");
     CHECK(q.counters().builds == 1);
     k(q, axpy, "axpy", "-DX=1");
     CHECK(q.counters().builds == 2);
@@ -72,7 +72,7 @@ TEST_CASE("kernel: quick builds leave optimisations out, and results as they are
 {
     const auto options_of = [](taut::queue& q)
     {
-        taut::typed_kernel<taut::buffer<float>, float> add_to = q.kernel<taut::buffer<float>, float>(
+        taut::impl::typed_kernel<taut::buffer<float>, float> add_to = q.kernel<taut::buffer<float>, float>(
             "__kernel void add_to(__global float* y, const float a) { y[get_global_id(0)] += a; }", "add_to");
         taut::buffer<float> y(q, std::vector<float>(64, 1.0F));
         add_to(64, y, 2.0F);
@@ -107,7 +107,7 @@ TEST_CASE("kernel: programs that say they call few functions are built without a
                 .get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS, boost::compute::device(q.device().native())),
             "_OPENCL_H_");
     };
-    const std::string few = taut::detail::few_functions;
+    const std::string few = taut::impl::few_functions;
     CHECK(without_header(few, "sqrt(x[i])") == taut::quirks::reads_long_header(q.device()));
     CHECK(without_header(few + "-DX=x[i]", "sqrt(X)") == taut::quirks::reads_long_header(q.device()));
     CHECK(!without_header("", "sqrt(x[i])"));
@@ -126,7 +126,7 @@ TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built h
         CHECK(source == text);
         CHECK(kernels.empty());
         told.push_back(options);
-        return works ? taut::build_under_way([&] { return ++asked < 3; }) : taut::build_under_way();
+        return works ? taut::impl::build_under_way([&] { return ++asked < 3; }) : taut::impl::build_under_way();
     };
     taut::queue q(taut::choose_device(), {.build_elsewhere = elsewhere});
     const auto right = [&](const std::string& options)
@@ -220,7 +220,7 @@ TEST_CASE("kernel: a compiler's refusal shows kernel, log, device and the number
 
 TEST_CASE("kernel: excerpts number lines as the compiler does")
 {
-    using taut::detail::build_excerpt;
+    using taut::impl::build_excerpt;
     const std::string text = "a\nb\nc\nd\ne\nf\ng\nh\ni\n";
     CHECK(build_excerpt(text, "x.cl:5:1: error: no") == "    3 | c\n    4 | d\n    5 > e\n    6 | f\n    7 | g\n");
     CHECK(build_excerpt(text, "x.cl:1:1: error\nx.cl:9:2: error") ==
@@ -283,7 +283,7 @@ TEST_CASE("kernel: arguments are bound by name in any order")
     k(64, {{"y", y}, {"a", 0.5f}, {"x", x}});
     k(64, {{"x", x}, {"y", y}, {"a", -1.0f}});
     CHECK(y.download() == std::vector<float>(64, 6.0f));
-    const std::vector<taut::named_argument> arguments = {{"y", y}, {"x", x}, {"a", 1.0f}};
+    const std::vector<taut::impl::named_argument> arguments = {{"y", y}, {"x", x}, {"a", 1.0f}};
     k.launch(64, arguments);
     CHECK(y.download() == std::vector<float>(64, 8.0f));
 }
@@ -292,8 +292,8 @@ TEST_CASE("kernel: a double narrows to a float parameter, by name")
 {
     taut::queue q;
     const taut::kernel k(q, axpy, "axpy");
-    const taut::real_buffer x(q, taut::scalar_type::f32, std::vector<double>(64, 1.0));
-    taut::real_buffer y(q, taut::scalar_type::f32, std::vector<double>(64, 0.0));
+    const taut::impl::real_buffer x(q, taut::scalar_type::f32, std::vector<double>(64, 1.0));
+    taut::impl::real_buffer y(q, taut::scalar_type::f32, std::vector<double>(64, 0.0));
     k(64, {{"a", 0.1}, {"x", x}, {"y", y}});
     CHECK(y.download() == std::vector<double>(64, static_cast<double>(0.1f)));
 }
@@ -307,10 +307,10 @@ TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
     for (const auto type : {taut::scalar_type::f32, taut::scalar_type::f64})
     {
         const taut::kernel k(q, source, "scale", "-DREAL=" + std::string(spelling(type)), type);
-        taut::real_buffer x(q, type, std::vector<double>(64, 3.0));
+        taut::impl::real_buffer x(q, type, std::vector<double>(64, 3.0));
         k(64, {{"factor", 0.1}, {"x", x}});
         CHECK(x.download()[63] == taut::test::as_real(type, 3 * taut::test::as_real(type, 0.1)));
-        taut::real_buffer other(q, type == taut::scalar_type::f32 ? taut::scalar_type::f64 : taut::scalar_type::f32,
+        taut::impl::real_buffer other(q, type == taut::scalar_type::f32 ? taut::scalar_type::f64 : taut::scalar_type::f32,
                                 64);
         CHECK_THROWS_AS(k(64, {{"factor", 0.1}, {"x", other}}), taut::parameter_error);
     }
@@ -325,7 +325,7 @@ TEST_CASE("kernel: a missing, unknown, repeated or wrongly typed argument is ref
     const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
     const taut::buffer<double> wide(q, 64);
     taut::buffer<float> y(q, std::vector<float>(64, 1.0f));
-    const auto refusal = [&](std::vector<taut::named_argument> arguments)
+    const auto refusal = [&](std::vector<taut::impl::named_argument> arguments)
     {
         try
         {

@@ -13,7 +13,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/compute/kernel.hpp>
+#include <taut/impl/compute/kernel.hpp>
 
 #include "support/device.hpp"
 

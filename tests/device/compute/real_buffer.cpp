@@ -4,13 +4,13 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/compute/handler.hpp>
-#include <taut/compute/real_buffer.hpp>
+#include <taut/impl/compute/handler.hpp>
+#include <taut/impl/compute/real_buffer.hpp>
 
 #include "support/device.hpp"
 
-using taut::host_reals;
-using taut::real_buffer;
+using taut::impl::host_reals;
+using taut::impl::real_buffer;
 using taut::scalar_type;
 using taut::test::random_reals;
 
@@ -32,7 +32,7 @@ TEST_CASE("real_buffer: what is uploaded is downloaded, in the precision of the 
         CHECK(b.type() == type);
         CHECK(b.size() == 1000);
         CHECK(!b.empty());
-        CHECK(b.bytes() == 1000 * taut::size_of(type));
+        CHECK(b.bytes() == 1000 * taut::impl::size_of(type));
         CHECK(q.allocated() == b.bytes());
         CHECK(b.download() == values);
 

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/compute/record.hpp>
+#include <taut/impl/compute/record.hpp>
 
 #include "support/device.hpp"
 
@@ -52,7 +52,7 @@ TEST_CASE("trace: an argument of each kind, mixed precision and an index load")
 TEST_CASE("trace: a recording whose arguments are not those of the tags is refused")
 {
     taut::queue q;
-    const auto record = [&](taut::kernel_form form)
+    const auto record = [&](taut::impl::kernel_form form)
     {
         taut::recording r;
         auto x = r.in<float>();
@@ -61,7 +61,7 @@ TEST_CASE("trace: a recording whose arguments are not those of the tags is refus
         return r.finish("move", form);
     };
     using taut::in, taut::inout, taut::out;
-    const auto text = record(taut::kernel_form::guarded);
+    const auto text = record(taut::impl::kernel_form::guarded);
     const taut::traced_kernel<in<float>, out<float>> fits(q, text);
     const buffer<float> x(q, std::vector<float>{1, 2});
     buffer<float> y(q, 2);
@@ -70,7 +70,7 @@ TEST_CASE("trace: a recording whose arguments are not those of the tags is refus
     CHECK_THROWS_AS((taut::traced_kernel<in<float>, inout<float>>(q, text)), taut::device_error);
     CHECK_THROWS_AS((taut::traced_kernel<in<double>, out<float>>(q, text)), taut::device_error);
     CHECK_THROWS_AS((taut::traced_kernel<in<float>>(q, text)), taut::device_error);
-    CHECK_THROWS_AS((taut::traced_kernel<in<float>, out<float>>(q, record(taut::kernel_form::item))),
+    CHECK_THROWS_AS((taut::traced_kernel<in<float>, out<float>>(q, record(taut::impl::kernel_form::item))),
                     taut::device_error);
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("trace: equal recordings share one build, another captured value is an
 TEST_CASE("trace: recordings in one program are built once and compute what each does alone")
 {
     taut::queue q;
-    const auto form = q.device().is_cpu() ? taut::kernel_form::run : taut::kernel_form::guarded;
+    const auto form = q.device().is_cpu() ? taut::impl::kernel_form::run : taut::impl::kernel_form::guarded;
     // Kernels with and without double, optimised and not, that share helper functions.
     const auto record = [&]<class T>(T, const std::string& name, int power)
     {
@@ -102,15 +102,15 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
         auto root = cbrt(x[i]);
         for (int k = 1; k < power; ++k) root = root * cbrt(x[i] + taut::sym<T>(T(k)));
         y[i] = root;
-        return r.finish(name, form, power > 1 ? taut::kernel_use::seldom : taut::kernel_use::often);
+        return r.finish(name, form, power > 1 ? taut::impl::kernel_use::seldom : taut::impl::kernel_use::often);
     };
-    const std::vector<taut::kernel_text> texts = {record(0.0f, "narrow", 1), record(0.0, "wide", 1),
+    const std::vector<taut::impl::kernel_text> texts = {record(0.0f, "narrow", 1), record(0.0, "wide", 1),
                                                   record(0.0f, "narrow_square", 2), record(0.0, "wide_square", 2)};
-    const taut::traced_program p(q, texts);
+    const taut::impl::traced_program p(q, texts);
     for (const char* helper : {" taut_cbrt_f32(const float", " taut_cbrt_f64(const double"})
         CHECK(p.source().find(helper) == p.source().rfind(helper));
 
-    using taut::recorded_kernel;
+    using taut::impl::recorded_kernel;
     const auto run = [&]<class T>(const recorded_kernel& kernel, const std::vector<T>& x)
     {
         const buffer<T> bx(q, x);
@@ -132,7 +132,7 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
 
     CHECK_THROWS_AS(recorded_kernel(p, "absent"), taut::parameter_error);
     CHECK_THROWS_AS(run(recorded_kernel(p, "wide"), x), taut::parameter_error);
-    CHECK_THROWS_AS(taut::traced_program(q, {texts[0], texts[1], texts[0]}), taut::parameter_error);
+    CHECK_THROWS_AS(taut::impl::traced_program(q, {texts[0], texts[1], texts[0]}), taut::parameter_error);
 }
 
 TEST_CASE_TEMPLATE("trace: recordings call no functions but the few that are declared", T, float, double)
@@ -144,9 +144,9 @@ TEST_CASE_TEMPLATE("trace: recordings call no functions but the few that are dec
     const auto v = x[r.global_id()];
     y[r.global_id()] = abs(v) + floor(v) + sqrt(v) + cbrt(v) + exp(v) + log(v) + sin(v) + cos(v) + tan(v) + atan(v) +
                        pow(v, taut::sym<T>(T(1.1)) * v) + min(v, taut::sym<T>(T(2))) + max(v, taut::sym<T>(T(2)));
-    const auto text = r.finish("all_functions", taut::detail::form_for(q.device()));
-    const taut::recorded_kernel built(q, text);
-    const auto program = q.state()->cache.find(text.source, "all_functions", taut::detail::few_functions).get_program();
+    const auto text = r.finish("all_functions", taut::impl::form_for(q.device()));
+    const taut::impl::recorded_kernel built(q, text);
+    const auto program = q.state()->cache.find(text.source, "all_functions", taut::impl::few_functions).get_program();
     const auto options = program.template get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS,
                                                                       boost::compute::device(q.device().native()));
     CHECK((options.find("_OPENCL_H_") != std::string::npos) == taut::quirks::reads_long_header(q.device()));
@@ -187,12 +187,12 @@ TEST_CASE("recorded_kernel: formulas of doubles run in the precision of the reco
         const auto a = r.scalar<double>("a", type);
         const auto i = r.global_id();
         y[i] = select(x[i] < 0, taut::sym<double>(1.0), 0.1) * y[i] + a;
-        const auto form = q.device().is_cpu() ? taut::kernel_form::run : taut::kernel_form::guarded;
-        const taut::recorded_kernel k(q, r.finish("advance", form));
+        const auto form = q.device().is_cpu() ? taut::impl::kernel_form::run : taut::impl::kernel_form::guarded;
+        const taut::impl::recorded_kernel k(q, r.finish("advance", form));
         CHECK((k.text().source.find("double") == std::string::npos) == (type == taut::scalar_type::f32));
 
-        const taut::real_buffer bx(q, type, std::vector<double>{-1, 1, -2});
-        taut::real_buffer by(q, type, std::vector<double>{3, 4, 5});
+        const taut::impl::real_buffer bx(q, type, std::vector<double>{-1, 1, -2});
+        taut::impl::real_buffer by(q, type, std::vector<double>{3, 4, 5});
         k(2, {{"y", by}, {"a", 0.1}, {"x", bx}});
         const auto real = [&](double v) { return taut::test::as_real(type, v); };
         const auto got = by.download();
@@ -202,7 +202,7 @@ TEST_CASE("recorded_kernel: formulas of doubles run in the precision of the reco
         // By position, and as a list made at run time.
         by.fill(1);
         k(1, bx, by, 2.0);
-        k(1, std::vector<taut::named_argument>{{"x", bx}, {"y", by}, {"a", -1.0}});
+        k(1, std::vector<taut::impl::named_argument>{{"x", bx}, {"y", by}, {"a", -1.0}});
         CHECK(by.download()[0] == 2);
     }
 }
@@ -210,16 +210,16 @@ TEST_CASE("recorded_kernel: formulas of doubles run in the precision of the reco
 TEST_CASE("recorded_kernel: a missing, unknown, repeated or wrongly typed argument is refused by its name")
 {
     taut::queue q;
-    const auto form = q.device().is_cpu() ? taut::kernel_form::run : taut::kernel_form::guarded;
+    const auto form = q.device().is_cpu() ? taut::impl::kernel_form::run : taut::impl::kernel_form::guarded;
     taut::recording r(taut::scalar_type::f32);
     const auto x = r.in<double>("x", taut::scalar_type::f32);
     const auto at = r.scalar<taut::idx>("at");
     r.out<double>("y", taut::scalar_type::f32)[r.global_id()] = x[at];
-    const taut::recorded_kernel k(q, r.finish("pick", form));
+    const taut::impl::recorded_kernel k(q, r.finish("pick", form));
     const buffer<float> bx(q, std::vector<float>{1, 2, 3});
     const buffer<double> wide(q, 3);
     buffer<float> by(q, std::vector<float>{0, 0, 0});
-    const auto refusal = [&](std::vector<taut::named_argument> arguments)
+    const auto refusal = [&](std::vector<taut::impl::named_argument> arguments)
     {
         try
         {

@@ -4,14 +4,14 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/compute/reductions.hpp>
+#include <taut/impl/compute/reductions.hpp>
 
 #include "support/device.hpp"
 
 using taut::buffer;
-using taut::real_buffer;
-using taut::real_view;
-using taut::reduction_plan;
+using taut::impl::real_buffer;
+using taut::impl::real_view;
+using taut::impl::reduction_plan;
 using taut::reductions;
 using taut::test::random_values;
 using taut::test::sized_count;
@@ -266,7 +266,7 @@ TEST_CASE("reductions: float works on a device without fp64, to float accuracy")
 TEST_CASE_TEMPLATE("reductions: a buffer whose precision is data has the same results bit for bit", T, float, double)
 {
     taut::queue q;
-    constexpr auto type = taut::scalar_type_of<T>;
+    constexpr auto type = taut::impl::scalar_type_of<T>;
     const std::size_t n = sized_count(9001, 1500);
     const auto hx = random_values<T>(n, 9), hy = random_values<T>(n, 10);
     const buffer<T> x(q, hx), y(q, hy);

@@ -3,15 +3,15 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/compute/gather.hpp>
-#include <taut/compute/vector_space.hpp>
+#include <taut/impl/compute/gather.hpp>
+#include <taut/impl/compute/vector_space.hpp>
 
 #include "support/device.hpp"
 
-using taut::device_vector;
+using taut::impl::device_vector;
 using taut::device_vectors;
 using taut::scalar_type;
-using taut::scalar_type_of;
+using taut::impl::scalar_type_of;
 using taut::test::random_reals;
 using taut::test::random_values;
 using taut::test::sized_count;
@@ -187,7 +187,7 @@ TEST_CASE("device_vectors: vectors, reductions and gathers of a type share one b
     r.minimum(x.data(), 100);
     r.fetch();
     const std::vector<taut::idx> offsets = {0, 1}, zero = {0};
-    const taut::gather sum(q, offsets, zero, zero, {.components = 3, .cell_stride = 64, .vertex_stride = 64},
+    const taut::impl::gather sum(q, offsets, zero, zero, {.components = 3, .cell_stride = 64, .vertex_stride = 64},
                            scalar_type::f32, scalar_type::f32);
     q.finish();
     CHECK(q.counters().builds == 1);

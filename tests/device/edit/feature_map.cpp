@@ -7,12 +7,13 @@
 
 #include <support/edit_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/edit/parameterize_feature.hpp>
-#include <taut/edit/tessellate.hpp>
-#include <taut/edit/write_feature_map.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/tessellate.hpp>
+#include <taut/impl/edit/write_feature_map.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {
@@ -133,7 +134,7 @@ TEST_CASE("tessellate: a feature of about as many triangles as wanted, on the ma
         CHECK(made.region.surface.cell_count() < 1.2 * wanted);
         CHECK(made.region.surface.cell_count() > 0.5 * wanted);
         // Vertices of the source are near to it, the nearer the finer.
-        const detail::surface_tree tree(made.region.surface.points(), made.region.surface.cells());
+        const impl::surface_tree tree(made.region.surface.points(), made.region.surface.cells());
         double worst = 0;
         for (const vec3& x : part.region.surface.points()) worst = std::max(worst, tree.nearest(x).distance);
         CHECK(worst < before);

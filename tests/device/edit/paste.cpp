@@ -11,9 +11,9 @@
 
 #include <support/edit_meshes.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/edit/write_paste.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/edit/write_paste.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 using namespace taut;
 

@@ -4,10 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <support/rbf_points.hpp>
-#include <taut/edit/rbf.hpp>
-#include <taut/edit/rbf_evaluator.hpp>
+#include <taut/impl/edit/rbf.hpp>
+#include <taut/impl/edit/rbf_evaluator.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 TEST_CASE("rbf evaluator: the device has the field of the host, one launch a field")
 {

@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/check_gradient.hpp>
-#include <taut/energy/isometric.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/check_gradient.hpp>
+#include <taut/impl/energy/isometric.hpp>
 
 namespace
 {

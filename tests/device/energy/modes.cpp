@@ -11,17 +11,18 @@
 #include <support/mips_power.hpp>
 #include <support/symmetric_eigen.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/energy/isotropic.hpp>
-#include <taut/energy/modes.hpp>
-#include <taut/energy/neo_hookean.hpp>
-#include <taut/symbolic/evaluate.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/energy/isotropic.hpp>
+#include <taut/impl/energy/modes.hpp>
+#include <taut/impl/energy/neo_hookean.hpp>
+#include <taut/impl/symbolic/evaluate.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using matrix = Eigen::MatrixXd;
 
 /// Of the sizes of S.

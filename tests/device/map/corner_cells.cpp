@@ -8,10 +8,10 @@
 
 #include <support/size.hpp>
 
-#include <taut/exact/cell_validity.hpp>
-#include <taut/io/volume_file.hpp>
-#include <taut/map/smooth.hpp>
-#include <taut/measure/rigid_motion.hpp>
+#include <taut/impl/exact/cell_validity.hpp>
+#include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/map/smooth.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
 
 namespace
 {
@@ -70,7 +70,7 @@ io::volume_file sheet(idx n)
 bool all_valid(const io::volume_file& file, const std::vector<vec3>& x)
 {
     bool valid = true;
-    io::for_each_cell(file, 3,
+    io::impl::for_each_cell(file, 3,
                       [&](io::cell_kind, idx, std::span<const idx> corners)
                       {
                           std::vector<vec3> places;

@@ -12,16 +12,17 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/distortion.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/mesh/ideal.hpp>
-#include <taut/objective/map_evaluator.hpp>
+#include <taut/impl/energy/distortion.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/objective/map_evaluator.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// Shape, and as much of area as the triangle asks for.
 struct mixed

@@ -11,11 +11,11 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/energy/neo_hookean.hpp>
-#include <taut/energy/shape.hpp>
-#include <taut/map/deform.hpp>
-#include <taut/measure/rigid_motion.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/energy/neo_hookean.hpp>
+#include <taut/impl/energy/shape.hpp>
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
 
 namespace
 {

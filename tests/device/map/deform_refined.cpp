@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <support/infeasible_problems.hpp>
-#include <taut/map/deform_refined.hpp>
+#include <taut/impl/map/deform_refined.hpp>
 
 using namespace taut;
 

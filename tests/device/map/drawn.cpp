@@ -15,13 +15,14 @@
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
-#include <taut/atlas/cut_to_disk.hpp>
-#include <taut/map/parameterize.hpp>
+#include <taut/impl/atlas/cut_to_disk.hpp>
+#include <taut/impl/map/parameterize.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A wavy disk that has coarser levels.
 mesh<triangle> waves()

@@ -10,7 +10,7 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/map/interpolate.hpp>
+#include <taut/impl/map/interpolate.hpp>
 
 namespace
 {

@@ -13,16 +13,17 @@
 #include <support/size.hpp>
 #include <support/strips.hpp>
 
-#include <taut/core/budget.hpp>
-#include <taut/energy/shape.hpp>
-#include <taut/map/detail/overlap/scaffold.hpp>
-#include <taut/map/detail/overlap/start_apart.hpp>
-#include <taut/map/parameterize.hpp>
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/energy/shape.hpp>
+#include <taut/impl/map/overlap/scaffold.hpp>
+#include <taut/impl/map/overlap/start_apart.hpp>
+#include <taut/impl/map/parameterize.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 mesh<triangle> winding_ramp()
 {
@@ -188,10 +189,10 @@ TEST_CASE("no_overlap: edges of the boundary that are pinned across each other a
     queue q;
     const auto m = winding_ramp();
     const auto free = parameterize(q, m);
-    const auto edges = detail::edges_of(boundary_loops(m));
+    const auto edges = impl::edges_of(boundary_loops(m));
     constraints<triangle> pins(m);
     std::vector<idx> ends;
-    detail::for_each_meeting(edges, free.uv,
+    impl::for_each_meeting(edges, free.uv,
                              [&](std::size_t i, std::size_t j)
                              {
                                  ends = {edges[i][0], edges[i][1], edges[j][0], edges[j][1]};
@@ -251,11 +252,11 @@ TEST_CASE("no_overlap: a tube too long for a map on a polygon gets one that was 
     queue q;
     const auto m = test::tube(12, 60);
     const parameterize_params params;
-    detail::run_clock clock(budget::unlimited, {});
-    const detail::run_surface in(m, params);
-    const detail::map_run run(q, in, params, clock);
+    impl::run_clock clock(budget::unlimited, {});
+    const impl::run_surface in(m, params);
+    const impl::map_run run(q, in, params, clock);
     CHECK(barycentric_map(m, params.barycentric).distortion.measure > 1e8);
-    const auto start = detail::start_apart(run, boundary_loops(m));
+    const auto start = impl::start_apart(run, boundary_loops(m));
     CHECK(start.flips);
     CHECK(start.distortion.measure < 1e4);
     CHECK(crossings_of(m, start.uv) == 0);
@@ -267,7 +268,7 @@ TEST_CASE("scaffold: it fills the square around a map with holes, each of whose 
     const auto m = test::annulus(40);
     for (const vec3& p : m.points()) x.emplace_back(p);
     const auto loops = boundary_loops(m);
-    const auto s = detail::make_scaffold(loops, x, vec2(-6), vec2(6));
+    const auto s = impl::make_scaffold(loops, x, vec2(-6), vec2(6));
     CHECK(s.points[0] == vec2(-6));
     auto points = m.points();
     for (const vec2& p : s.points) points.emplace_back(p, 0.0);

@@ -7,15 +7,16 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/measure/quality.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/measure/quality.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using namespace std::chrono_literals;
 
 mesh<triangle> moved(const mesh<triangle>& m, double scale, vec3 by)

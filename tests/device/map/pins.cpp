@@ -11,14 +11,15 @@
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
-#include <taut/energy/shape.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/energy/shape.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A wavy disk; no triangle has three vertices on its boundary.
 mesh<triangle> hills()

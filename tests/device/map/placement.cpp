@@ -13,8 +13,8 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/constrain/place_map.hpp>
-#include <taut/map/parameterize.hpp>
+#include <taut/impl/constrain/place_map.hpp>
+#include <taut/impl/map/parameterize.hpp>
 
 namespace
 {
@@ -212,7 +212,7 @@ TEST_CASE("placement: a torus that was cut open shows no axis and lies along its
             uv.push_back(
                 {std::cos(angle) * at.x - std::sin(angle) * at.y, std::sin(angle) * at.x + std::cos(angle) * at.y});
         }
-        const auto placed = detail::in_corner(detail::turned_up(torus, uv), 0).uv;
+        const auto placed = impl::in_corner(impl::turned_up(torus, uv), 0).uv;
         const auto at = [&](std::size_t k) { return placed[k]; };
         CHECK(at(40).x - at(0).x == doctest::Approx(6)); // the thin end is on the right
         CHECK(at(41 * 16).y - at(0).y == doctest::Approx(2));

@@ -11,17 +11,18 @@
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/energy/shape.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/map/session.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/energy/shape.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/map/session.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 mesh<triangle> bump()
 {

@@ -11,14 +11,15 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/exact/collapses.hpp>
-#include <taut/map/deform.hpp>
-#include <taut/measure/rigid_motion.hpp>
+#include <taut/impl/exact/collapses.hpp>
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// A flat strip, four times as long (along x) as wide.

@@ -9,8 +9,8 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/map/smooth.hpp>
-#include <taut/measure/rigid_motion.hpp>
+#include <taut/impl/map/smooth.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
 
 namespace
 {

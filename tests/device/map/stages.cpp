@@ -10,8 +10,8 @@
 #include <support/size.hpp>
 #include <support/stage_watch.hpp>
 
-#include <taut/map/deform.hpp>
-#include <taut/map/parameterize.hpp>
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/map/parameterize.hpp>
 
 namespace
 {

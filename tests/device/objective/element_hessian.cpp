@@ -8,17 +8,18 @@
 #include <support/mips_power.hpp>
 #include <support/symmetric_eigen.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/mesh/tetrahedron.hpp>
-#include <taut/mesh/triangle.hpp>
-#include <taut/objective/element_hessian.hpp>
-#include <taut/symbolic/evaluate.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/mesh/tetrahedron.hpp>
+#include <taut/impl/mesh/triangle.hpp>
+#include <taut/impl/objective/element_hessian.hpp>
+#include <taut/impl/symbolic/evaluate.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using matrix = Eigen::MatrixXd;
 using vector = Eigen::VectorXd;
 using slots = hessian_slots<2>;

@@ -6,16 +6,17 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/objective/mesh_levels.hpp>
-#include <taut/objective/newton_objective.hpp>
-#include <taut/solve/minimize.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A bumpy disk and a start map in the order of level 0, with some vertices held in one coordinate or both.
 struct held_setting

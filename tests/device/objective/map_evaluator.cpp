@@ -10,13 +10,14 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/objective/map_evaluator.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/objective/map_evaluator.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 template <class Element>
 mesh<Element> sample()

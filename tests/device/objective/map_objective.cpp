@@ -9,17 +9,18 @@
 #include <support/reference_problem.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/objective/map_objective.hpp>
-#include <taut/objective/newton_objective.hpp>
-#include <taut/solve/minimize.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/objective/map_objective.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// Costs more where the area grows beyond a limit. Its code chooses between two constants: these have no operand to
 /// take their type from.

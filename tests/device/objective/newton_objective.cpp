@@ -8,16 +8,17 @@
 #include <support/mips_power.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/objective/mesh_levels.hpp>
-#include <taut/objective/newton_objective.hpp>
-#include <taut/solve/minimize.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 struct named_energy
 {

@@ -9,16 +9,17 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/objective/mesh_levels.hpp>
-#include <taut/objective/newton_objective.hpp>
-#include <taut/solve/minimize.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 std::size_t at(taut::idx i)
 {
@@ -196,8 +197,8 @@ TEST_CASE("patches: are disjoint, hang together, and are no more than they may b
     for (const std::size_t v : {std::size_t(100), std::size_t(1800), std::size_t(3500)}) weights[v] = 1;
     barred[101] = 1;
 
-    const detail::patch_params few{.rings = 3};
-    const auto patches = detail::patch_finder<triangle>(l, weights, barred, few).patches();
+    const impl::patch_params few{.rings = 3};
+    const auto patches = impl::patch_finder<triangle>(l, weights, barred, few).patches();
     REQUIRE(!patches.empty());
     REQUIRE(patches.size() <= 3);
     std::set<taut::idx> moving, cells;
@@ -219,10 +220,10 @@ TEST_CASE("patches: are disjoint, hang together, and are no more than they may b
     for (const taut::idx v : moving)
         for (const taut::idx c : l.vertex_corners.row(v)) CHECK(cells.count(c / 3) == 1);
 
-    const auto size = [&](const detail::patch_params& p)
+    const auto size = [&](const impl::patch_params& p)
     {
         std::size_t n = 0;
-        for (const auto& one : detail::patch_finder<triangle>(l, weights, barred, p).patches())
+        for (const auto& one : impl::patch_finder<triangle>(l, weights, barred, p).patches())
             n += at(static_cast<taut::idx>(std::count(one.fixed.begin(), one.fixed.end(), 0)));
         return n;
     };
@@ -230,5 +231,5 @@ TEST_CASE("patches: are disjoint, hang together, and are no more than they may b
     CHECK(size({.rings = 3, .most_vertices = 50}) <= 50);
     CHECK(size({.rings = 3, .most_vertices = 50}) > 0);
     CHECK(size({.rings = 8, .most_vertices = 20}) == 0);
-    CHECK(detail::patch_finder<triangle>(l, std::vector<double>(weights.size(), 0.0), barred).patches().empty());
+    CHECK(impl::patch_finder<triangle>(l, std::vector<double>(weights.size(), 0.0), barred).patches().empty());
 }

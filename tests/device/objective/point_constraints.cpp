@@ -7,16 +7,17 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/isometric.hpp>
-#include <taut/objective/mesh_levels.hpp>
-#include <taut/objective/newton_objective.hpp>
-#include <taut/solve/minimize.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A bumpy disk, its levels, a start map, and constraints on a few of its vertices.
 struct setting

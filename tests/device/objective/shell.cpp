@@ -8,15 +8,16 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/energy/shell.hpp>
-#include <taut/measure/rigid_motion.hpp>
-#include <taut/objective/mesh_levels.hpp>
-#include <taut/objective/newton_objective.hpp>
+#include <taut/impl/energy/shell.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A bumpy surface as a thin shell on a device, in double, no vertex held; shapes in the order of level 0.
 struct shell_fixture

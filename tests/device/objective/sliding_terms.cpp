@@ -6,16 +6,17 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/shape.hpp>
-#include <taut/measure/rigid_motion.hpp>
-#include <taut/objective/mesh_levels.hpp>
-#include <taut/objective/newton_objective.hpp>
-#include <taut/solve/minimize.hpp>
+#include <taut/impl/energy/shape.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A cube of which the boundary slides in itself: as coordinates that are held, or, turned, as slides.
 struct sliding_cube

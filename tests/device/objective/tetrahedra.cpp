@@ -15,17 +15,18 @@
 #include <support/mips_power.hpp>
 #include <support/reference_problem.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/mesh/first_flip.hpp>
-#include <taut/objective/newton_objective.hpp>
-#include <taut/solve/minimize.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/mesh/first_flip.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// Sees the frame of the ideal element: there is no closed form for it.
 struct stiff_along_x

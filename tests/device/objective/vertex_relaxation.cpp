@@ -9,14 +9,15 @@
 #include <support/reference_problem.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/objective/vertex_relaxation.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/objective/vertex_relaxation.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A user's energy that sees directions: stretch along the first axis of the ideal element costs more.
 struct anisotropic

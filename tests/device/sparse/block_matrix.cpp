@@ -6,12 +6,13 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/sparse/block_assembly.hpp>
-#include <taut/sparse/block_transfer.hpp>
+#include <taut/impl/sparse/block_assembly.hpp>
+#include <taut/impl/sparse/block_transfer.hpp>
 
 #include "support/device.hpp"
 
 using namespace taut;
+using namespace taut::impl;
 using taut::test::random_reals;
 
 namespace

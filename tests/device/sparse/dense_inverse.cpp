@@ -6,12 +6,13 @@
 
 #include <support/dense_matrix.hpp>
 #include <support/meshes.hpp>
-#include <taut/sparse/cell_pattern.hpp>
-#include <taut/sparse/dense_inverse.hpp>
+#include <taut/impl/sparse/cell_pattern.hpp>
+#include <taut/impl/sparse/dense_inverse.hpp>
 
 #include "support/device.hpp"
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {
@@ -82,7 +83,7 @@ TEST_CASE_TEMPLATE("dense inverse: that of the host, in the form for CPUs and in
                     values[p.place(2, j) * d * d + e] = values[p.place(c, p.find(c, 2)) * d * d + e * d] = 0;
             }
             A.upload(values);
-            detail::dense_inverse inverse(A, rows);
+            impl::dense_inverse inverse(A, rows);
             CHECK(static_cast<std::size_t>(inverse.size()) == rows.size() * d);
             inverse.refresh(A);
 
@@ -145,7 +146,7 @@ TEST_CASE_TEMPLATE("dense inverse: a translation that the matrix does not see ha
                     }
             for (std::size_t k = 1; k < d; ++k) entry(7, 7, k) += 4;
             A.upload(values);
-            detail::dense_inverse inverse(A, rows);
+            impl::dense_inverse inverse(A, rows);
             inverse.refresh(A);
 
             const double shift = std::is_same_v<T, double> ? 1e-8 : 1e-4;
@@ -189,7 +190,7 @@ TEST_CASE_TEMPLATE("dense inverse: what is not finite or not positive is taken o
             auto values = dominant_blocks(A.type(), A.pattern(), 2);
             values[A.pattern().place(5, 0) * 4] = bad; // of the first unknown of row 5 with itself
             A.upload(values);
-            detail::dense_inverse inverse(A, rows);
+            impl::dense_inverse inverse(A, rows);
             inverse.refresh(A);
             auto b = A.vector(), x = A.vector();
             b.data().fill(1);

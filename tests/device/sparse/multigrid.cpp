@@ -7,13 +7,14 @@
 
 #include <support/dense_matrix.hpp>
 #include <support/meshes.hpp>
-#include <taut/hierarchy/make_hierarchy.hpp>
-#include <taut/sparse/block_assembly.hpp>
-#include <taut/sparse/multigrid.hpp>
+#include <taut/impl/hierarchy/make_hierarchy.hpp>
+#include <taut/impl/sparse/block_assembly.hpp>
+#include <taut/impl/sparse/multigrid.hpp>
 
 #include "support/device.hpp"
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

@@ -9,16 +9,17 @@
 #include <support/mips_power.hpp>
 #include <support/size.hpp>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/measure/quality.hpp>
-#include <taut/start/barycentric_map.hpp>
-#include <taut/start/nested.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/measure/quality.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/start/nested.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// Enough vertices for levels above the one that the start is made on.
 mesh<triangle> hills()

@@ -9,12 +9,13 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/untangle/untangle.hpp>
+#include <taut/impl/untangle/untangle.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A bar of which one end is held and the other one is turned by half a turn: half of what is in between is inverted.
 untangle_problem<tetrahedron> twisted_ends()

@@ -10,14 +10,15 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/untangle/element_newton.hpp>
-#include <taut/untangle/regularized_sum.hpp>
-#include <taut/untangle/untangle_on_device.hpp>
+#include <taut/impl/untangle/element_newton.hpp>
+#include <taut/impl/untangle/regularized_sum.hpp>
+#include <taut/impl/untangle/untangle_on_device.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A square or cube of which the rim is held and the inside is somewhere.
 template <class Element>
@@ -72,7 +73,7 @@ regularized_problem<Element> towards_rest(const untangle_problem<Element>& p)
 {
     return {.rest = p.rest,
             .held = p.held,
-            .shapes = detail::rest_shapes(p.rest, detail::expected_measure(p, p.initial)),
+            .shapes = impl::rest_shapes(p.rest, impl::expected_measure(p, p.initial)),
             .area_weight = 0.7};
 }
 
@@ -96,7 +97,7 @@ TEST_CASE_TEMPLATE("multigrid_newton: its energy is that of the host, and other 
     queue q;
     const auto p = scrambled<Element>(test::sized(D == 2 ? 20 : 5, 3));
     multigrid_newton<Element> newton(q, multigrid_newton<Element>::trace(q), towards_rest(p));
-    detail::regularized_sum<Element> host(p.rest, p.held);
+    impl::regularized_sum<Element> host(p.rest, p.held);
     host.shapes = towards_rest(p).shapes;
     host.area_weight = 0.7;
     std::vector<double> flat, gradient(D * p.initial.size());
@@ -143,7 +144,7 @@ TEST_CASE("multigrid_newton: converges to what the direct solver does, with spri
     const auto inside = static_cast<idx>(p.initial.size() / 2 + 4);
     problem.springs = {{2 * inside / 3, {0.1, -0.3}, {5.0, 0.0}}, {inside, {0.2, 0.1}, {1.0, 30.0}}};
     multigrid_newton<triangle> device(q, multigrid_newton<triangle>::trace(q), problem);
-    detail::triangle_newton host(problem);
+    impl::triangle_newton host(problem);
     const auto minimum = [&](regularized_newton<triangle>& newton)
     {
         newton.eps = 0.5;
@@ -160,7 +161,7 @@ TEST_CASE("multigrid_newton: a barrier keeps positive what is")
 {
     queue q;
     auto p = scrambled<triangle>(12);
-    p.initial = detail::harmonic_start(p, p.initial);
+    p.initial = impl::harmonic_start(p, p.initial);
     for (std::size_t v = 0; v < p.held.size(); v += 2)
         if (!p.held.any(v)) p.initial[v] += vec2(0.02, 0.01);
     multigrid_newton<triangle> newton(q, multigrid_newton<triangle>::trace(q), towards_rest(p));

@@ -3,7 +3,7 @@
 
 #include <support/infeasible_problems.hpp>
 #include <support/untangle_checks.hpp>
-#include <taut/untangle/untangle_refined.hpp>
+#include <taut/impl/untangle/untangle_refined.hpp>
 
 using namespace taut;
 

@@ -13,13 +13,14 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/untangle/device/operator_step.hpp>
-#include <taut/untangle/device/untangle_operator.hpp>
+#include <taut/impl/untangle/device/operator_step.hpp>
+#include <taut/impl/untangle/device/untangle_operator.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// The rest positions as a map.
 template <class Element>
@@ -357,7 +358,7 @@ TEST_CASE("untangling operator: what an iteration decides on the device is what 
         const std::string options =
             "-DD=2 -DL=" + std::to_string(items) + (items == 1 ? " -DV=16 -DC=16" : " -DV=1 -DC=32");
         const typed_kernel<taut::idx, taut::idx, float, const buffer<float>, buffer<taut::idx>> decide{
-            q, detail::kernels::untangle, "untangle_decide", options};
+            q, impl::kernels::untangle, "untangle_decide", options};
         for (int trial = 0; trial < test::sized(60, 20); ++trial)
         {
             CAPTURE(items);

@@ -4,9 +4,10 @@
 #include <set>
 
 #include <support/meshes.hpp>
-#include <taut/atlas/chart_mesh.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

@@ -5,16 +5,16 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/atlas/detail/chart_start.hpp>
+#include <taut/impl/atlas/chart_start.hpp>
 
 using namespace taut;
 
 namespace
 {
 
-detail::chart_start start_of(const mesh<triangle>& m, std::vector<vec2> given = {})
+impl::chart_start start_of(const mesh<triangle>& m, std::vector<vec2> given = {})
 {
-    auto start = detail::chart_start::of(m, ideal_elements<triangle>(m), std::move(given));
+    auto start = impl::chart_start::of(m, ideal_elements<triangle>(m), std::move(given));
     CHECK(certify<2>(m.cells(), start.uv));
     return start;
 }
@@ -33,7 +33,7 @@ TEST_CASE("chart_start: a chart that folds when it is seen along its normal begi
 {
     for (const auto& m : {test::tube(12, 2), test::cap(5, 2.5)})
     {
-        CHECK_FALSE(certify<2>(m.cells(), detail::projected(m)));
+        CHECK_FALSE(certify<2>(m.cells(), impl::projected(m)));
         CHECK(start_of(m).energy < 20);
     }
     CHECK(start_of(test::annulus(8)).energy == doctest::Approx(4)); // a hole is no fold
@@ -77,7 +77,7 @@ TEST_CASE("single_chart: is brought near 1 by a power of two")
     for (vec3& p : points) p = 3e-5 * p + vec3(100, 0, 0);
     const mesh<triangle> small(points, m.cells());
     const auto f = facets(small);
-    const auto chart = detail::single_chart::of(cut_charts(small, f, std::vector<char>(f.twin.size(), 0)), 0);
+    const auto chart = impl::single_chart::of(cut_charts(small, f, std::vector<char>(f.twin.size(), 0)), 0);
     CHECK(chart.unit == 65536);
     CHECK(chart.surface.points()[8].x == doctest::Approx(3e-5 * 65536).epsilon(1e-6));
 }

@@ -10,12 +10,13 @@
 
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/atlas/detail/crossing_charts.hpp>
-#include <taut/atlas/detail/seen_patches.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/atlas/crossing_charts.hpp>
+#include <taut/impl/atlas/seen_patches.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {
@@ -52,7 +53,7 @@ bool crosses(const mesh<triangle>& m, const std::vector<vec2>& uv)
     const auto f = facets(m);
     const auto charts = cut_charts(m, f, std::vector<char>(f.twin.size(), 0));
     REQUIRE(certify<2>(m.cells(), std::span<const vec2>(uv)));
-    return detail::crossing_charts(charts, uv)[0] != 0;
+    return impl::crossing_charts(charts, uv)[0] != 0;
 }
 
 } // namespace
@@ -88,8 +89,8 @@ TEST_CASE(
 
     const std::vector<std::vector<idx>> loops{{0, 1, 2}, {3, 4, 5}}, hole{{0, 1, 2}, {5, 4, 3}};
     const std::vector<vec2> nested{{-3, -3}, {3, -3}, {0, 4}, {-1, -1}, {1, -1}, {0, 1}};
-    CHECK(detail::overlaps_itself(loops, nested));
-    CHECK_FALSE(detail::overlaps_itself(hole, nested));
+    CHECK(impl::overlaps_itself(loops, nested));
+    CHECK_FALSE(impl::overlaps_itself(hole, nested));
 }
 
 TEST_CASE("chart borders: the loops of each chart, as those of all charts together")
@@ -101,10 +102,10 @@ TEST_CASE("chart borders: the loops of each chart, as those of all charts togeth
         for (const std::size_t largest : {1000U, 7U, 1U})
         {
             const std::vector<char> all(m.cells().size(), 1);
-            const auto charts = cut_charts(m, f, seams_between(f, detail::lay_as_seen(m, f, all, {}, largest).patch));
+            const auto charts = cut_charts(m, f, seams_between(f, impl::lay_as_seen(m, f, all, {}, largest).patch));
             std::vector<std::vector<idx>> loops;
             for (idx k = 0; k < charts.charts(); ++k)
-                for (auto& loop : detail::border_loops(charts, k)) loops.push_back(std::move(loop));
+                for (auto& loop : impl::border_loops(charts, k)) loops.push_back(std::move(loop));
             CHECK((loops == boundary_loops(charts.surface)));
         }
     }
@@ -124,5 +125,5 @@ TEST_CASE("chart borders: a vertex with very many triangles")
     const mesh<triangle> wheel(std::move(points), std::move(cells));
     const auto f = facets(wheel);
     const auto charts = cut_charts(wheel, f, std::vector<char>(f.twin.size(), 0));
-    CHECK((detail::border_loops(charts, 0) == boundary_loops(charts.surface)));
+    CHECK((impl::border_loops(charts, 0) == boundary_loops(charts.surface)));
 }

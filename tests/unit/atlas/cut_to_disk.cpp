@@ -7,9 +7,10 @@
 #include <support/chart_checks.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/atlas/cut_to_disk.hpp>
+#include <taut/impl/atlas/cut_to_disk.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

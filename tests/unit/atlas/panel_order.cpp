@@ -5,10 +5,11 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/atlas/detail/panel_order.hpp>
-#include <taut/mesh/incidence.hpp>
+#include <taut/impl/atlas/panel_order.hpp>
+#include <taut/impl/mesh/incidence.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {
@@ -17,7 +18,7 @@ namespace
 void check_profile(const mesh<triangle>& m)
 {
     const csr near = vertex_neighbours(m);
-    const detail::panel_profile profile(near);
+    const impl::panel_profile profile(near);
     const auto n = m.points().size();
     REQUIRE(profile.order.new_to_old.size() == n);
     REQUIRE(profile.heights.size() == (n + 1) / 2);
@@ -60,12 +61,12 @@ TEST_CASE("panel_profile: a strip has a narrow band, whatever the numbers of its
     for (idx v = 0; v < n; ++v) points[std::size_t(v * 64LL % n)] = strip.points()[std::size_t(v)];
     const mesh<triangle> shuffled(points, cells);
     check_profile(shuffled);
-    for (const idx height : detail::panel_profile(vertex_neighbours(shuffled)).heights) CHECK(height <= 24);
+    for (const idx height : impl::panel_profile(vertex_neighbours(shuffled)).heights) CHECK(height <= 24);
 }
 
 TEST_CASE("panel_profile: the work of a hub is that of a dense matrix")
 {
-    const double hub = detail::panel_profile(vertex_neighbours(test::fan(400, true))).work;
-    const double band = detail::panel_profile(vertex_neighbours(test::grid(200, 1))).work;
+    const double hub = impl::panel_profile(vertex_neighbours(test::fan(400, true))).work;
+    const double band = impl::panel_profile(vertex_neighbours(test::grid(200, 1))).work;
     CHECK(hub > 100 * band);
 }

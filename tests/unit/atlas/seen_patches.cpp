@@ -10,11 +10,12 @@
 #include <support/chart_checks.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/atlas/detail/crossing_charts.hpp>
-#include <taut/atlas/detail/seen_patches.hpp>
-#include <taut/exact/certify.hpp>
+#include <taut/impl/atlas/crossing_charts.hpp>
+#include <taut/impl/atlas/seen_patches.hpp>
+#include <taut/impl/exact/certify.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {
@@ -23,7 +24,7 @@ namespace
 idx check_patches(const mesh<triangle>& m, std::size_t largest, const std::vector<char>& regions)
 {
     const auto f = facets(m);
-    const auto laid = detail::lay_as_seen(m, f, regions, {}, largest);
+    const auto laid = impl::lay_as_seen(m, f, regions, {}, largest);
     std::vector<std::size_t> size(laid.energy.size(), 0);
     for (const idx p : laid.patch)
     {
@@ -31,7 +32,7 @@ idx check_patches(const mesh<triangle>& m, std::size_t largest, const std::vecto
         ++size[static_cast<std::size_t>(p)];
     }
     CHECK(*std::max_element(size.begin(), size.end()) <= largest);
-    for (const double e : laid.energy) CHECK((e >= 4 - 1e-9 && e <= detail::seen_patches::most_energy));
+    for (const double e : laid.energy) CHECK((e >= 4 - 1e-9 && e <= impl::seen_patches::most_energy));
     const auto seam = seams_between(f, laid.patch);
     const idx charts = test::check_flattenable(m, f, seam);
     CHECK(charts == static_cast<idx>(laid.energy.size()));
@@ -42,7 +43,7 @@ idx check_patches(const mesh<triangle>& m, std::size_t largest, const std::vecto
             uv[static_cast<std::size_t>(cut.surface.cells()[i][k])] =
                 laid.uv[static_cast<std::size_t>(cut.cell_origins[i])][k];
     CHECK(bool(certify<2>(cut.surface.cells(), std::span<const vec2>(uv))));
-    const auto crossing = detail::crossing_charts(cut, uv);
+    const auto crossing = impl::crossing_charts(cut, uv);
     CHECK(std::count(crossing.begin(), crossing.end(), char(1)) == 0);
     return charts;
 }
@@ -95,23 +96,23 @@ TEST_CASE("seen_patches: only what is wanted, and not over borders")
     const auto f = facets(m);
     std::vector<char> wanted(m.cells().size(), 0), keep(f.twin.size(), 0);
     for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = c % 5 != 0;
-    const auto some = detail::lay_as_seen(m, f, wanted, {}, 1000);
+    const auto some = impl::lay_as_seen(m, f, wanted, {}, 1000);
     for (std::size_t c = 0; c < wanted.size(); ++c) CHECK((some.patch[c] >= 0) == (wanted[c] != 0));
     std::fill(wanted.begin(), wanted.end(), char(1));
     for (std::size_t s = 0; s < keep.size(); ++s) keep[s] = f.twin[s] >= 0;
-    const auto single = detail::lay_as_seen(m, f, wanted, keep, 1000);
+    const auto single = impl::lay_as_seen(m, f, wanted, keep, 1000);
     CHECK(single.energy.size() == m.cells().size());
 }
 
 TEST_CASE("seen_patches: none leads from one region into another")
 {
     const auto plate = test::grid(10, 10);
-    CHECK(check_patches(plate, 1000, detail::octants(plate)) == 4);
+    CHECK(check_patches(plate, 1000, impl::octants(plate)) == 4);
     const auto m = test::noisy(test::ball(10), 0.1);
-    const auto regions = detail::octants(m);
+    const auto regions = impl::octants(m);
     CHECK(std::set<char>(regions.begin(), regions.end()) == std::set<char>{1, 2, 3, 4, 5, 6, 7, 8});
     CHECK(check_patches(m, 1000, regions) >= 8);
-    const auto laid = detail::lay_as_seen(m, facets(m), regions, {}, 1000);
+    const auto laid = impl::lay_as_seen(m, facets(m), regions, {}, 1000);
     std::vector<char> region_of(laid.energy.size(), 0);
     for (std::size_t c = 0; c < regions.size(); ++c)
     {

@@ -10,10 +10,11 @@
 #include <support/closed_meshes.hpp>
 #include <support/host_flatten.hpp>
 #include <support/meshes.hpp>
-#include <taut/atlas/segment.hpp>
-#include <taut/exact/crossings.hpp>
+#include <taut/impl/atlas/segment.hpp>
+#include <taut/impl/exact/crossings.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {
@@ -43,7 +44,7 @@ segmentation check_segmentation(const mesh<triangle>& m, const segment_params& p
         CHECK(bool(certify<2>(one.cells(), uv)));
         CHECK(boundary_crossings(boundary_loops(one), uv) == 0);
         const std::vector<char> fixed(uv.size(), 0);
-        const double energy = detail::isometric_newton(one.points(), one.cells(), fixed).value(uv);
+        const double energy = impl::isometric_newton(one.points(), one.cells(), fixed).value(uv);
         CHECK(energy == doctest::Approx(result.energy[static_cast<std::size_t>(k)]).epsilon(1e-9));
         CHECK(energy <= params.max_distortion);
         double area = 0;

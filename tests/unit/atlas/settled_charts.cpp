@@ -6,16 +6,17 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/atlas/detail/round_polygon.hpp>
-#include <taut/atlas/detail/settled_charts.hpp>
-#include <taut/core/single.hpp>
-#include <taut/io/obj.hpp>
+#include <taut/impl/atlas/round_polygon.hpp>
+#include <taut/impl/atlas/settled_charts.hpp>
+#include <taut/impl/core/single.hpp>
+#include <taut/impl/io/obj.hpp>
 
 namespace
 {
 
 using namespace taut;
-using namespace taut::detail;
+using namespace taut::impl;
+using namespace taut::impl;
 
 vec2 rounded(vec2 p)
 {
@@ -77,7 +78,7 @@ TEST_CASE("round polygons: whatever a polygon is in space, its triangles are pos
                 std::to_string(3 * std::sin(5.0 * k)) + '\n';
         face += ' ' + std::to_string(k + 1);
     }
-    const auto m = io::parse_obj(text + face).surface;
+    const auto m = io::impl::parse_obj(text + face).surface;
     const auto charts = charts_of(m);
     std::vector<vec2> uv(charts.surface.points().size(), vec2(0.0));
     lay_round(charts, 0, uv);

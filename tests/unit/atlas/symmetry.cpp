@@ -7,10 +7,11 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/atlas/detail/symmetry/symmetric_half.hpp>
-#include <taut/atlas/symmetry.hpp>
+#include <taut/impl/atlas/symmetry/symmetric_half.hpp>
+#include <taut/impl/atlas/symmetry.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {
@@ -153,7 +154,7 @@ TEST_CASE("symmetry: polygons and their images may be cut along any diagonals, a
     for (idx c = 0; c < m.cell_count(); ++c) across += s.image[u(s.polygon[u(c)])] == s.polygon[u(c)];
     CHECK(across == 2 * 4);
 
-    const detail::symmetric_half half(m, f, s);
+    const impl::symmetric_half half(m, f, s);
     CHECK(half.surface().cell_count() == 2 * (4 * 2 + 4));
     std::vector<char> seams, together;
     atlas_params params;

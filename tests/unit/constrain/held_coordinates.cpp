@@ -4,9 +4,10 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/constrain/held_coordinates.hpp>
+#include <taut/impl/constrain/held_coordinates.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 TEST_CASE("held coordinates: how far pins are from their places, as a part of the size of those, in any unit")
 {

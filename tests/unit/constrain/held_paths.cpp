@@ -7,9 +7,10 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/constrain/held_paths.hpp>
+#include <taut/impl/constrain/held_paths.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 TEST_CASE("held paths: two ends of a bar that turn against each other keep their shape all the way")
 {

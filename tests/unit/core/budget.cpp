@@ -3,10 +3,10 @@
 
 #include <chrono>
 
-#include <taut/core/budget.hpp>
+#include <taut/impl/core/budget.hpp>
 
 using namespace std::chrono_literals;
-using taut::budget;
+using taut::impl::budget;
 
 TEST_CASE("budget: without a limit and an observer it never ends")
 {

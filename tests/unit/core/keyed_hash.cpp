@@ -5,9 +5,10 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/core/keyed_hash.hpp>
+#include <taut/impl/core/keyed_hash.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 TEST_CASE("keyed_hash: equal words have equal hashes, and -0 is 0")
 {

@@ -8,9 +8,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/core/detail/made_ahead.hpp>
+#include <taut/impl/core/made_ahead.hpp>
 
-using taut::detail::made_ahead;
+using taut::impl::made_ahead;
 
 TEST_CASE("made ahead: every value is there once it is asked for")
 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/core/padded.hpp>
+#include <taut/impl/core/padded.hpp>
 
 TEST_CASE("padded: the next multiple, and 0 for nothing")
 {
-    CHECK(taut::padded(0, 64) == 0);
-    CHECK(taut::padded(1, 64) == 64);
-    CHECK(taut::padded(64, 64) == 64);
-    CHECK(taut::padded(65, 64) == 128);
-    CHECK(taut::padded(1) == 1024);
+    CHECK(taut::impl::padded(0, 64) == 0);
+    CHECK(taut::impl::padded(1, 64) == 64);
+    CHECK(taut::impl::padded(64, 64) == 64);
+    CHECK(taut::impl::padded(65, 64) == 128);
+    CHECK(taut::impl::padded(1) == 1024);
 }

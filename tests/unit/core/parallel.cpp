@@ -9,10 +9,10 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/core/detail/crew.hpp>
-#include <taut/core/parallel.hpp>
+#include <taut/impl/core/crew.hpp>
+#include <taut/impl/core/parallel.hpp>
 
-using taut::parallel_for;
+using taut::impl::parallel_for;
 
 TEST_CASE("parallel_for: every place is visited exactly once")
 {
@@ -137,11 +137,11 @@ TEST_CASE("parallel_for: the environment bounds the threads, unless it says nons
     const auto with = [](const char* wish)
     {
         ::setenv("TAUT_THREADS", wish, 1);
-        const unsigned threads = taut::detail::threads_at_once();
+        const unsigned threads = taut::impl::threads_at_once();
         ::unsetenv("TAUT_THREADS");
         return threads;
     };
-    const unsigned all = taut::detail::threads_at_once();
+    const unsigned all = taut::impl::threads_at_once();
     CHECK(all >= 1);
     CHECK(with("3") == 3);
     CHECK(with("1") == 1);

@@ -8,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/core/single.hpp>
-#include <taut/core/types.hpp>
+#include <taut/impl/core/single.hpp>
+#include <taut/impl/core/types.hpp>
 
 namespace
 {
@@ -41,23 +41,23 @@ TEST_CASE("single precision: numbers are rounded as the processor rounds them, a
         const double x = std::bit_cast<double>(bits);
         if (std::isnan(x)) continue;
         CAPTURE(x);
-        REQUIRE(same_bits(taut::in_single(x), by_conversion(x)));
+        REQUIRE(same_bits(taut::impl::in_single(x), by_conversion(x)));
     }
     using limits = std::numeric_limits<double>;
     for (const double x : {0.0, -0.0, limits::infinity(), -limits::infinity(), limits::max(), limits::denorm_min(),
                            0x1.ffffffp127, 0x1.fffffefp127, 0x1p-149, 0x1p-150, 0x1.8p-150, -0x1p-126})
     {
         CAPTURE(x);
-        CHECK(same_bits(taut::in_single(x), by_conversion(x)));
+        CHECK(same_bits(taut::impl::in_single(x), by_conversion(x)));
     }
-    CHECK(std::isnan(taut::in_single(limits::quiet_NaN())));
+    CHECK(std::isnan(taut::impl::in_single(limits::quiet_NaN())));
 }
 
 TEST_CASE("single precision: all three coordinates of a point are rounded")
 {
     std::vector<taut::vec3> points{{16777219.2, 0.1, 0.3}, {0.1, 16777219.2, 0.3}};
     for (taut::vec3& p : points)
-        for (int k = 0; k < 3; ++k) p[k] = taut::in_single(p[k]);
+        for (int k = 0; k < 3; ++k) p[k] = taut::impl::in_single(p[k]);
     CHECK(points[0].x == 16777220.0);
     CHECK(points[0].y == static_cast<double>(0.1f));
     CHECK(points[1].y == 16777220.0);

@@ -11,9 +11,9 @@
 
 #include <support/meshes.hpp>
 #include <support/rbf_points.hpp>
-#include <taut/edit/detail/plane_triangulation.hpp>
-#include <taut/edit/detail/polygon_filling.hpp>
-#include <taut/edit/detail/surface_tree.hpp>
+#include <taut/impl/edit/detail/plane_triangulation.hpp>
+#include <taut/impl/edit/detail/polygon_filling.hpp>
+#include <taut/impl/edit/detail/surface_tree.hpp>
 
 using namespace taut;
 
@@ -75,12 +75,12 @@ TEST_CASE("ring between two polygons: filled with positive triangles of their co
         const double expected = area_of(x) - area_of(inner);
         const auto outer_loop = numbers_from(0, x.size()), inner_loop = numbers_from(x.size(), inner.size());
         x.insert(x.end(), inner.begin(), inner.end());
-        const auto polygon = detail::bridged(outer_loop, inner_loop, x);
+        const auto polygon = impl::bridged(outer_loop, inner_loop, x);
         REQUIRE(polygon.size() == x.size() + 2);
-        const auto filling = detail::clip_ears(polygon, x);
+        const auto filling = impl::clip_ears(polygon, x);
         CHECK(filling.size() == x.size());
         CHECK(area_of(filling, x) == doctest::Approx(expected));
-        const detail::plane_triangulation better(x, filling);
+        const impl::plane_triangulation better(x, filling);
         CHECK(better.triangles().size() == filling.size());
         CHECK(area_of(better.triangles(), x) == doctest::Approx(expected));
     }
@@ -89,15 +89,15 @@ TEST_CASE("ring between two polygons: filled with positive triangles of their co
 TEST_CASE("polygons with corners on straight sides are filled, those that cross themselves are told")
 {
     const std::vector<vec2> square{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-    const auto filling = detail::clip_ears(numbers_from(0, 8), square);
+    const auto filling = impl::clip_ears(numbers_from(0, 8), square);
     CHECK(filling.size() == 6);
     CHECK(area_of(filling, square) == doctest::Approx(4));
     const std::vector<vec2> eight{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
-    CHECK(detail::clip_ears(numbers_from(0, 4), eight).size() < 2);
-    CHECK(detail::encloses(square, {1, 1}));
-    CHECK(detail::encloses(square, {2, 1.5}));
-    CHECK_FALSE(detail::encloses(square, {2.001, 1.5}));
-    CHECK(detail::distance_from(square, {1, 0.25}) == doctest::Approx(0.25));
+    CHECK(impl::clip_ears(numbers_from(0, 4), eight).size() < 2);
+    CHECK(impl::encloses(square, {1, 1}));
+    CHECK(impl::encloses(square, {2, 1.5}));
+    CHECK_FALSE(impl::encloses(square, {2.001, 1.5}));
+    CHECK(impl::distance_from(square, {1, 0.25}) == doctest::Approx(0.25));
 }
 
 TEST_CASE("points are inserted where they are inside, and no circle around a triangle has another one in it")
@@ -105,7 +105,7 @@ TEST_CASE("points are inserted where they are inside, and no circle around a tri
     std::mt19937 random(2);
     auto polygon = star(30, 0.9, 1, random);
     const double area = area_of(polygon);
-    detail::plane_triangulation plane(polygon, detail::clip_ears(numbers_from(0, 30), polygon));
+    impl::plane_triangulation plane(polygon, impl::clip_ears(numbers_from(0, 30), polygon));
     int inserted = 0;
     for (int k = 0; k < 200; ++k)
         inserted += plane.insert({double(random()) / 4294967296.0 - 0.5, double(random()) / 4294967296.0 - 0.5});
@@ -134,14 +134,14 @@ TEST_CASE("points are inserted where they are inside, and no circle around a tri
 TEST_CASE("nearest point: a tree of boxes finds what all triangles have")
 {
     const auto m = test::bumpy(12);
-    const detail::surface_tree tree(m.points(), m.cells());
+    const impl::surface_tree tree(m.points(), m.cells());
     for (const vec3& p : test::scattered_points(100, 1, 2.0))
     {
         double expected = std::numeric_limits<double>::infinity();
         for (taut::idx f = 0; f < m.cell_count(); ++f)
         {
             const auto x = m.rest(f);
-            const vec3 w = detail::nearest_weights(p, x[0], x[1], x[2]);
+            const vec3 w = impl::nearest_weights(p, x[0], x[1], x[2]);
             CHECK(std::min({w.x, w.y, w.z}) >= 0);
             expected = std::min(expected, glm::distance(p, w.x * x[0] + w.y * x[1] + w.z * x[2]));
         }

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/rbf_points.hpp>
-#include <taut/edit/rbf.hpp>
+#include <taut/impl/edit/rbf.hpp>
 
 using namespace taut;
 

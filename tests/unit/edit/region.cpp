@@ -9,10 +9,11 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/edit/region.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/edit/region.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

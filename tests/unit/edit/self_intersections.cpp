@@ -6,9 +6,10 @@
 #include <doctest/doctest.h>
 
 #include <support/edit_meshes.hpp>
-#include <taut/edit/self_intersections.hpp>
+#include <taut/impl/edit/self_intersections.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

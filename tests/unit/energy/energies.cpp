@@ -6,16 +6,17 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/energy/algebra.hpp>
-#include <taut/energy/corner_derivatives.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/energy/modes.hpp>
-#include <taut/mesh/ideal.hpp>
+#include <taut/impl/energy/algebra.hpp>
+#include <taut/impl/energy/corner_derivatives.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/energy/modes.hpp>
+#include <taut/impl/mesh/ideal.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using namespace taut::energy;
 
 template <int D>

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/energy/neo_hookean.hpp>
-#include <taut/energy/shape_power.hpp>
+#include <taut/impl/energy/neo_hookean.hpp>
+#include <taut/impl/energy/shape_power.hpp>
 
 namespace
 {

@@ -8,14 +8,15 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/exact/branch_edges.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/measure/describe_defects.hpp>
+#include <taut/impl/exact/branch_edges.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/measure/describe_defects.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 using tetrahedra = std::vector<std::array<idx, 4>>;
 

@@ -8,14 +8,15 @@
 
 #include <support/meshes.hpp>
 #include <support/winding.hpp>
-#include <taut/exact/branch_points.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/measure/describe_defects.hpp>
+#include <taut/impl/exact/branch_points.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/measure/describe_defects.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// A closed fan of n triangles around vertex 0 whose rim winds `times` about it, turned by `phase`.

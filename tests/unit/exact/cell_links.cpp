@@ -8,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/exact/cell_tetrahedra.hpp>
-#include <taut/exact/certify.hpp>
+#include <taut/impl/exact/cell_tetrahedra.hpp>
+#include <taut/impl/exact/certify.hpp>
 
 namespace
 {
@@ -41,8 +41,8 @@ struct fan
                 owners.push_back(owner);
             }
         };
-        take(detail::corner_tetrahedra(corners.size()));
-        if (edged) take(detail::edge_tetrahedra(corners.size()));
+        take(impl::corner_tetrahedra(corners.size()));
+        if (edged) take(impl::edge_tetrahedra(corners.size()));
     }
 };
 

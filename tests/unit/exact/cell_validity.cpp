@@ -6,12 +6,13 @@
 #include <vector>
 
 #include <doctest/doctest.h>
-#include <taut/exact/cell_validity.hpp>
+#include <taut/impl/exact/cell_validity.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 const std::vector<vec3> cube = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 const std::vector<vec3> wedge = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 1}};
@@ -92,7 +93,7 @@ TEST_CASE("validity of cells: a twist is found valid; positive corners can have 
     {
         auto x = cube;
         for (vec3& p : x) p += vec3(noise(random), noise(random), noise(random));
-        if (detail::has_bad_corner(x) || validity_of_cell(x) != cell_validity::invalid) continue;
+        if (impl::has_bad_corner(x) || validity_of_cell(x) != cell_validity::invalid) continue;
         ++inside;
         CHECK(least_sample(x) < 0.01); // samples may miss a small part
     }
@@ -116,8 +117,8 @@ TEST_CASE("validity of cells: the verdict is that of samples, for cells of all k
                 if (verdict == cell_validity::valid) CHECK(least > -1e-6);
                 CHECK(verdict != cell_validity::undecided);
                 const auto positive = [&](const auto& t) { return orient3d(x[t[0]], x[t[1]], x[t[2]], x[t[3]]) > 0; };
-                const auto edges = detail::edge_tetrahedra(x.size());
-                if (!detail::has_bad_corner(x) && std::all_of(edges.begin(), edges.end(), positive))
+                const auto edges = impl::edge_tetrahedra(x.size());
+                if (!impl::has_bad_corner(x) && std::all_of(edges.begin(), edges.end(), positive))
                     CHECK(verdict == cell_validity::valid);
             }
         }

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/exact/crossings.hpp>
+#include <taut/impl/exact/crossings.hpp>
 
 namespace
 {
@@ -119,14 +119,14 @@ TEST_CASE("boundary crossings: agrees with all pairs on many chains that touch, 
             all.push_back(range(4 * loop, 4));
             for (int k = 0; k < 4; ++k) x.emplace_back(random() % 9, random() % (n % 2 ? 3 : 9));
         }
-        const auto edges = taut::detail::edges_of(all);
+        const auto edges = taut::impl::edges_of(all);
         std::size_t expected = 0;
         for (std::size_t i = 0; i < edges.size(); ++i)
             for (std::size_t j = i + 1; j < edges.size(); ++j)
-                expected += taut::detail::edges_meet(edges[i], edges[j], x);
+                expected += taut::impl::edges_meet(edges[i], edges[j], x);
         CHECK(boundary_crossings(all, x) == expected);
-        CHECK(taut::count_boundary_crossings(all, x).pairs == expected);
-        CHECK(taut::count_boundary_crossings(all, x).all);
+        CHECK(taut::impl::count_boundary_crossings(all, x).pairs == expected);
+        CHECK(taut::impl::count_boundary_crossings(all, x).all);
     }
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("boundary crossings: charts that all lie on each other are counted up 
         squares.push_back(range(4 * k, 4));
         for (const vec2 p : {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)}) x.push_back(p);
     }
-    const auto found = taut::count_boundary_crossings(squares, x, 1000);
+    const auto found = taut::impl::count_boundary_crossings(squares, x, 1000);
     CHECK(found.pairs == 1000);
     CHECK_FALSE(found.all);
 
@@ -153,6 +153,6 @@ TEST_CASE("boundary crossings: charts that all lie on each other are counted up 
         x.emplace_back(0.001 * k, 0);
         x.emplace_back(1 + 0.001 * k, 1);
     }
-    const auto unknown = taut::count_boundary_crossings(strips, x, 10);
+    const auto unknown = taut::impl::count_boundary_crossings(strips, x, 10);
     CHECK_FALSE(unknown.all);
 }

@@ -6,14 +6,15 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/core/single.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/exact/mend_rounding.hpp>
+#include <taut/impl/core/single.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/exact/mend_rounding.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 template <int D>

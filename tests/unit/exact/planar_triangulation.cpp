@@ -8,13 +8,14 @@
 #include <random>
 
 #include <support/size.hpp>
-#include <taut/exact/exact_sum.hpp>
-#include <taut/exact/refine_triangulation.hpp>
+#include <taut/impl/exact/exact_sum.hpp>
+#include <taut/impl/exact/refine_triangulation.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 vec2 place(const planar_triangulation& t, idx v)
 {
@@ -24,7 +25,7 @@ vec2 place(const planar_triangulation& t, idx v)
 /// Positive triangles whose areas sum to that of the rectangle, all in exact arithmetic: they cover it once.
 void check_cover(const planar_triangulation& t)
 {
-    detail::exact_sum<2> missing; // twice the area
+    impl::exact_sum<2> missing; // twice the area
     const auto add = [&missing](bool negative, const vec2& p, const vec2& q)
     {
         missing.add(negative, {p.x, q.y});
@@ -115,7 +116,7 @@ TEST_CASE("planar_triangulation: edges between points by lot cross and are refus
         if (a == b) continue;
         const bool crosses = std::any_of(made.begin(), made.end(),
                                          [&](const auto& e) {
-                                             return detail::edges_meet({a, b}, e, t.points());
+                                             return impl::edges_meet({a, b}, e, t.points());
                                          });
         if (crosses)
             CHECK_THROWS_AS(t.fix(a, b), parameter_error);

@@ -7,13 +7,13 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/exact/predicates.hpp>
+#include <taut/impl/exact/predicates.hpp>
 
 namespace
 {
 
-using taut::orient2d;
-using taut::orient3d;
+using taut::impl::orient2d;
+using taut::impl::orient3d;
 using taut::vec2;
 using taut::vec3;
 
@@ -176,12 +176,12 @@ TEST_CASE("exact sum: the magnitude of every power of two, and of sums that canc
     for (int e = -1074; e < 1024; e += 3)
     {
         const double power = std::ldexp(1.0, e);
-        taut::detail::exact_sum<2> sum;
+        taut::impl::exact_sum<2> sum;
         sum.add(false, {power, 1.0});
         CHECK(sum.sign() == 1);
         CHECK(sum.magnitude() == power);
         // Smaller than the product that cancels by more than a double can tell.
-        taut::detail::exact_sum<2> rest;
+        taut::impl::exact_sum<2> rest;
         rest.add(true, {power, 1.0});
         rest.add(false, {std::ldexp(1.0, 600), 3.0});
         rest.add(true, {std::ldexp(1.0, 601), 1.0});
@@ -196,10 +196,10 @@ TEST_CASE("exact sum: the products of the largest numbers have a place")
     const double large = std::ldexp(1.0, 1023);
     for (const bool negative : {false, true})
     {
-        taut::detail::exact_sum<2> two;
+        taut::impl::exact_sum<2> two;
         two.add(negative, {large, large});
         CHECK(two.sign() == (negative ? -1 : 1));
-        taut::detail::exact_sum<3> three;
+        taut::impl::exact_sum<3> three;
         for (int k = 0; k < 24; ++k) three.add(negative, {large, large, large});
         CHECK(three.sign() == (negative ? -1 : 1));
     }

@@ -8,14 +8,15 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/core/single.hpp>
-#include <taut/exact/convex_polygons.hpp>
-#include <taut/exact/settle_map.hpp>
+#include <taut/impl/core/single.hpp>
+#include <taut/impl/exact/convex_polygons.hpp>
+#include <taut/impl/exact/settle_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using triples = std::vector<std::array<taut::idx, 3>>;
 
 vec2 single(vec2 p)

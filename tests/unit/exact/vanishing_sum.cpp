@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/exact/vanishing_sum.hpp>
+#include <taut/impl/exact/vanishing_sum.hpp>
 
-using taut::detail::big_integer;
+using taut::impl::big_integer;
 
 namespace
 {
@@ -79,17 +79,17 @@ TEST_CASE("big_integer: numbers are scaled by the least power of two that makes 
 TEST_CASE("fit_nonnegative: least squares within the cone of the columns")
 {
     const std::vector<std::vector<double>> columns{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-    const auto inside = taut::detail::fit_nonnegative(columns, {2, 3, 0});
+    const auto inside = taut::impl::fit_nonnegative(columns, {2, 3, 0});
     CHECK(inside.error() < 1e-12);
     for (const double w : inside.weights) CHECK(w >= 0);
-    const auto beside = taut::detail::fit_nonnegative(columns, {2, -3, 4});
+    const auto beside = taut::impl::fit_nonnegative(columns, {2, -3, 4});
     CHECK(beside.error() == doctest::Approx(5));
     CHECK(beside.weights[1] == 0);
 }
 
 TEST_CASE("vanishes: only where weights that are not negative make the sum 0, to the last digit")
 {
-    using taut::detail::vanishes;
+    using taut::impl::vanishes;
     const auto columns = [](std::vector<std::vector<double>> numbers)
     {
         std::vector<std::vector<big_integer>> result;

@@ -14,15 +14,16 @@
 
 #include <support/gltf_models.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/gltf/gltf.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_file.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/gltf/gltf.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_file.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using test::gltf_builder;
 using test::gltf_json;
 using uv_list = std::vector<std::array<vec2, 3>>;
@@ -45,22 +46,22 @@ uv_list chart_uv(const io::gltf_model& model, std::size_t size)
 }
 
 /// The bytes of the element at each corner of each triangle that a primitive draws.
-std::vector<std::string> corner_bytes(const io::gltf_source& source, const io::detail::gltf_primitive& p,
+std::vector<std::string> corner_bytes(const io::impl::gltf_source& source, const io::impl::gltf_primitive& p,
                                       std::size_t accessor)
 {
-    const auto a = io::detail::accessor_of(source, accessor);
-    const auto elements = io::detail::all_elements(source, a, "accessor");
-    const auto drawn = io::detail::drawn_vertices(source, p);
+    const auto a = io::impl::accessor_of(source, accessor);
+    const auto elements = io::impl::all_elements(source, a, "accessor");
+    const auto drawn = io::impl::drawn_vertices(source, p);
     std::vector<std::string> bytes;
     const std::size_t triangles = p.mode == 4 ? p.drawn / 3 : p.drawn - 2;
     for (std::size_t t = 0; t < triangles; ++t)
-        for (const std::size_t corner : io::detail::corners_of(p, t))
+        for (const std::size_t corner : io::impl::corners_of(p, t))
             bytes.push_back(elements.substr(drawn[corner] * a.size, a.size));
     return bytes;
 }
 
 /// The document without what may change: where data lies, and what primitives draw.
-gltf_json constant_part(const io::gltf_source& source)
+gltf_json constant_part(const io::impl::gltf_source& source)
 {
     gltf_json d = source.document;
     for (const char* const key : {"accessors", "bufferViews", "buffers"}) d.erase(key);
@@ -85,7 +86,7 @@ std::size_t require_kept(const io::gltf_model& before, const uv_list& uv, const 
     REQUIRE(before.triangles == after.triangles);
     CHECK(before.points == after.points);
     CHECK(before.materials == after.materials);
-    const auto old = io::detail::primitives_of(a), now = io::detail::primitives_of(b);
+    const auto old = io::impl::primitives_of(a), now = io::impl::primitives_of(b);
     REQUIRE(old.all.size() == now.all.size());
     std::size_t added = 0;
     std::set<std::string> changed; // accessors that may change
@@ -104,8 +105,8 @@ std::size_t require_kept(const io::gltf_model& before, const uv_list& uv, const 
         {
             CHECK(corner_bytes(a, old.all[p], from) == corner_bytes(b, now.all[p], to));
             CHECK(without_place(a.document["accessors"][from]) == without_place(b.document["accessors"][to]));
-            const auto x = io::detail::accessor_of(a, from), y = io::detail::accessor_of(b, to);
-            CHECK(io::detail::all_elements(b, y, "").starts_with(io::detail::all_elements(a, x, "")));
+            const auto x = io::impl::accessor_of(a, from), y = io::impl::accessor_of(b, to);
+            CHECK(io::impl::all_elements(b, y, "").starts_with(io::impl::all_elements(a, x, "")));
             CHECK(x.sparse.has_value() == y.sparse.has_value());
         }
     }
@@ -114,7 +115,7 @@ std::size_t require_kept(const io::gltf_model& before, const uv_list& uv, const 
         {
             REQUIRE(after.texcoord_cells[t][k] >= 0);
             CHECK(after.texcoords[static_cast<std::size_t>(after.texcoord_cells[t][k])] ==
-                  io::texcoord_in_gltf(uv[t][k]));
+                  io::impl::texcoord_in_gltf(uv[t][k]));
         }
     return added;
 }
@@ -126,7 +127,7 @@ std::size_t vertices_wanted(const io::gltf_model& model, const uv_list& uv)
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
         {
-            const vec2 x = io::texcoord_in_gltf(uv[t][k]);
+            const vec2 x = io::impl::texcoord_in_gltf(uv[t][k]);
             seen[model.vertices[t][k]].emplace(x.x, x.y);
         }
     std::size_t n = 0;
@@ -178,7 +179,7 @@ TEST_CASE("gltf: the program of the document")
         for (std::size_t k = 0; k < 3; ++k)
         {
             const vec3& p = model.points[static_cast<std::size_t>(model.triangles[t][k])];
-            uv[t][k] = io::texcoord_in_gltf({0.5 + 0.1 * p.x, 0.5 - 0.1 * p.y}); // what the file will hold
+            uv[t][k] = io::impl::texcoord_in_gltf({0.5 + 0.1 * p.x, 0.5 - 0.1 * p.y}); // what the file will hold
         }
     io::write_gltf(out, model, uv);
     // [model]
@@ -204,7 +205,7 @@ TEST_CASE("gltf: targets of morphing, sparse accessors and narrow indices are co
 
 TEST_CASE("gltf: vertices that are split for normals or materials are one point of the surface")
 {
-    const auto model = io::parse_gltf(test::textured_model(8).glb());
+    const auto model = io::impl::parse_gltf(test::textured_model(8).glb());
     CHECK(model.points.size() == 64);
     CHECK(model.triangles.size() == 128);
     const mesh<triangle> surface(model.points, model.triangles);
@@ -222,7 +223,7 @@ TEST_CASE("gltf: vertices that are split for normals or materials are one point 
     gltf_builder b;
     b.document["meshes"] = gltf_json::array(
         {{{"primitives", gltf_json::array({{{"attributes", {{"POSITION", b.array(positions, 5126, "VEC3")}}}}})}}});
-    const auto split = io::parse_gltf(b.glb());
+    const auto split = io::impl::parse_gltf(b.glb());
     CHECK(split.points.size() == 36);
     CHECK(split.texcoord_cells.empty());
     CHECK(facets(mesh<triangle>(split.points, split.triangles)).oriented());
@@ -233,26 +234,26 @@ TEST_CASE("gltf: vertices that are split for normals or materials are one point 
 TEST_CASE("gltf: bytes of images, skins and animations are the same, and no data is left that nobody names")
 {
     const auto skinned = test::skinned_model(12);
-    const auto model = io::parse_gltf(skinned.glb());
+    const auto model = io::impl::parse_gltf(skinned.glb());
     const test::temporary_folder folder;
     io::write_gltf(folder / "out.glb", model, chart_uv(model, 3));
     const auto back = io::read_gltf(folder / "out.glb");
     for (const std::size_t a : {6u, 7u, 8u}) // times, turns, matrices
-        CHECK(io::detail::all_elements(model.source, io::detail::accessor_of(model.source, a), "") ==
-              io::detail::all_elements(back.source, io::detail::accessor_of(back.source, a), ""));
+        CHECK(io::impl::all_elements(model.source, io::impl::accessor_of(model.source, a), "") ==
+              io::impl::all_elements(back.source, io::impl::accessor_of(back.source, a), ""));
     std::set<std::size_t> named;
-    io::detail::for_each_view_reference(back.source.document,
+    io::impl::for_each_view_reference(back.source.document,
                                         [&](const gltf_json& v) { named.insert(v.get<std::size_t>()); });
     std::size_t needed = 0;
-    for (const std::size_t v : named) needed += io::detail::view_bytes(back.source, v).size() + 7;
+    for (const std::size_t v : named) needed += io::impl::view_bytes(back.source, v).size() + 7;
     CHECK(named.size() == back.source.document["bufferViews"].size());
     CHECK(back.source.buffers[0].size() <= needed + 8);
 
-    const auto textured = io::parse_gltf(test::textured_model(20).glb());
+    const auto textured = io::impl::parse_gltf(test::textured_model(20).glb());
     io::write_gltf(folder / "out.glb", textured, chart_uv(textured, 3));
     const auto now = io::read_gltf(folder / "out.glb");
-    const auto image = [](const io::gltf_source& s)
-    { return std::string(io::detail::view_bytes(s, s.document["images"][0]["bufferView"].get<std::size_t>())); };
+    const auto image = [](const io::impl::gltf_source& s)
+    { return std::string(io::impl::view_bytes(s, s.document["images"][0]["bufferView"].get<std::size_t>())); };
     CHECK(image(textured.source) == image(now.source));
     CHECK(image(now.source).starts_with("\x89PNG"));
 }
@@ -261,41 +262,41 @@ TEST_CASE("gltf: indices grow wider where new vertices need it, and only there")
 {
     const auto type_after = [](std::uint32_t n, std::size_t chart)
     {
-        const auto model = io::parse_gltf(test::morphing_model(n).glb());
+        const auto model = io::impl::parse_gltf(test::morphing_model(n).glb());
         const test::temporary_folder folder;
         io::write_gltf(folder / "out.glb", model, chart_uv(model, chart));
         const auto back = io::read_gltf(folder / "out.glb");
-        const auto p = io::detail::primitives_of(back.source).all[0];
-        return io::detail::accessor_of(back.source, *p.indices).component;
+        const auto p = io::impl::primitives_of(back.source).all[0];
+        return io::impl::accessor_of(back.source, *p.indices).component;
     };
-    CHECK(type_after(5, 1000) == io::detail::gltf_u8);   // 25 vertices
-    CHECK(type_after(5, 1) == io::detail::gltf_u8);      // 150
-    CHECK(type_after(15, 10000) == io::detail::gltf_u8); // 225
-    CHECK(type_after(15, 10) == io::detail::gltf_u16);
-    CHECK(type_after(16, 10000) == io::detail::gltf_u8); // 256 vertices, as they were
+    CHECK(type_after(5, 1000) == io::impl::gltf_u8);   // 25 vertices
+    CHECK(type_after(5, 1) == io::impl::gltf_u8);      // 150
+    CHECK(type_after(15, 10000) == io::impl::gltf_u8); // 225
+    CHECK(type_after(15, 10) == io::impl::gltf_u16);
+    CHECK(type_after(16, 10000) == io::impl::gltf_u8); // 256 vertices, as they were
 }
 
 TEST_CASE("gltf: the largest number of a type is no index, as it would end a strip")
 {
     const auto type_with = [](std::size_t added)
     {
-        const auto model = io::parse_gltf(test::morphing_model(15).glb());
+        const auto model = io::impl::parse_gltf(test::morphing_model(15).glb());
         auto uv = chart_uv(model, 1000000);
         for (std::size_t t = 0; t < added; ++t) uv[t][0] = {static_cast<double>(t), 7};
         const test::temporary_folder folder;
         io::write_gltf(folder / "out.glb", model, uv);
         const auto back = io::read_gltf(folder / "out.glb");
-        const auto p = io::detail::primitives_of(back.source).all[0];
+        const auto p = io::impl::primitives_of(back.source).all[0];
         CHECK(p.vertices == 225 + added);
-        return io::detail::accessor_of(back.source, *p.indices).component;
+        return io::impl::accessor_of(back.source, *p.indices).component;
     };
-    CHECK(type_with(30) == io::detail::gltf_u8);
-    CHECK(type_with(31) == io::detail::gltf_u16);
+    CHECK(type_with(30) == io::impl::gltf_u8);
+    CHECK(type_with(31) == io::impl::gltf_u16);
 }
 
 TEST_CASE("gltf: what is read back is what was said")
 {
-    const auto model = io::parse_gltf(test::textured_model(4).glb());
+    const auto model = io::impl::parse_gltf(test::textured_model(4).glb());
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number(0, 1);
     uv_list uv(model.triangles.size());
@@ -308,21 +309,21 @@ TEST_CASE("gltf: what is read back is what was said")
     for (const auto& corners : uv)
         for (const vec2& x : corners)
         {
-            const vec2 y = io::texcoord_in_gltf(x);
-            CHECK(io::texcoord_in_gltf(y) == y);
+            const vec2 y = io::impl::texcoord_in_gltf(x);
+            CHECK(io::impl::texcoord_in_gltf(y) == y);
             CHECK(std::abs(x.y - y.y) <= 0x1p-24 * x.y);
         }
     // The numbers in the file.
-    const auto p = io::detail::primitives_of(back.source).all[0];
-    const auto a = io::detail::accessor_of(back.source, *p.attribute("TEXCOORD_0"));
-    const auto bytes = io::detail::all_elements(back.source, a, "");
-    const auto v = io::detail::drawn_vertices(back.source, p)[0];
-    CHECK(io::detail::load_number(bytes, a, 2 * v + 1) == io::texcoord_in_gltf(uv[0][0]).y);
+    const auto p = io::impl::primitives_of(back.source).all[0];
+    const auto a = io::impl::accessor_of(back.source, *p.attribute("TEXCOORD_0"));
+    const auto bytes = io::impl::all_elements(back.source, a, "");
+    const auto v = io::impl::drawn_vertices(back.source, p)[0];
+    CHECK(io::impl::load_number(bytes, a, 2 * v + 1) == io::impl::texcoord_in_gltf(uv[0][0]).y);
 }
 
 TEST_CASE("gltf: triangles without texture coordinates lie in one point, and take none of their neighbours along")
 {
-    const auto model = io::parse_gltf(test::skinned_model(5).glb());
+    const auto model = io::impl::parse_gltf(test::skinned_model(5).glb());
     auto uv = chart_uv(model, 1000);
     auto wanted = uv;
     const double nan = std::nan("");
@@ -336,7 +337,7 @@ TEST_CASE("gltf: triangles without texture coordinates lie in one point, and tak
 
 TEST_CASE("gltf: fractions of unsigned shorts come back as they were")
 {
-    const auto model = io::parse_gltf(test::textured_model(5).glb());
+    const auto model = io::impl::parse_gltf(test::textured_model(5).glb());
     auto uv = chart_uv(model, 1000);
     uv[0][0] = {6554 / 65535.0, 1 / 65535.0};
     uv[0][1] = {0, 1};
@@ -351,9 +352,9 @@ TEST_CASE("gltf: fractions of unsigned shorts come back as they were")
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(back.texcoords[static_cast<std::size_t>(back.texcoord_cells[t][k])] ==
-                  io::texcoord_in_gltf(uv[t][k], io::gltf_numbers::fractions));
+                  io::impl::texcoord_in_gltf(uv[t][k], io::gltf_numbers::fractions));
     const auto a =
-        back.source.document["accessors"][*io::detail::primitives_of(back.source).all[0].attribute("TEXCOORD_0")];
+        back.source.document["accessors"][*io::impl::primitives_of(back.source).all[0].attribute("TEXCOORD_0")];
     CHECK(a["componentType"] == 5123);
     CHECK(a["normalized"] == true);
     io::write_gltf(folder / "floats.glb", back, uv); // and back to floats
@@ -375,7 +376,7 @@ TEST_CASE("gltf: a vertex of ten thousand texture coordinates becomes ten thousa
     b.document["meshes"] = gltf_json::array(
         {{{"primitives", gltf_json::array({{{"attributes", {{"POSITION", b.array(positions, 5126, "VEC3")}}},
                                             {"indices", b.array(indices, 5125, "SCALAR")}}})}}});
-    const auto model = io::parse_gltf(b.glb());
+    const auto model = io::impl::parse_gltf(b.glb());
     const auto uv = chart_uv(model, 1);
     const test::temporary_folder folder;
     io::write_gltf(folder / "out.glb", model, uv);
@@ -387,7 +388,7 @@ TEST_CASE("gltf: members keep their order and are found, however many there are"
     auto builder = test::morphing_model(4);
     auto& extras = builder.document["extras"];
     for (int i = 0; i < 3000; ++i) extras["key " + std::to_string(i * 7919 % 3001)] = i;
-    const auto model = io::parse_gltf(builder.glb());
+    const auto model = io::impl::parse_gltf(builder.glb());
     const test::temporary_folder folder;
     io::write_gltf(folder / "out.glb", model, chart_uv(model, 1));
     const auto back = io::read_gltf(folder / "out.glb");
@@ -411,12 +412,12 @@ TEST_CASE("gltf: further chunks of GLB are kept behind the binary one, and count
 {
     const auto builder = test::textured_model(4);
     const std::vector<std::string> more{std::string("\4\0\0\0TESTabcd", 12), std::string("\0\0\0\0NULL", 8)};
-    const auto model = io::parse_gltf(io::detail::join_glb(builder.gltf(""), builder.bytes, more, "a test"));
+    const auto model = io::impl::parse_gltf(io::impl::join_glb(builder.gltf(""), builder.bytes, more, "a test"));
     CHECK(model.source.more_chunks == more);
     const test::temporary_folder folder;
     io::write_gltf(folder / "out.glb", model, chart_uv(model, 3));
-    const std::string bytes = io::read_file(folder / "out.glb");
-    CHECK(io::detail::load_u32(bytes, 8) == bytes.size());
+    const std::string bytes = io::impl::read_file(folder / "out.glb");
+    CHECK(io::impl::load_u32(bytes, 8) == bytes.size());
     CHECK(bytes.ends_with(more[0] + more[1]));
     CHECK(io::read_gltf(folder / "out.glb").source.more_chunks == more);
 }
@@ -429,19 +430,19 @@ TEST_CASE("gltf: an accessor without a bufferView is zeros, and may be longer th
     const std::size_t zeros = builder.document["accessors"].size() - 1;
     builder.document["meshes"].push_back(
         {{"primitives", gltf_json::array({{{"attributes", {{"POSITION", zeros}}}, {"mode", 0}}})}});
-    const auto model = io::parse_gltf(builder.glb());
-    const auto all = io::detail::primitives_of(model.source).all;
+    const auto model = io::impl::parse_gltf(builder.glb());
+    const auto all = io::impl::primitives_of(model.source).all;
     CHECK(all[1].vertices == n);
-    const auto a = io::detail::accessor_of(model.source, zeros);
-    CHECK(io::detail::all_elements(model.source, a, "") == std::string(12 * n, '\0'));
+    const auto a = io::impl::accessor_of(model.source, zeros);
+    CHECK(io::impl::all_elements(model.source, a, "") == std::string(12 * n, '\0'));
 }
 
 TEST_CASE("gltf: a primitive without attributes has no vertices and is left as it is")
 {
     auto builder = test::morphing_model(4);
     builder.document["meshes"][0]["primitives"].push_back({{"mode", 4}, {"extras", 7}});
-    const auto model = io::parse_gltf(builder.glb());
-    const auto p = io::detail::primitives_of(model.source).all[1];
+    const auto model = io::impl::parse_gltf(builder.glb());
+    const auto p = io::impl::primitives_of(model.source).all[1];
     CHECK(p.vertices == 0);
     CHECK(p.drawn == 0);
     CHECK(model.notes.back() == "1 primitive without triangles was left as it is");
@@ -468,7 +469,7 @@ TEST_CASE("gltf: strips, fans, copies, and lines on the same vertices keep what 
          {{"primitives",
            gltf_json::array({{{"attributes", attributes}, {"indices", strip}, {"mode", 5}, {"material", 0}}})}}});
     b.document["materials"] = gltf_json::array({gltf_json::object()});
-    const auto model = io::parse_gltf(b.glb());
+    const auto model = io::impl::parse_gltf(b.glb());
     CHECK(model.vertices == std::vector<std::array<taut::idx, 3>>{
                                 {0, 6, 1}, {6, 7, 1}, {1, 7, 2}, {7, 8, 2}, {15, 21, 14}, {21, 20, 14}});
     CHECK(model.meshes == std::vector<taut::idx>(6, 0));
@@ -480,7 +481,7 @@ TEST_CASE("gltf: strips, fans, copies, and lines on the same vertices keep what 
     const auto back = io::read_gltf(folder / "out.glb");
     CHECK(back.points == model.points);
     CHECK(back.triangles == model.triangles);
-    const auto now = io::detail::primitives_of(back.source);
+    const auto now = io::impl::primitives_of(back.source);
     CHECK(now.all[0].mode == 4);
     CHECK(now.all[1].mode == 4);
     CHECK(now.all[3].copy_of == std::size_t(0));
@@ -491,7 +492,7 @@ TEST_CASE("gltf: strips, fans, copies, and lines on the same vertices keep what 
 
     // With one chart nothing is split, and strips stay.
     io::write_gltf(folder / "out.glb", model, chart_uv(model, 1000));
-    CHECK(io::detail::primitives_of(io::read_gltf(folder / "out.glb").source).all[0].mode == 5);
+    CHECK(io::impl::primitives_of(io::read_gltf(folder / "out.glb").source).all[0].mode == 5);
 }
 
 TEST_CASE("gltf: quantized coordinates are read, and copied as they are")
@@ -504,7 +505,7 @@ TEST_CASE("gltf: quantized coordinates are read, and copied as they are")
             positions.push_back(k == 3 ? std::int16_t(0)
                                        : static_cast<std::int16_t>(std::lround(8000 * torus.positions[3 * v + k])));
     const std::vector<std::uint16_t> coords(2 * torus.vertices, 65535);
-    const std::size_t view = b.view(io::detail::bytes_of<std::int16_t>(positions), {{"byteStride", 8}});
+    const std::size_t view = b.view(io::impl::bytes_of<std::int16_t>(positions), {{"byteStride", 8}});
     gltf_json bounds = {{"normalized", true}, {"min", {-32000, -32000, -8000}}, {"max", {32000, 32000, 8000}}};
     const std::size_t position = b.accessor(view, 5122, "VEC3", torus.vertices, bounds),
                       coord = b.array(coords, 5123, "VEC2", {{"normalized", true}}),
@@ -513,7 +514,7 @@ TEST_CASE("gltf: quantized coordinates are read, and copied as they are")
     b.document["meshes"] = gltf_json::array(
         {{{"primitives", gltf_json::array({{{"attributes", {{"POSITION", position}, {"TEXCOORD_0", coord}}},
                                             {"indices", indices}}})}}});
-    const auto model = io::parse_gltf(b.glb());
+    const auto model = io::impl::parse_gltf(b.glb());
     CHECK(model.points[0].x == doctest::Approx(32000.0 / 32767));
     CHECK(model.texcoords[0] == vec2(1, 1));
     round_trip(b);
@@ -541,14 +542,14 @@ TEST_CASE("gltf: several meshes and buffers become one buffer; accessors that ot
     d["buffers"] = gltf_json::array();
     for (const auto& part : {b.bytes.substr(0, first), b.bytes.substr(first)})
         d["buffers"].push_back({{"byteLength", part.size()},
-                                {"uri", "data:application/gltf-buffer;base64," + io::detail::to_base64(part)}});
+                                {"uri", "data:application/gltf-buffer;base64," + io::impl::to_base64(part)}});
     for (gltf_json& view : d["bufferViews"])
         if (const auto at = view["byteOffset"].get<std::size_t>(); at >= first)
         {
             view["buffer"] = 1;
             view["byteOffset"] = at - first;
         }
-    const auto model = io::parse_gltf(d.dump(), "model.gltf");
+    const auto model = io::impl::parse_gltf(d.dump(), "model.gltf");
     CHECK(model.points.size() == 72); // of different meshes, also where they touch
     const test::temporary_folder folder;
     const auto uv = chart_uv(model, 5);
@@ -571,7 +572,7 @@ TEST_CASE("gltf: bytes that two bufferViews name stay for the one that needs no 
     for (const std::size_t m : {0u, 1u})
         b.document["meshes"].push_back({{"primitives", gltf_json::array({{{"attributes", {{"POSITION", positions[m]}}},
                                                                           {"indices", indices[m]}}})}});
-    const auto model = io::parse_gltf(b.glb());
+    const auto model = io::impl::parse_gltf(b.glb());
     auto uv = chart_uv(model, 1);
     const auto whole = chart_uv(model, 1000000);
     for (std::size_t t = 0; t < uv.size(); ++t)
@@ -580,7 +581,7 @@ TEST_CASE("gltf: bytes that two bufferViews name stay for the one that needs no 
     io::write_gltf(folder / "out.glb", model, uv);
     const auto back = io::read_gltf(folder / "out.glb");
     CHECK(require_kept(model, uv, back, 0) == vertices_wanted(model, uv));
-    CHECK(io::detail::view_bytes(back.source, 3) == io::detail::view_bytes(model.source, 3));
+    CHECK(io::impl::view_bytes(back.source, 3) == io::impl::view_bytes(model.source, 3));
 }
 
 TEST_CASE("gltf: names of images are those from the folder of the new file; other names stay")
@@ -613,7 +614,7 @@ TEST_CASE("gltf: a file beside a document is replaced only as its buffer")
     folder.write(folder / "a.gltf", builder.gltf("data.bin"));
     folder.write(folder / "data.bin", builder.bytes);
     const auto model = io::read_gltf(folder / "a.gltf");
-    CHECK(model.source.files == io::gltf_companions(folder / "a.gltf"));
+    CHECK(model.source.files == io::impl::gltf_companions(folder / "a.gltf"));
     CHECK(model.source.files.size() == 1);
     const auto uv = chart_uv(model, 1);
     const auto refuses = [&](const char* name)
@@ -626,7 +627,7 @@ TEST_CASE("gltf: a file beside a document is replaced only as its buffer")
     refuses("data.gltf"); // the data of the input
     io::write_gltf(folder / "a.gltf", model, uv);
     CHECK(require_kept(model, uv, io::read_gltf(folder / "a.gltf"), 0) > 0);
-    CHECK(io::read_file(folder / "data.bin") == builder.bytes);
+    CHECK(io::impl::read_file(folder / "data.bin") == builder.bytes);
     io::write_gltf(folder / "a.gltf", model, uv); // a.bin is its own now
     folder.write(folder / "b.bin", "of somebody");
     refuses("b.gltf");
@@ -637,10 +638,10 @@ TEST_CASE("gltf: a file beside a document is replaced only as its buffer")
     std::filesystem::create_symlink("nowhere", folder / "c.bin");
     refuses("c.gltf");
     io::write_gltf(folder / "b.glb", model, uv); // has its data in it
-    CHECK(io::read_file(folder / "b.bin") == "of somebody");
-    CHECK(io::gltf_companions(folder / "b.glb").empty());
-    CHECK(io::gltf_companions(folder / "none.gltf").empty());
-    CHECK(io::gltf_companions(folder / ".").empty());
+    CHECK(io::impl::read_file(folder / "b.bin") == "of somebody");
+    CHECK(io::impl::gltf_companions(folder / "b.glb").empty());
+    CHECK(io::impl::gltf_companions(folder / "none.gltf").empty());
+    CHECK(io::impl::gltf_companions(folder / ".").empty());
 }
 
 TEST_CASE("gltf: a surface becomes a new model that names the vertices it came from")
@@ -663,14 +664,14 @@ TEST_CASE("gltf: a surface becomes a new model that names the vertices it came f
     io::write_gltf(folder / "out.glb", model, uv);
     const auto back = io::read_gltf(folder / "out.glb");
     REQUIRE(back.triangles.size() == triangles.size());
-    const auto p = io::detail::primitives_of(back.source).all[0];
+    const auto p = io::impl::primitives_of(back.source).all[0];
     const auto numbers = [&](const char* name)
     {
-        const auto a = io::detail::accessor_of(back.source, *p.attribute(name));
-        const auto bytes = io::detail::all_elements(back.source, a, name);
+        const auto a = io::impl::accessor_of(back.source, *p.attribute(name));
+        const auto bytes = io::impl::all_elements(back.source, a, name);
         std::vector<double> all;
         for (std::size_t k = 0; k < bytes.size() / size_of(a.component); ++k)
-            all.push_back(io::detail::load_number(bytes, a, k));
+            all.push_back(io::impl::load_number(bytes, a, k));
         return all;
     };
     const auto sources = numbers("_SOURCE_VERTEX"), normals = numbers("NORMAL");
@@ -728,15 +729,15 @@ TEST_CASE("gltf: a new model lies about its middle where floats do not hold it, 
         const auto model = io::gltf_of(points, triangles);
         CHECK(model.notes.empty());
         const auto node = node_of(model);
-        const auto a = io::detail::accessor_of(model.source, 0);
-        const auto bytes = io::detail::all_elements(model.source, a, "");
+        const auto a = io::impl::accessor_of(model.source, 0);
+        const auto bytes = io::impl::all_elements(model.source, a, "");
         for (std::size_t v = 0; v < points.size(); ++v)
             for (int k = 0; k < 3; ++k)
             {
                 const auto i = static_cast<std::size_t>(k);
                 const double t = node.contains("translation") ? node["translation"][i].get<double>() : 0,
                              s = node.contains("scale") ? node["scale"][i].get<double>() : 1,
-                             x = io::detail::load_number(bytes, a, 3 * v + i);
+                             x = io::impl::load_number(bytes, a, 3 * v + i);
                 CHECK(std::abs(x) <= 0x1p62);
                 CHECK(std::abs((t - points[v][k]) / size + s / size * x) <
                       1e-6 + 1e-15 * std::abs(points[v][k] / size));

@@ -9,14 +9,15 @@
 
 #include <support/gltf_models.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/gltf/gltf.hpp>
-#include <taut/io/io_error.hpp>
+#include <taut/impl/gltf/gltf.hpp>
+#include <taut/impl/io/io_error.hpp>
 
 namespace
 {
 
 using namespace taut;
-using document = io::gltf_json;
+using namespace taut::impl;
+using document = io::impl::gltf_json;
 
 document document_of(const std::string& text)
 {
@@ -28,7 +29,7 @@ void feed_gltf(const std::string& bytes)
 {
     try
     {
-        const auto model = io::parse_gltf(bytes);
+        const auto model = io::impl::parse_gltf(bytes);
         CHECK(!model.triangles.empty());
         std::vector<std::array<vec2, 3>> uv(model.triangles.size());
         for (std::size_t t = 0; t < uv.size(); ++t) uv[t] = {vec2(0, t), vec2(1, t), vec2(0, t % 3)};
@@ -49,7 +50,7 @@ TEST_CASE("gltf: what cannot be read is refused by name, with the reason")
     {
         auto builder = test::morphing_model(5);
         change(builder.document);
-        CHECK_THROWS_WITH_AS(io::parse_gltf(builder.with_data_uri(), "x.gltf"), doctest::Contains(what), error);
+        CHECK_THROWS_WITH_AS(io::impl::parse_gltf(builder.with_data_uri(), "x.gltf"), doctest::Contains(what), error);
     };
     const auto primitive = [](document& d) -> document& { return d["meshes"][0]["primitives"][0]; };
     refuses([](document& d) { d["asset"]["version"] = "1.0"; }, "x.gltf: glTF 1.0 is not read; convert it to glTF 2.0");
@@ -97,21 +98,21 @@ TEST_CASE("gltf: what cannot be read is refused by name, with the reason")
             primitive(d)["attributes"] = {{"POSITION", 0}, {"TEXCOORD_0", 1}};
         },
         "TEXCOORD_0 that is no VEC2");
-    CHECK_THROWS_WITH_AS(io::parse_gltf("{\"a\": }", "x.gltf"),
+    CHECK_THROWS_WITH_AS(io::impl::parse_gltf("{\"a\": }", "x.gltf"),
                          doctest::Contains("x.gltf: no JSON of glTF: parse error"), io::io_error);
-    CHECK_THROWS_WITH_AS(io::parse_gltf(std::string(100000, '['), "x.gltf"), doctest::Contains("nested too deep"),
+    CHECK_THROWS_WITH_AS(io::impl::parse_gltf(std::string(100000, '['), "x.gltf"), doctest::Contains("nested too deep"),
                          io::io_error);
     auto quoted = test::morphing_model(4);
     quoted.document["extras"] = {std::string(300, '['), "\\\"" + std::string(300, '{')};
-    CHECK(!io::parse_gltf(quoted.glb()).triangles.empty());
-    CHECK_THROWS_AS(io::parse_gltf(""), io::io_error);
+    CHECK(!io::impl::parse_gltf(quoted.glb()).triangles.empty());
+    CHECK_THROWS_AS(io::impl::parse_gltf(""), io::io_error);
 }
 
 TEST_CASE("gltf: an index that names no vertex is refused with its place")
 {
     auto builder = test::morphing_model(5);
     builder.bytes[builder.document["bufferViews"].back()["byteOffset"].get<std::size_t>() + 7] = 77;
-    CHECK_THROWS_WITH_AS(io::parse_gltf(builder.glb(), "x.glb"),
+    CHECK_THROWS_WITH_AS(io::impl::parse_gltf(builder.glb(), "x.glb"),
                          "x.glb: primitive 0 of mesh 0 names vertex 77 at index 7, but has 25, counted from 0",
                          io::io_error);
 }
@@ -153,7 +154,7 @@ TEST_CASE("gltf: no buffer is read from outside of the folder of the document")
     {
         folder.write(document, builder.gltf(uri));
         CHECK_THROWS_WITH_AS(io::read_gltf(document), doctest::Contains(what), io::io_error);
-        CHECK(io::gltf_companions(document).empty());
+        CHECK(io::impl::gltf_companions(document).empty());
     };
     const std::string secret = fs::absolute(folder / "secret.bin").string();
     for (const std::string& uri :
@@ -167,7 +168,7 @@ TEST_CASE("gltf: no buffer is read from outside of the folder of the document")
     {
         folder.write(document, builder.gltf(uri));
         CHECK(io::read_gltf(document).source.files.size() == 1);
-        CHECK(io::gltf_companions(document).size() == 1);
+        CHECK(io::impl::gltf_companions(document).size() == 1);
     }
     // Buffers that no bufferView names are not read; nor is a file twice.
     auto d = document_of(builder.gltf("t.bin"));
@@ -188,7 +189,7 @@ TEST_CASE("gltf: what a file asks for is bounded by its bytes")
 {
     const test::torus_arrays torus(40);
     const auto refuses = [](test::gltf_builder& b, const char* what)
-    { CHECK_THROWS_WITH_AS(io::parse_gltf(b.glb(), "x.glb"), doctest::Contains(what), io::io_error); };
+    { CHECK_THROWS_WITH_AS(io::impl::parse_gltf(b.glb(), "x.glb"), doctest::Contains(what), io::io_error); };
     const auto primitive = [](std::size_t positions, std::size_t indices) {
         return document{{"attributes", {{"POSITION", positions}}}, {"indices", indices}};
     };
@@ -255,7 +256,7 @@ TEST_CASE("gltf: what a file asks for is bounded by its bytes")
             p["attributes"]["_A" + std::to_string(i)] = 2 + i;
         }
         b.document["meshes"] = document::array({{{"primitives", document::array({p})}}});
-        const auto model = io::parse_gltf(b.glb());
+        const auto model = io::impl::parse_gltf(b.glb());
         std::vector<std::array<vec2, 3>> uv(model.triangles.size());
         io::gltf_files("out.glb", model, uv);
         for (std::size_t t = 0; t < uv.size(); ++t) uv[t][0].x = static_cast<double>(t);
@@ -275,7 +276,7 @@ TEST_CASE("gltf: many buffers, bufferViews and members take as long as they are 
         d["member " + std::to_string(i)] = i;
     }
     for (int i = 0; i < 200000; ++i) d["nodes"].push_back({{"mesh", 0}});
-    const auto model = io::parse_gltf(d.dump());
+    const auto model = io::impl::parse_gltf(d.dump());
     const std::vector<std::array<vec2, 3>> uv(model.triangles.size());
     CHECK(!io::gltf_files("out.glb", model, uv).empty());
 }
@@ -285,8 +286,8 @@ TEST_CASE("gltf: GLB whose lengths lie is refused with the byte")
     const auto glb = test::textured_model(4).glb();
     const auto refuses = [](std::string bytes, std::size_t at, unsigned value, const char* what)
     {
-        if (at > 0) io::detail::store(bytes.data() + at, value, std::endian::little);
-        CHECK_THROWS_WITH_AS(io::parse_gltf(bytes, "x.glb"), doctest::Contains(what), io::io_error);
+        if (at > 0) io::impl::store(bytes.data() + at, value, std::endian::little);
+        CHECK_THROWS_WITH_AS(io::impl::parse_gltf(bytes, "x.glb"), doctest::Contains(what), io::io_error);
     };
     refuses(glb.substr(0, 19), 0, 0, "x.glb, byte 19: the file ends in the head of GLB");
     refuses(glb, 4, 1, "x.glb, byte 4: GLB of version 1; convert it to glTF 2.0");
@@ -298,7 +299,7 @@ TEST_CASE("gltf: GLB whose lengths lie is refused with the byte")
 
 TEST_CASE("gltf: wrong demands are refused by name")
 {
-    const auto model = io::parse_gltf(test::morphing_model(5).glb(), "x.glb");
+    const auto model = io::impl::parse_gltf(test::morphing_model(5).glb(), "x.glb");
     const std::vector<std::array<vec2, 3>> uv(model.triangles.size());
     CHECK_THROWS_WITH_AS(io::gltf_files("out.obj", model, uv), doctest::Contains("out.obj"), parameter_error);
     CHECK_THROWS_WITH_AS(io::gltf_files("out.glb", model, std::span(uv).first(3)),

@@ -6,14 +6,15 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include <taut/mesh/boundary.hpp>
-#include <taut/mesh/order.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/mesh/order.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// V - E + F.

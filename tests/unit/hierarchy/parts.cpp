@@ -8,18 +8,19 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include <taut/exact/predicates.hpp>
-#include <taut/hierarchy/detail/star_energy.hpp>
+#include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/hierarchy/star_energy.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
-detail::ring_image ring_of(const std::vector<vec2>& corners, bool open = false)
+impl::ring_image ring_of(const std::vector<vec2>& corners, bool open = false)
 {
-    detail::ring_image r;
+    impl::ring_image r;
     r.size = corners.size();
     r.open = open;
     std::copy(corners.begin(), corners.end(), r.corner.begin());
@@ -44,8 +45,8 @@ TEST_CASE("rings: neighbours are in order, and the triangles come back")
 {
     const auto m = test::bumpy(12);
     std::vector<char> open;
-    const auto rings = detail::make_rings(m.cells(), m.points().size(), open, 1);
-    auto cells = detail::ring_cells(rings, open);
+    const auto rings = impl::make_rings(m.cells(), m.points().size(), open, 1);
+    auto cells = impl::ring_cells(rings, open);
     const auto canonical = [](std::vector<std::array<taut::idx, 3>> list)
     {
         for (auto& t : list) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
@@ -72,7 +73,7 @@ TEST_CASE("flat star: a planar star keeps its shape")
     }
     for (const bool open : {false, true})
     {
-        const auto flat = detail::flatten(points, 0, std::span(ring).first(open ? 5 : 7), open);
+        const auto flat = impl::flatten(points, 0, std::span(ring).first(open ? 5 : 7), open);
         for (std::size_t i = 0; i < flat.size; ++i)
         {
             CHECK(glm::length(flat.corner[i]) == doctest::Approx(glm::length(spokes[i])));
@@ -92,12 +93,12 @@ TEST_CASE("flat star: a cone fills the full turn")
         ring.push_back(static_cast<taut::idx>(points.size()));
         points.emplace_back(std::cos(0.4 * std::numbers::pi * i), std::sin(0.4 * std::numbers::pi * i), 0);
     }
-    const auto flat = detail::flatten(points, 0, ring, false);
+    const auto flat = impl::flatten(points, 0, ring, false);
     for (std::size_t i = 0; i < 5; ++i)
     {
         const vec2 a = flat.corner[i], b = flat.corner[flat.next(i)];
         CHECK(glm::length(a) == doctest::Approx(std::sqrt(5.0)));
-        CHECK(std::atan2(detail::cross(a, b), glm::dot(a, b)) == doctest::Approx(0.4 * std::numbers::pi));
+        CHECK(std::atan2(impl::cross(a, b), glm::dot(a, b)) == doctest::Approx(0.4 * std::numbers::pi));
     }
 }
 
@@ -119,7 +120,7 @@ TEST_CASE("kernel: a point that sees the whole ring is found, however thin the k
         }
         const auto ring = ring_of(corners);
         vec2 p;
-        REQUIRE(detail::kernel_point(ring, 0, p));
+        REQUIRE(impl::kernel_point(ring, 0, p));
         for (std::size_t i = 0; i < ring.size; ++i)
             REQUIRE(orient2d(p, ring.corner[i], ring.corner[ring.next(i)]) == 1);
         vec2 centre(0);
@@ -132,18 +133,18 @@ TEST_CASE("kernel: a point that sees the whole ring is found, however thin the k
 TEST_CASE("kernel: none is reported for a ring without")
 {
     vec2 p;
-    CHECK(!detail::kernel_point(ring_of({{0, 0}, {0, 1}, {1, 0}}), 0, p)); // clockwise
-    CHECK(!detail::kernel_point(ring_of({{0, 0}, {1, 0}, {2, 0}}), 0, p)); // flat
+    CHECK(!impl::kernel_point(ring_of({{0, 0}, {0, 1}, {1, 0}}), 0, p)); // clockwise
+    CHECK(!impl::kernel_point(ring_of({{0, 0}, {1, 0}, {2, 0}}), 0, p)); // flat
     // A horseshoe: no point sees both of its ends.
     CHECK(
-        !detail::kernel_point(ring_of({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2.9, 0.1}, {0.1, 0.1}, {1, 3}, {0, 3}}), 0, p));
+        !impl::kernel_point(ring_of({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2.9, 0.1}, {0.1, 0.1}, {1, 3}, {0, 3}}), 0, p));
 }
 
 TEST_CASE("kernel: a boundary ring leaves room outside the mesh")
 {
     const auto ring = ring_of({{1, 0}, {0, 1}, {-1, 0}}, true);
     vec2 p;
-    REQUIRE(detail::kernel_point(ring, 0, p));
+    REQUIRE(impl::kernel_point(ring, 0, p));
     for (std::size_t i = 0; i + 1 < ring.size; ++i) CHECK(orient2d(p, ring.corner[i], ring.corner[i + 1]) == 1);
 }
 
@@ -157,15 +158,15 @@ TEST_CASE("sure orientation: never claims more than exact arithmetic")
         const auto near = [&](double t) { return vec2(0.1 + t, 0.3 + t / 3 + double(int(rng() % 9) - 4) * 0x1p-54); };
         const vec2 a = near(double(rng()) / 4294967296.0), b = near(double(rng()) / 4294967296.0),
                    c = near(double(rng()) / 4294967296.0);
-        if (!detail::surely_positive(a, b, c)) continue;
+        if (!impl::surely_positive(a, b, c)) continue;
         ++claimed;
         REQUIRE(orient2d(a, b, c) == 1);
     }
     CHECK(claimed > 0);
-    CHECK(detail::surely_positive({0, 0}, {1, 0}, {0, 1}));
-    CHECK(!detail::surely_positive({0, 0}, {0, 1}, {1, 0}));
-    CHECK(!detail::surely_positive({0, 0}, {1, 1}, {2, 2}));
-    CHECK(!detail::surely_positive({0, 0}, {NAN, 0}, {0, 1}));
+    CHECK(impl::surely_positive({0, 0}, {1, 0}, {0, 1}));
+    CHECK(!impl::surely_positive({0, 0}, {0, 1}, {1, 0}));
+    CHECK(!impl::surely_positive({0, 0}, {1, 1}, {2, 2}));
+    CHECK(!impl::surely_positive({0, 0}, {NAN, 0}, {0, 1}));
 }
 
 TEST_CASE("star energy: derivatives agree with differences, and rest is a minimum")
@@ -174,7 +175,7 @@ TEST_CASE("star energy: derivatives agree with differences, and rest is a minimu
     std::vector<vec2> image;
     for (const vec3& s : rest) image.emplace_back(1.3 * s.x + 0.2 * s.y, 0.8 * s.y);
     const auto ring = ring_of(image);
-    const detail::star_energy energy(ring, rest);
+    const impl::star_energy energy(ring, rest);
     const vec2 p(0.07, -0.11);
     vec2 g;
     mat2 h;
@@ -201,10 +202,10 @@ TEST_CASE("star energy: derivatives agree with differences, and rest is a minimu
         area += 0.5 * glm::length(glm::cross(rest[i], rest[(i + 1) % rest.size()]));
     }
     const auto identity = ring_of(same);
-    const detail::star_energy at_rest(identity, rest);
+    const impl::star_energy at_rest(identity, rest);
     CHECK(at_rest.value(vec2(0)) == doctest::Approx(4 * area));
     vec2 q(0.1, 0.05);
-    detail::relax(at_rest, identity, q, 8);
+    impl::relax(at_rest, identity, q, 8);
     CHECK(glm::length(q) < 1e-6);
 }
 
@@ -212,8 +213,8 @@ TEST_CASE("star energy: the step goes down, also where the energy is not convex"
 {
     const mat2 saddle(1, 2, 2, -3);
     const vec2 g(0.4, -1);
-    CHECK(glm::dot(detail::newton_direction(g, saddle), g) < 0);
+    CHECK(glm::dot(impl::newton_direction(g, saddle), g) < 0);
     // Where it is, the step is Newton's.
     const mat2 convex(3, 1, 1, 2);
-    CHECK(glm::length(convex * detail::newton_direction(g, convex) + g) < 1e-14);
+    CHECK(glm::length(convex * impl::newton_direction(g, convex) + g) < 1e-14);
 }

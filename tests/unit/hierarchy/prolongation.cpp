@@ -12,6 +12,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 std::vector<vec3> positions(const hierarchy<triangle>& h, std::size_t level, const mesh<triangle>& m)

@@ -7,15 +7,16 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include <taut/exact/certify.hpp>
-#include <taut/exact/predicates.hpp>
-#include <taut/hierarchy/reinsert.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/hierarchy/reinsert.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// From a map of the coarsest level to one of the mesh; checks every level exactly.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/hierarchy/make_hierarchy.hpp>
+#include <taut/impl/hierarchy/make_hierarchy.hpp>
 
 namespace taut::test
 {
@@ -70,7 +70,7 @@ inline std::vector<named_mesh> thinnable()
 inline std::vector<char> on_boundary(const mesh<triangle>& m)
 {
     std::vector<char> open;
-    detail::make_rings(m.cells(), m.points().size(), open, 1);
+    impl::make_rings(m.cells(), m.points().size(), open, 1);
     return open;
 }
 

@@ -7,14 +7,15 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/hierarchy/coarser_volume.hpp>
-#include <taut/hierarchy/make_volume_hierarchy.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/hierarchy/coarser_volume.hpp>
+#include <taut/impl/hierarchy/make_volume_hierarchy.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// A cube of tetrahedra of many shapes, without the octant that is nearest to (1, 1, 1): flat sides, creases, a notch.

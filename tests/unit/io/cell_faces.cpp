@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <doctest/doctest.h>
-#include <taut/io/cell_faces.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/mesh/cell_corners.hpp>
+#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/mesh/cell_corners.hpp>
 
 #include "support/volume_texts.hpp"
 
@@ -14,10 +14,11 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 io::volume_file mixed_file()
 {
-    return io::parse_volume(test::medit_text(test::small_volume(true)), io::volume_format::medit, "a.mesh");
+    return io::impl::parse_volume(test::medit_text(test::small_volume(true)), io::volume_format::medit, "a.mesh");
 }
 
 TEST_CASE("cell faces: normals point out, and the sides of cells that meet know each other")
@@ -26,7 +27,7 @@ TEST_CASE("cell faces: normals point out, and the sides of cells that meet know 
     const auto sides = io::cell_faces_of(file);
     REQUIRE(sides.faces.size() == 2 * 4 + 6 + 5 + 5);
     std::vector<vec3> centres;
-    io::for_each_cell(file, 3,
+    io::impl::for_each_cell(file, 3,
                       [&](io::cell_kind, idx number, std::span<const idx> corners)
                       {
                           CHECK(number == static_cast<idx>(centres.size()));
@@ -53,7 +54,7 @@ TEST_CASE("cell faces: a face with three cells is crowded")
     auto s = test::small_volume(false);
     s.cells.push_back({io::cell_kind::tetrahedron, {0, 1, 2, static_cast<idx>(s.points.size())}, 1});
     s.points.push_back({0.5, 0.4, 1});
-    const auto sides = io::cell_faces_of(io::parse_volume(test::medit_text(s), io::volume_format::medit, "a.mesh"));
+    const auto sides = io::cell_faces_of(io::impl::parse_volume(test::medit_text(s), io::volume_format::medit, "a.mesh"));
     CHECK(std::count(sides.twin.begin(), sides.twin.end(), io::cell_faces::crowded) == 3);
 }
 

@@ -9,9 +9,9 @@
 
 #include <support/meshes.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/write_obj.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_obj.hpp>
 
 using namespace taut;
 using test::temporary_folder;

@@ -7,17 +7,18 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/io/obj.hpp>
-#include <taut/io/off.hpp>
-#include <taut/io/ply.hpp>
-#include <taut/io/read_file.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/stl.hpp>
+#include <taut/impl/io/obj.hpp>
+#include <taut/impl/io/off.hpp>
+#include <taut/impl/io/ply.hpp>
+#include <taut/impl/io/read_file.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/stl.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// The files that fuzzers start from: they use what the readers know, and some of what they must refuse.
 std::vector<std::string> samples(const std::string& format)
@@ -29,7 +30,7 @@ std::vector<std::string> samples(const std::string& format)
     std::sort(paths.begin(), paths.end());
     REQUIRE(paths.size() > 3);
     std::vector<std::string> bytes;
-    for (const auto& path : paths) bytes.push_back(io::read_file(path));
+    for (const auto& path : paths) bytes.push_back(io::impl::read_file(path));
     return bytes;
 }
 
@@ -88,20 +89,20 @@ void torture(Parse parse, const std::string& sample)
 
 TEST_CASE("hostile files: OBJ")
 {
-    for (const auto& s : samples("obj")) torture([](const std::string& t) { return io::parse_obj(t); }, s);
+    for (const auto& s : samples("obj")) torture([](const std::string& t) { return io::impl::parse_obj(t); }, s);
 }
 
 TEST_CASE("hostile files: OFF")
 {
-    for (const auto& s : samples("off")) torture([](const std::string& t) { return io::parse_off(t); }, s);
+    for (const auto& s : samples("off")) torture([](const std::string& t) { return io::impl::parse_off(t); }, s);
 }
 
 TEST_CASE("hostile files: PLY")
 {
-    for (const auto& s : samples("ply")) torture([](const std::string& t) { return io::parse_ply(t); }, s);
+    for (const auto& s : samples("ply")) torture([](const std::string& t) { return io::impl::parse_ply(t); }, s);
 }
 
 TEST_CASE("hostile files: STL")
 {
-    for (const auto& s : samples("stl")) torture([](const std::string& t) { return io::parse_stl(t); }, s);
+    for (const auto& s : samples("stl")) torture([](const std::string& t) { return io::impl::parse_stl(t); }, s);
 }

@@ -9,14 +9,14 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/obj.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/obj.hpp>
 
 namespace
 {
 
 using namespace taut;
-using io::parse_obj;
+using io::impl::parse_obj;
 using taut::idx;
 using cell = std::array<taut::idx, 3>;
 
@@ -351,7 +351,7 @@ TEST_CASE("obj: texture coordinates that cannot be used are none, and the file s
         CHECK(file.texcoord_fault.starts_with(reason));
         REQUIRE_FALSE(file.notes.empty());
         CHECK(file.notes[0] == "the texture coordinates of the file are not used: " + file.texcoord_fault);
-        const auto soup = io::parse_obj_soup(text, "x.obj");
+        const auto soup = io::impl::parse_obj_soup(text, "x.obj");
         CHECK_FALSE(soup.fault.has_value());
         CHECK(soup.texcoord_fault == file.texcoord_fault);
     }

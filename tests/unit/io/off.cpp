@@ -3,14 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/io/io_error.hpp>
-#include <taut/io/off.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/off.hpp>
 
 namespace
 {
 
 using namespace taut;
-using io::parse_off;
+using io::impl::parse_off;
 using taut::idx;
 using cell = std::array<taut::idx, 3>;
 
@@ -128,10 +128,10 @@ TEST_CASE("off: vertices that are missing or not finite are faults of the mesh")
 TEST_CASE("off: binary files are named, and texture coordinates that are no numbers are none")
 {
     const std::string binary("OFF BINARY\n\0\0\0\3\0\0\0\1", 19);
-    CHECK_THROWS_WITH_AS(io::parse_off(binary, "x.off"),
+    CHECK_THROWS_WITH_AS(io::impl::parse_off(binary, "x.off"),
                          doctest::Contains("x.off, line 1: binary OFF is not read; save it as text"), io::io_error);
-    const auto f = io::parse_off("STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 1.#INF 0\n0 1 0 0 1\n3 0 1 2\n", "x.off");
+    const auto f = io::impl::parse_off("STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 1.#INF 0\n0 1 0 0 1\n3 0 1 2\n", "x.off");
     CHECK(f.texcoords.empty());
     CHECK(f.texcoord_fault == "x.off, line 4: a texture coordinate is not a finite number");
-    CHECK(io::parse_off("OFF\n3 1 0\n0 0 1.# a comment\n1 0 0\n0 1 0\n3 0 1 2\n").surface.points()[0].z == 1);
+    CHECK(io::impl::parse_off("OFF\n3 1 0\n0 0 1.# a comment\n1 0 0\n0 1 0\n3 0 1 2\n").surface.points()[0].z == 1);
 }

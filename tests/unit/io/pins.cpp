@@ -5,11 +5,11 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/pins.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/pins.hpp>
 
 using namespace taut;
-using io::parse_pins;
+using io::impl::parse_pins;
 
 namespace
 {

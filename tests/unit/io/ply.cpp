@@ -5,14 +5,14 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/io/io_error.hpp>
-#include <taut/io/ply.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/ply.hpp>
 
 namespace
 {
 
 using namespace taut;
-using io::parse_ply;
+using io::impl::parse_ply;
 using taut::idx;
 using cell = std::array<taut::idx, 3>;
 

@@ -10,11 +10,11 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/io/obj.hpp>
-#include <taut/io/off.hpp>
-#include <taut/io/ply.hpp>
-#include <taut/mesh/facets.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/io/obj.hpp>
+#include <taut/impl/io/off.hpp>
+#include <taut/impl/io/ply.hpp>
+#include <taut/impl/mesh/facets.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace
 {
@@ -82,7 +82,7 @@ TEST_CASE("polygons: an outline that runs in to a hole along a slit and out agai
     for (const auto& face : {std::vector{1, 2, 3, 4, 1, 5, 6, 7, 8, 5}, std::vector{5, 1, 2, 3, 4, 1, 5, 6, 7, 8},
                              std::vector{7, 8, 5, 1, 2, 3, 4, 1, 5, 6}, std::vector{2, 3, 4, 1, 2, 8, 5, 6, 7, 8}})
     {
-        const auto m = io::parse_obj(obj_text(points, {face})).surface;
+        const auto m = io::impl::parse_obj(obj_text(points, {face})).surface;
         CHECK(m.cell_count() == 8);
         CHECK(area_facing(m, normal_of_plane) == doctest::Approx(12));
         CHECK(is_surface(m));
@@ -109,7 +109,7 @@ TEST_CASE("polygons: holes of many corners, several of them, and slits that shar
             expected -= 0.09 * area;
         }
         CAPTURE(n);
-        const auto m = io::parse_obj(obj_text(points, {face})).surface;
+        const auto m = io::impl::parse_obj(obj_text(points, {face})).surface;
         CHECK(m.cell_count() == static_cast<idx>(face.size()) - 2);
         CHECK(area_facing(m, normal_of_plane) == doctest::Approx(expected).epsilon(1e-4));
         CHECK(is_surface(m));
@@ -120,7 +120,7 @@ TEST_CASE("polygons: holes of many corners, several of them, and slits that shar
 TEST_CASE("polygons: a slit without a hole has its end inside")
 {
     const std::vector<vec2> points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 1}};
-    const auto m = io::parse_obj(obj_text(points, {{1, 2, 3, 4, 1, 5}})).surface;
+    const auto m = io::impl::parse_obj(obj_text(points, {{1, 2, 3, 4, 1, 5}})).surface;
     CHECK(m.cell_count() == 4);
     CHECK(area_facing(m, normal_of_plane) == doctest::Approx(16));
     CHECK(is_surface(m));
@@ -133,24 +133,24 @@ TEST_CASE("polygons: a vertex that is named twice in a row, or an outline that g
          {std::vector{1, 2, 3, 4}, std::vector{1, 2, 2, 3, 4}, std::vector{1, 2, 3, 4, 1},
           std::vector{1, 1, 2, 3, 3, 3, 4, 1}, std::vector{1, 2, 3, 5, 3, 4}, std::vector{1, 2, 3, 5, 6, 5, 3, 4}})
     {
-        const auto m = io::parse_obj(obj_text(points, {face})).surface;
+        const auto m = io::impl::parse_obj(obj_text(points, {face})).surface;
         CHECK(m.cell_count() == 2);
         CHECK(area_facing(m, normal_of_plane) == doctest::Approx(16));
     }
-    CHECK(io::parse_obj(obj_text(points, {{1, 2, 3, 3}})).surface.cell_count() == 1);
-    CHECK(io::parse_obj(obj_text(points, {{1, 2, 3}, {1, 2, 1, 2}})).surface.cell_count() == 1);
+    CHECK(io::impl::parse_obj(obj_text(points, {{1, 2, 3, 3}})).surface.cell_count() == 1);
+    CHECK(io::impl::parse_obj(obj_text(points, {{1, 2, 3}, {1, 2, 1, 2}})).surface.cell_count() == 1);
 }
 
 TEST_CASE("polygons: corners on straight lines get triangles with an area")
 {
     // A triangle with seven corners on one side, and a square with corners on all sides.
     const std::vector<vec2> points = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}, {6, 0}, {1, 5}};
-    const auto fan = io::parse_obj(obj_text(points, {{1, 2, 3, 4, 5, 6, 7, 8}})).surface;
+    const auto fan = io::impl::parse_obj(obj_text(points, {{1, 2, 3, 4, 5, 6, 7, 8}})).surface;
     CHECK(fan.cell_count() == 6);
     CHECK(area_facing(fan, normal_of_plane) == doctest::Approx(15));
     const std::vector<vec2> square = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {3, 2},
                                       {3, 3}, {2, 3}, {1, 3}, {0, 3}, {0, 2}, {0, 1}};
-    const auto m = io::parse_obj(obj_text(square, {{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}})).surface;
+    const auto m = io::impl::parse_obj(obj_text(square, {{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}})).surface;
     CHECK(m.cell_count() == 10);
     CHECK(area_facing(m, normal_of_plane) == doctest::Approx(9));
 }
@@ -158,10 +158,10 @@ TEST_CASE("polygons: corners on straight lines get triangles with an area")
 TEST_CASE("polygons: two quads around a vertex of two faces get other diagonals")
 {
     const std::vector<vec2> points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {0.8, 1.2}};
-    const auto m = io::parse_obj(obj_text(points, {{1, 2, 3, 5}, {1, 5, 3, 4}}, 0.3)).surface;
+    const auto m = io::impl::parse_obj(obj_text(points, {{1, 2, 3, 5}, {1, 5, 3, 4}}, 0.3)).surface;
     CHECK(m.cell_count() == 4);
     CHECK(is_surface(m));
-    const auto triangle_and_quad = io::parse_obj(obj_text(points, {{1, 2, 3}, {1, 3, 4, 5}, {1, 5, 4}}, 0.3)).surface;
+    const auto triangle_and_quad = io::impl::parse_obj(obj_text(points, {{1, 2, 3}, {1, 3, 4, 5}, {1, 5, 4}}, 0.3)).surface;
     CHECK(is_surface(triangle_and_quad));
 }
 
@@ -170,7 +170,7 @@ TEST_CASE("polygons: a chain of quads that take each other's diagonals is parted
     // Around an edge 1-2 that is a diagonal of the first quad and an edge of nothing; each of the following ones has a
     // diagonal of the one before.
     const std::vector<vec2> points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1.5, 2}, {2.5, 2.2}};
-    const auto m = io::parse_obj(obj_text(points, {{1, 2, 3, 6}, {1, 6, 3, 5}, {1, 5, 3, 4}}, 0.2)).surface;
+    const auto m = io::impl::parse_obj(obj_text(points, {{1, 2, 3, 6}, {1, 6, 3, 5}, {1, 5, 3, 4}}, 0.2)).surface;
     CHECK(m.cell_count() == 6);
     CHECK(is_surface(m));
 }
@@ -178,7 +178,7 @@ TEST_CASE("polygons: a chain of quads that take each other's diagonals is parted
 TEST_CASE("polygons: copies are cut alike, whatever corner they begin with and whichever way they face")
 {
     const std::vector<vec2> points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-    const auto soup = io::parse_obj_soup(obj_text(points, {{1, 2, 3, 4}, {2, 3, 4, 1}, {4, 3, 2, 1}, {3, 2, 1, 4}}));
+    const auto soup = io::impl::parse_obj_soup(obj_text(points, {{1, 2, 3, 4}, {2, 3, 4, 1}, {4, 3, 2, 1}, {3, 2, 1, 4}}));
     REQUIRE(soup.triangles.size() == 8);
     for (const auto& t : soup.triangles)
         CHECK((std::count(t.begin(), t.end(), 1) == 1 && std::count(t.begin(), t.end(), 3) == 1));
@@ -188,8 +188,8 @@ TEST_CASE("polygons: OFF and PLY split the same faces")
 {
     const std::string points = "0 0 0\n4 0 0\n4 4 0\n0 4 0\n1 1 0\n1 3 0\n3 3 0\n3 1 0\n";
     const std::string face = "10 0 1 2 3 0 4 5 6 7 4\n";
-    const auto off = io::parse_off("OFF\n8 1 0\n" + points + face).surface;
-    const auto ply = io::parse_ply("ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
+    const auto off = io::impl::parse_off("OFF\n8 1 0\n" + points + face).surface;
+    const auto ply = io::impl::parse_ply("ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
                                    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                                    "end_header\n" +
                                    points + face)

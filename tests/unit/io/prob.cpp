@@ -5,9 +5,9 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/prob.hpp>
-#include <taut/io/write_map.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/prob.hpp>
+#include <taut/impl/io/write_map.hpp>
 
 using namespace taut;
 using test::temporary_folder;
@@ -31,7 +31,7 @@ void check_refused(const std::string& text, std::size_t line, const std::string&
     CAPTURE(text);
     try
     {
-        io::parse_prob<triangle>(text);
+        io::impl::parse_prob<triangle>(text);
         FAIL("accepted");
     }
     catch (const io::io_error& e)
@@ -46,7 +46,7 @@ void check_refused(const std::string& text, std::size_t line, const std::string&
 
 TEST_CASE("problem files: rest shape, initial map, triangles and fixed vertices")
 {
-    const auto p = io::parse_prob<triangle>(square);
+    const auto p = io::impl::parse_prob<triangle>(square);
     CHECK(p.rest.size() == 4);
     CHECK(p.rest[2] == vec3(1, 1, 0));
     CHECK(p.initial[2] == vec2(0.25, 1e-3));
@@ -56,11 +56,11 @@ TEST_CASE("problem files: rest shape, initial map, triangles and fixed vertices"
     // Lines ends of any kind, blank lines, a surface in space at rest.
     std::string other;
     for (const char c : square) other += c == '\n' ? "\r\n\r\n" : std::string(1, c);
-    CHECK(io::parse_prob<triangle>(other).cells == p.cells);
+    CHECK(io::impl::parse_prob<triangle>(other).cells == p.cells);
     const std::string space =
         with(with(square, "4 2\n0 0\n1 0\n1 1\n0 1", "4 3\n0 0 7\n1 0 7\n1 1 7\n0 1 7"), "2\n0\n3", "0");
-    CHECK(io::parse_prob<triangle>(space).rest[3] == vec3(0, 1, 7));
-    CHECK(io::parse_prob<triangle>(space).fixed.empty());
+    CHECK(io::impl::parse_prob<triangle>(space).rest[3] == vec3(0, 1, 7));
+    CHECK(io::impl::parse_prob<triangle>(space).fixed.empty());
 }
 
 TEST_CASE("problem files: tetrahedra are told from triangles")
@@ -69,8 +69,8 @@ TEST_CASE("problem files: tetrahedra are told from triangles")
     const std::string text = "4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 -1\n1 4\n0 1 2 3\n1\n2\n";
     folder.write(folder / "a.prob", square);
     folder.write(folder / "b.prob", text);
-    CHECK(std::holds_alternative<io::prob_file<triangle>>(io::read_any_prob(folder / "a.prob")));
-    const auto b = io::read_any_prob(folder / "b.prob");
+    CHECK(std::holds_alternative<io::prob_file<triangle>>(io::impl::read_any_prob(folder / "a.prob")));
+    const auto b = io::impl::read_any_prob(folder / "b.prob");
     REQUIRE(std::holds_alternative<io::prob_file<tetrahedron>>(b));
     CHECK(std::get<1>(b).initial[3] == vec3(0, 0, -1));
     CHECK_THROWS_AS(io::read_prob<triangle>(folder / "b.prob"), io::io_error);
@@ -99,10 +99,10 @@ TEST_CASE("problem files: whatever is malformed is refused with its line")
     check_refused(with(square, "2\n0\n3\n", "2\n0\n"), 16, "ends before fixed vertex 1 of 2");
     check_refused(square + "7\n", 17, "end of the file");
     check_refused("2000000000 3\n0 0 0\n", 3, "ends before rest vertex 1");
-    CHECK_THROWS_AS(io::parse_prob<tetrahedron>(square), io::io_error);
-    CHECK_THROWS_AS(io::parse_prob<triangle>(std::string(10, '\0')), io::io_error);
+    CHECK_THROWS_AS(io::impl::parse_prob<tetrahedron>(square), io::io_error);
+    CHECK_THROWS_AS(io::impl::parse_prob<triangle>(std::string(10, '\0')), io::io_error);
     for (std::size_t n = 0; n + 4 < square.size(); ++n) // cut anywhere
-        CHECK_THROWS_AS(io::parse_prob<triangle>(square.substr(0, n)), io::io_error);
+        CHECK_THROWS_AS(io::impl::parse_prob<triangle>(square.substr(0, n)), io::io_error);
 }
 
 TEST_CASE("maps: a vertex a line, numbers read back bit for bit")

@@ -6,9 +6,9 @@
 
 #include <support/meshes.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/io/obj.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/write_obj.hpp>
+#include <taut/impl/io/obj.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_obj.hpp>
 
 using namespace taut;
 using test::temporary_folder;
@@ -127,7 +127,7 @@ TEST_CASE("write_obj: PLY becomes OBJ with its numbers, colours, normals, polygo
 TEST_CASE("write_obj: one texture coordinate a vertex of the file is required")
 {
     const temporary_folder folder;
-    const auto file = io::parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto file = io::impl::parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     CHECK_THROWS_AS(io::write_obj(folder / "x.obj", file, numbered(2)), parameter_error);
     CHECK(folder.entries() == 0);
 }
@@ -137,19 +137,19 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
     const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
     // Vertices 1 and 2 lie on a seam; one vt a corner is none.
     const std::string text = head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 1\nvt 5 1\nf 1/1 2/2 3/3\nf 2/4 4/5 3/6\n";
-    const auto file = io::parse_obj(text);
+    const auto file = io::impl::parse_obj(text);
     const auto cut = io::cut_seams(file).value();
     CHECK(cut.surface.cells() == std::vector<std::array<taut::idx, 3>>{{0, 1, 2}, {4, 3, 5}});
     CHECK(cut.surface.points()[5] == vec3(0, 1, 0));
     CHECK(cut.origins == std::vector<taut::idx>{0, 1, 2, 3, 1, 2});
     CHECK(cut.uv == std::vector<vec2>{{0, 0}, {1, 0}, {0, 1}, {6, 1}, {5, 0}, {5, 1}});
     CHECK(cut.seam_vertices == 2);
-    CHECK_FALSE(io::cut_seams(io::parse_obj(head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt -0 1\n"
+    CHECK_FALSE(io::cut_seams(io::impl::parse_obj(head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt -0 1\n"
                                                    "f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n")));
     // Charts that share a texture coordinate at a vertex, but no edge, are apart: here two quads that both have all of
     // the texture.
     const auto tiles =
-        io::cut_seams(io::parse_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
+        io::cut_seams(io::impl::parse_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
                                     "vt 1 1\nvt 0 1\nf 1/1 2/2 5/3 4/4\nf 2/2 3/1 6/4 5/1\n"))
             .value();
     CHECK(tiles.surface.vertex_count() == 8);
@@ -157,11 +157,11 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
     CHECK(std::vector<taut::idx>(tiles.corners.begin(), tiles.corners.begin() + 4) ==
           std::vector<taut::idx>{0, 1, 4, 3});
     CHECK(tiles.corners[4] + tiles.corners[7] == 6 + 7);
-    CHECK_THROWS_AS(io::cut_seams(io::parse_obj(head + "vt 0 0\nf 1/1 2/1 3/1\nf 2/1 4 3/1\n")), io::texcoord_error);
+    CHECK_THROWS_AS(io::cut_seams(io::impl::parse_obj(head + "vt 0 0\nf 1/1 2/1 3/1\nf 2/1 4 3/1\n")), io::texcoord_error);
 
     // A polygon stays whole, though a third triangle meets its two halves where it is split.
     const auto crowded =
-        io::parse_obj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 2 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 5 5\n"
+        io::impl::parse_obj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 2 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 5 5\n"
                       "f 1/5 3/5 5/5\nf 1/1 2/2 3/3 4/4\n");
     const auto whole = io::cut_seams(crowded).value();
     for (std::size_t c = 0; c < 3; ++c)
@@ -179,7 +179,7 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
 
 TEST_CASE("surface_file: a texture coordinate that is not there is an error, not a read beyond the end")
 {
-    auto file = io::parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+    auto file = io::impl::parse_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
     file.texcoord_cells[0][1] = 7;
     CHECK_THROWS_AS(file.texcoord(0, 1), io::texcoord_error);
     CHECK_THROWS_AS(file.vertex_texcoords(), io::texcoord_error);

@@ -9,16 +9,16 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/io/detail/surface_formats.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/stl.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/io/detail/surface_formats.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/stl.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace
 {
 
 using namespace taut;
-using io::parse_stl;
+using io::impl::parse_stl;
 using stl_triangle = std::array<vec3, 3>;
 
 std::string text_stl(const std::vector<stl_triangle>& triangles)
@@ -41,7 +41,7 @@ std::string binary_stl(const std::vector<stl_triangle>& triangles, const std::st
     const auto add = [&](auto x)
     {
         char to[sizeof x];
-        io::detail::store(to, x, std::endian::little);
+        io::impl::store(to, x, std::endian::little);
         bytes.append(to, sizeof x);
     };
     add(static_cast<std::uint32_t>(triangles.size()));
@@ -156,6 +156,6 @@ TEST_CASE("stl: read by the name of the file, by a format that is given, and by 
     folder.write(folder / "a.dat", bytes);
     CHECK(io::read_surface(folder / "a.STL").cell_count() == 32);
     CHECK(io::read_surface(folder / "a.dat", io::surface_format::stl).cell_count() == 32);
-    CHECK(io::detail::format_of_text(bytes) == io::surface_format::stl);
-    CHECK(io::detail::format_of_text(text_stl(stl_torus(3))) == io::surface_format::stl);
+    CHECK(io::impl::format_of_text(bytes) == io::surface_format::stl);
+    CHECK(io::impl::format_of_text(text_stl(stl_torus(3))) == io::surface_format::stl);
 }

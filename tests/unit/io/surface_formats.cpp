@@ -8,11 +8,11 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/io/detail/posix_file.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/pins.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/read_volume.hpp>
+#include <taut/impl/io/detail/posix_file.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/read_volume.hpp>
 
 using namespace taut;
 
@@ -50,7 +50,7 @@ TEST_CASE("read_surface: what is open already is read from where it is, in the f
     for (const auto& text : {obj, off, ply, header_less, "\xef\xbb\xbf# comment\n\n" + coff, "\n#\r\n" + off})
     {
         folder.write(folder / "a.dat", "passed over\n" + text);
-        const io::detail::descriptor open(::open((folder / "a.dat").c_str(), O_RDONLY));
+        const io::impl::descriptor open(::open((folder / "a.dat").c_str(), O_RDONLY));
         REQUIRE(::lseek(*open, 12, SEEK_SET) == 12);
         CHECK(io::read_surface("/dev/fd/" + std::to_string(*open)).cell_count() == 1);
     }
@@ -73,8 +73,8 @@ TEST_CASE("read_surface: UTF-16 is named, with a byte order mark and without")
                 folder.write(folder / name, wide);
                 CHECK_THROWS_WITH_AS(io::read_surface(folder / name), doctest::Contains("in UTF-16; save it as UTF-8"),
                                      io::io_error);
-                CHECK_THROWS_WITH_AS(io::parse_volume(wide, io::volume_format::medit), doctest::Contains("in UTF-16"),
+                CHECK_THROWS_WITH_AS(io::impl::parse_volume(wide, io::volume_format::medit), doctest::Contains("in UTF-16"),
                                      io::io_error);
-                CHECK_THROWS_WITH_AS(io::parse_pins<2>(wide), doctest::Contains("in UTF-16"), io::io_error);
+                CHECK_THROWS_WITH_AS(io::impl::parse_pins<2>(wide), doctest::Contains("in UTF-16"), io::io_error);
             }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/io/cell_faces.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/write_volume.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/volume_texts.hpp"
@@ -17,7 +17,7 @@ using io::volume_format;
 
 io::volume_file medit_file(const test::volume_sample& s)
 {
-    return io::parse_volume(test::medit_text(s), volume_format::medit, "a.mesh");
+    return io::impl::parse_volume(test::medit_text(s), volume_format::medit, "a.mesh");
 }
 
 TEST_CASE("groups: found by name, or by a number that one name ends in; else what there is is listed")
@@ -57,20 +57,20 @@ TEST_CASE("tetrahedra: the order of corners is mended, by what neighbours have")
         return medit_file(other);
     };
     CHECK(medit_file(s).turned.empty());
-    CHECK(io::describe_turned(medit_file(s)).empty());
+    CHECK(io::impl::describe_turned(medit_file(s)).empty());
     for (const auto& cells : {std::vector<idx>{0}, std::vector<idx>{1}, std::vector<idx>{0, 1}})
     {
         auto file = turned(cells);
         CHECK(file.turned == cells);
         CHECK(all_positive(io::tetrahedra_of(file)));
-        CHECK(io::check_sides(file).empty());
-        CHECK(io::with_points(file, file.points) == file.bytes);
-        io::turn_cells(file, cells);
+        CHECK(io::impl::check_sides(file).empty());
+        CHECK(io::impl::with_points(file, file.points) == file.bytes);
+        io::impl::turn_cells(file, cells);
         CHECK(file.turned.empty());
         CHECK_FALSE(all_positive(io::tetrahedra_of(file)));
-        CHECK(io::check_sides(file).size() == (cells.size() == 1 ? 1 : 0)); // where both are, they agree
+        CHECK(io::impl::check_sides(file).size() == (cells.size() == 1 ? 1 : 0)); // where both are, they agree
     }
-    CHECK(io::describe_turned(turned({1})) ==
+    CHECK(io::impl::describe_turned(turned({1})) ==
           "1 cell (1) has its corners in the other order than MEDIT files or neighbours have it");
     CHECK_THROWS_WITH_AS(io::tetrahedra_of(medit_file(test::small_volume(true))),
                          "a.mesh: cell 2 is a pyramid; this takes tetrahedra alone, split it into such", io::io_error);
@@ -79,7 +79,7 @@ TEST_CASE("tetrahedra: the order of corners is mended, by what neighbours have")
 TEST_CASE("corner simplices: each corner of each kind, all positive, with the cell they belong to")
 {
     const auto s = test::small_volume(true);
-    for (const auto& file : {medit_file(s), io::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk)})
+    for (const auto& file : {medit_file(s), io::impl::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk)})
     {
         const auto corners = io::corner_simplices_of(file);
         CHECK(corners.simplices.cell_count() == 2 * 1 + 4 + 6 + 8);
@@ -108,7 +108,7 @@ TEST_CASE("corner simplices: cells of any kind in the other order are read turne
             std::swap(corners[1], corners[3]);
         else
             std::swap(corners[1], corners[2]);
-        for (const auto& file : {medit_file(s), io::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk)})
+        for (const auto& file : {medit_file(s), io::impl::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk)})
         {
             CHECK(file.turned.size() == 1); // whose number MEDIT, which sorts by kind, has otherwise
             const auto simplices = io::corner_simplices_of(file).simplices;
@@ -120,14 +120,14 @@ TEST_CASE("corner simplices: cells of any kind in the other order are read turne
 TEST_CASE("writing: coordinates that stay keep their text, others are the shortest that read back")
 {
     const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices 2\n", tail = "\nTriangles 0\nEnd\n";
-    const auto file = io::parse_volume(head + "+1.500 -0.0 1e+00 7\n\t.5   2. 0.1000000000000000055\t7 # x" + tail,
+    const auto file = io::impl::parse_volume(head + "+1.500 -0.0 1e+00 7\n\t.5   2. 0.1000000000000000055\t7 # x" + tail,
                                        volume_format::medit);
-    CHECK(io::with_points(file, file.points) == file.bytes);
+    CHECK(io::impl::with_points(file, file.points) == file.bytes);
     auto points = file.points;
     points[0].y = 0.0; // another sign
     points[1].x = 1. / 3;
     points[1].y = 1e-300;
-    CHECK(io::with_points(file, points) ==
+    CHECK(io::impl::with_points(file, points) ==
           head + "+1.500 0 1e+00 7\n\t0.3333333333333333   1e-300 0.1000000000000000055\t7 # x" + tail);
 }
 
@@ -139,18 +139,18 @@ TEST_CASE("writing: single precision rounds, and says to what")
     for (const bool text : {true, false})
     {
         const auto file =
-            io::parse_volume(test::vtk_text(s, {.text = text, .single = true}, 3), volume_format::vtk, "a.vtk");
-        const auto rounded = io::rounded_to_file(file, points);
+            io::impl::parse_volume(test::vtk_text(s, {.text = text, .single = true}, 3), volume_format::vtk, "a.vtk");
+        const auto rounded = io::impl::rounded_to_file(file, points);
         CHECK(rounded[1].x == static_cast<double>(0.1f));
-        const auto back = io::parse_volume(io::with_points(file, points), volume_format::vtk);
+        const auto back = io::impl::parse_volume(io::impl::with_points(file, points), volume_format::vtk);
         CHECK(back.points[1].x == (text ? 0.1 : static_cast<double>(0.1f)));
-        CHECK(io::rounded_to_file(back, back.points) == rounded);
+        CHECK(io::impl::rounded_to_file(back, back.points) == rounded);
         points[1].x = 1e300;
-        if (!text) CHECK_THROWS_AS(io::with_points(file, points), parameter_error);
+        if (!text) CHECK_THROWS_AS(io::impl::with_points(file, points), parameter_error);
         points[1].x = 0.1;
     }
-    const auto twice = io::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk);
-    CHECK(io::rounded_to_file(twice, points) == points);
+    const auto twice = io::impl::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk);
+    CHECK(io::impl::rounded_to_file(twice, points) == points);
 }
 
 TEST_CASE("writing: what a file cannot hold is refused")
@@ -158,13 +158,13 @@ TEST_CASE("writing: what a file cannot hold is refused")
     const auto file = medit_file(test::small_volume(false));
     auto points = file.points;
     points[2].y = NAN;
-    CHECK_THROWS_WITH_AS(io::with_points(file, points), doctest::Contains("point 2 has a coordinate"), parameter_error);
+    CHECK_THROWS_WITH_AS(io::impl::with_points(file, points), doctest::Contains("point 2 has a coordinate"), parameter_error);
     points.pop_back();
-    CHECK_THROWS_WITH_AS(io::with_points(file, points), doctest::Contains("4 for the 5 of the file"), parameter_error);
-    const auto planar = io::parse_volume(test::medit_text(test::small_square(), 2), volume_format::medit);
+    CHECK_THROWS_WITH_AS(io::impl::with_points(file, points), doctest::Contains("4 for the 5 of the file"), parameter_error);
+    const auto planar = io::impl::parse_volume(test::medit_text(test::small_square(), 2), volume_format::medit);
     points = planar.points;
     points[1].z = 1;
-    CHECK_THROWS_WITH_AS(io::with_points(planar, points), doctest::Contains("point 1 has left the plane"),
+    CHECK_THROWS_WITH_AS(io::impl::with_points(planar, points), doctest::Contains("point 1 has left the plane"),
                          parameter_error);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_volume.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_volume.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/volume_promises.hpp"
@@ -11,6 +11,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using io::volume_format;
 using test::small_volume;
 using test::volume_encoding;
@@ -72,7 +73,7 @@ TEST_CASE("volumes: every format is read, and written with all bytes but those o
         for (const auto& sample : every_file(s))
         {
             CAPTURE(sample.name);
-            const auto file = io::parse_volume(sample.bytes, sample.format);
+            const auto file = io::impl::parse_volume(sample.bytes, sample.format);
             CHECK(file.dimension == 3);
             CHECK(file.places.single == sample.single);
             REQUIRE(file.points.size() == s.points.size());
@@ -91,7 +92,7 @@ TEST_CASE("volumes: every format is read, and written with all bytes but those o
                 std::sort(cells.begin(), cells.end()), std::sort(wanted.begin(), wanted.end());
             CHECK(cells == wanted);
             CHECK(test::broken_promise(file, [&](const std::string& bytes)
-                                       { return io::parse_volume(bytes, sample.format); }) == "");
+                                       { return io::impl::parse_volume(bytes, sample.format); }) == "");
         }
     }
 }
@@ -105,9 +106,9 @@ TEST_CASE("volumes: cut off anywhere, a file is refused with its place or still 
             CAPTURE(n);
             try
             {
-                const auto file = io::parse_volume(sample.bytes.substr(0, n), sample.format);
+                const auto file = io::impl::parse_volume(sample.bytes.substr(0, n), sample.format);
                 CHECK(test::broken_promise(file, [&](const std::string& bytes)
-                                           { return io::parse_volume(bytes, sample.format); }) == "");
+                                           { return io::impl::parse_volume(bytes, sample.format); }) == "");
             }
             catch (const io::io_error&)
             {
@@ -124,7 +125,7 @@ TEST_CASE("volumes: planar files have two coordinates, or no volume and one z")
           std::pair(volume_format::gmsh, test::gmsh2_text(s, {})),
           std::pair(volume_format::vtk, test::vtk_text(s, {}, 3))})
     {
-        const auto read = [format = format](const std::string& b) { return io::parse_volume(b, format); };
+        const auto read = [format = format](const std::string& b) { return io::impl::parse_volume(b, format); };
         const auto file = read(bytes);
         CHECK(file.dimension == 2);
         CHECK(io::triangles_of(file).cell_count() == 4);
@@ -132,7 +133,7 @@ TEST_CASE("volumes: planar files have two coordinates, or no volume and one z")
         CHECK(test::broken_promise(file, read) == "");
     }
     CHECK_THROWS_WITH_AS(
-        io::triangles_of(io::parse_volume(test::medit_text(small_volume(false)), volume_format::medit)),
+        io::triangles_of(io::impl::parse_volume(test::medit_text(small_volume(false)), volume_format::medit)),
         doctest::Contains("no planar mesh"), mesh_error);
 }
 
@@ -140,7 +141,7 @@ TEST_CASE("volumes: a problem's points are its initial map, its group what is fi
 {
     const std::string text =
         "4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 3\n0 0 0\n1.0 0 0\n0 1 0\n0 0 -1e0\n1 4\n0 1 2 3\n2\n2\n0\n";
-    const auto read = [](const std::string& bytes) { return io::parse_volume(bytes, volume_format::problem); };
+    const auto read = [](const std::string& bytes) { return io::impl::parse_volume(bytes, volume_format::problem); };
     const auto file = read(text);
     CHECK(file.points[3] == vec3(0, 0, -1));
     CHECK(file.rest[3] == vec3(0, 0, 1));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_volume.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_volume.hpp>
 
 #include "support/volume_texts.hpp"
 
@@ -12,7 +12,7 @@ using namespace taut;
 
 io::volume_file read_gmsh(const std::string& bytes)
 {
-    return io::parse_volume(bytes, io::volume_format::gmsh, "a.msh");
+    return io::impl::parse_volume(bytes, io::volume_format::gmsh, "a.msh");
 }
 
 std::string replace_once(std::string text, const std::string& from, const std::string& to)

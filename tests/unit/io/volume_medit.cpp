@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/write_volume.hpp>
 
 #include "support/volume_texts.hpp"
 
@@ -13,7 +13,7 @@ using namespace taut;
 
 io::volume_file read_medit(const std::string& text)
 {
-    return io::parse_volume(text, io::volume_format::medit, "a.mesh");
+    return io::impl::parse_volume(text, io::volume_format::medit, "a.mesh");
 }
 
 TEST_CASE("MEDIT: references and lists of vertices are groups")
@@ -46,7 +46,7 @@ TEST_CASE("MEDIT: a coordinate with the exponent of Fortran is replaced whole")
     CHECK(file.points[1].x == 10);
     auto points = file.points;
     for (auto& p : points) p *= 0.5;
-    CHECK(read_medit(io::with_points(file, points)).points == points);
+    CHECK(read_medit(io::impl::with_points(file, points)).points == points);
 }
 
 TEST_CASE("MEDIT: errors tell the line")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_volume.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_volume.hpp>
 
 #include "support/volume_texts.hpp"
 
@@ -12,7 +12,7 @@ using namespace taut;
 
 io::volume_file read_su2(const std::string& text)
 {
-    return io::parse_volume(text, io::volume_format::su2, "a.su2");
+    return io::impl::parse_volume(text, io::volume_format::su2, "a.su2");
 }
 
 TEST_CASE("SU2: markers are groups by their names")
@@ -66,7 +66,7 @@ TEST_CASE("SU2: one zone of several is read, in any order, with its own markers"
                              zone_text(2, 20, true, "rim") + "FFD_NBOX= 1\nFFD_TAG= BOX\n1.0 2.0\n";
     for (int zone = 1; zone <= 3; ++zone)
     {
-        const auto file = io::parse_volume(text, io::volume_format::su2, "a.su2", zone);
+        const auto file = io::impl::parse_volume(text, io::volume_format::su2, "a.su2", zone);
         REQUIRE(file.points.size() == 4);
         CHECK(file.points[0] == vec3(10 * zone, 0, 0));
         REQUIRE(file.groups.size() == 1);
@@ -76,7 +76,7 @@ TEST_CASE("SU2: one zone of several is read, in any order, with its own markers"
     }
     const auto refuses = [](const std::string& bytes, int zone, const char* message)
     {
-        CHECK_THROWS_WITH_AS(io::parse_volume(bytes, io::volume_format::su2, "a.su2", zone), doctest::Contains(message),
+        CHECK_THROWS_WITH_AS(io::impl::parse_volume(bytes, io::volume_format::su2, "a.su2", zone), doctest::Contains(message),
                              io::io_error);
     };
     refuses(text, 0, "3 zones; say which one is meant: --zone N, from 1 to 3");
@@ -88,9 +88,9 @@ TEST_CASE("SU2: one zone of several is read, in any order, with its own markers"
     refuses("NZONE= 2\nIZONE= 1\nNDIME= 2\nNPOIN= 9\n0 0\n1 0\n" + zone_text(2, 0, true, "a"), 1, "a number");
     refuses("NZONE= 2\nIZONE= 1\nNDIME= 2\nNPOIN= 1\n0 0\nMARKER_TAG= a\nIZONE= 2\nMARKER_ELEMS= 0\n", 1,
             "no MARKER_ELEMS=");
-    const auto single = io::parse_volume("NZONE= 1\n" + zone_text(1, 5, true, "a"), io::volume_format::su2, "a", 1);
+    const auto single = io::impl::parse_volume("NZONE= 1\n" + zone_text(1, 5, true, "a"), io::volume_format::su2, "a", 1);
     CHECK(single.points[0].x == 5);
-    CHECK_THROWS_AS(io::parse_volume("1 2", io::volume_format::problem, "a.prob", 1), io::io_error);
+    CHECK_THROWS_AS(io::impl::parse_volume("1 2", io::volume_format::problem, "a.prob", 1), io::io_error);
 }
 
 TEST_CASE("SU2: a marker may say with which part of a partition it exchanges")

@@ -6,14 +6,15 @@
 #include <doctest/doctest.h>
 
 #include <support/volume_texts.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/write_volume.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using io::volume_format;
 
 std::vector<long long> label_of_cells(const io::volume_file& file, const char* name)
@@ -33,7 +34,7 @@ std::size_t count_of(const io::volume_file& file, io::cell_kind kind)
 /// Splits the edge that all three cells of the small volume share.
 void check_split(const std::string& bytes, volume_format format, const char* label)
 {
-    const auto file = io::parse_volume(bytes, format);
+    const auto file = io::impl::parse_volume(bytes, format);
     subdivision how(static_cast<taut::idx>(file.points.size()));
     how.split({0, 1});
     const auto split = io::subdivided(file, how);
@@ -56,7 +57,7 @@ void check_split(const std::string& bytes, volume_format format, const char* lab
     // What it is written as is what it says, with other coordinates, too.
     auto moved = split.points;
     moved.back().z += 0.25;
-    const auto again = io::parse_volume(io::with_points(split, moved), format);
+    const auto again = io::impl::parse_volume(io::impl::with_points(split, moved), format);
     CHECK(again.points == moved);
     CHECK(label_of_cells(again, label) == twice);
 }
@@ -83,7 +84,7 @@ TEST_CASE("subdivided: cells are split in every format that is written anew, wit
 TEST_CASE("subdivided: a problem keeps who is fixed, and its rest shape is split alike")
 {
     const auto file =
-        io::parse_volume("4 3\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 4\n0 1 2 3\n"
+        io::impl::parse_volume("4 3\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 4\n0 1 2 3\n"
                          "2\n1\n3\n",
                          volume_format::problem);
     subdivision how(4);
@@ -98,7 +99,7 @@ TEST_CASE("subdivided: a problem keeps who is fixed, and its rest shape is split
 TEST_CASE("subdivided: a new point has the reference that all corners of what it splits have")
 {
     const auto file =
-        io::parse_volume("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 5\n1 0 0 5\n0 1 0 6\n0 0 1 0\n"
+        io::impl::parse_volume("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 5\n1 0 0 5\n0 1 0 6\n0 0 1 0\n"
                          "Corners\n1\n3\nTetrahedra\n1\n1 2 3 4 9\nEnd\n",
                          volume_format::medit);
     subdivision how(4);
@@ -113,10 +114,10 @@ TEST_CASE("subdivided: a new point has the reference that all corners of what it
 
 TEST_CASE("subdivided: formats that are not written anew, and cells that are no simplices, are refused")
 {
-    const auto mixed = io::parse_volume(test::medit_text(test::small_volume(true)), volume_format::medit);
+    const auto mixed = io::impl::parse_volume(test::medit_text(test::small_volume(true)), volume_format::medit);
     CHECK_THROWS_WITH_AS(io::subdivided(mixed, subdivision(static_cast<taut::idx>(mixed.points.size()))),
                          doctest::Contains("triangulate"), io::io_error);
-    const auto nodes = io::parse_tetgen("4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", "1 4 0\n0 0 1 2 3\n");
+    const auto nodes = io::impl::parse_tetgen("4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", "1 4 0\n0 0 1 2 3\n");
     CHECK_THROWS_WITH_AS(io::subdivided(nodes, subdivision(4)), doctest::Contains("convert"), io::io_error);
     CHECK_THROWS_AS(io::subdivided(nodes, subdivision(3)), parameter_error);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/write_volume.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/volume_promises.hpp"
@@ -21,7 +21,7 @@ TEST_CASE("TetGen: nodes, elements and faces, counted from any number; markers a
     {
         const std::string elements = test::tetgen_cells(s, cell_kind::tetrahedron, first);
         const auto read = [&](const std::string& nodes)
-        { return io::parse_tetgen(nodes, elements, test::tetgen_cells(s, cell_kind::triangle, first)); };
+        { return io::impl::parse_tetgen(nodes, elements, test::tetgen_cells(s, cell_kind::triangle, first)); };
         const auto file = read(test::tetgen_nodes(s, first));
         CHECK(file.points == s.points);
         CHECK(io::tetrahedra_of(file).cells()[1] == std::array<idx, 4>{0, 2, 1, 4});
@@ -35,19 +35,19 @@ TEST_CASE("TetGen: nodes, elements and faces, counted from any number; markers a
 TEST_CASE("TetGen: boundary markers may be written with a point")
 {
     const std::string nodes = "4 3 0 1\n0 0 0 0 0.0\n1 1 0 0 2.0\n2 0 1 0 2.0\n3 0 0 1 -1.0\n";
-    const auto file = io::parse_tetgen(nodes, "1 4 0\n0 0 1 2 3\n", "1 1\n0 0 2 1 7.0\n");
+    const auto file = io::impl::parse_tetgen(nodes, "1 4 0\n0 0 1 2 3\n", "1 1\n0 0 2 1 7.0\n");
     CHECK(file.find_group("points:2").vertices == std::vector<idx>{1, 2});
     CHECK(file.find_group("faces:7").vertices == std::vector<idx>{0, 1, 2});
-    CHECK_THROWS_WITH_AS(io::parse_tetgen("1 3 0 1\n0 0 0 0 0.5\n", "0 4 0\n"),
+    CHECK_THROWS_WITH_AS(io::impl::parse_tetgen("1 3 0 1\n0 0 0 0 0.5\n", "0 4 0\n"),
                          doctest::Contains("a boundary marker that is no whole number"), io::io_error);
 }
 
 TEST_CASE("TetGen: two dimensions are triangles, as Triangle writes them")
 {
-    const auto file = io::parse_tetgen("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n", "2 3 0\n1 1 2 3\n2 1 3 4\n");
+    const auto file = io::impl::parse_tetgen("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n", "2 3 0\n1 1 2 3\n2 1 3 4\n");
     CHECK(file.dimension == 2);
     CHECK(io::triangles_of(file).cell_count() == 2);
-    CHECK(io::with_points(file, std::vector<vec3>{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {0, 1, 0}}) ==
+    CHECK(io::impl::with_points(file, std::vector<vec3>{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {0, 1, 0}}) ==
           "4 2 0 0\n1 0 0\n2 2 0\n3 1 1\n4 0 1\n");
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("TetGen: errors name the file and the line")
     const auto s = test::small_volume(false);
     const std::string nodes = test::tetgen_nodes(s);
     const auto refuses = [](const std::string& points, const std::string& elements, const char* message) {
-        CHECK_THROWS_WITH_AS(io::parse_tetgen(points, elements, {}, "a.node"), doctest::Contains(message),
+        CHECK_THROWS_WITH_AS(io::impl::parse_tetgen(points, elements, {}, "a.node"), doctest::Contains(message),
                              io::io_error);
     };
     refuses("4 5 0 0\n", "0 4 0\n", "a.node, line 1: dimension 5; it must be 2 or 3");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_volume.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_volume.hpp>
 
 #include "support/volume_texts.hpp"
 
@@ -24,7 +24,7 @@ TEST_CASE("VTK, VTU: integers of points and cells are groups by value")
                                             std::pair(volume_format::vtk, test::vtk_text(s, {text}, 5)),
                                             std::pair(volume_format::vtu, test::vtu_text(s, {text}))})
         {
-            const auto file = io::parse_volume(bytes, format);
+            const auto file = io::impl::parse_volume(bytes, format);
             CHECK(file.find_group("part:7").vertices == std::vector<idx>{0, 1, 2});
             CHECK(file.find_group("part:7").dimension == 2);
             CHECK(file.find_group("part:2").vertices == std::vector<idx>{0, 1, 2, 4});
@@ -36,7 +36,7 @@ TEST_CASE("VTK, VTU: integers of points and cells are groups by value")
     // By the names of types of a fixed width, as VTK 5.1 files have them.
     const auto wide = test::vtk_text(s, {}, 5);
     for (const auto& [name, fixed] : {std::pair("part int", "part vtktypeint32"), {"part int", "part vtktypeuint32"}})
-        CHECK(io::parse_volume(exchange(wide, name, fixed), volume_format::vtk).find_group("part:7").vertices.size() ==
+        CHECK(io::impl::parse_volume(exchange(wide, name, fixed), volume_format::vtk).find_group("part:7").vertices.size() ==
               3);
 }
 
@@ -44,7 +44,7 @@ TEST_CASE("VTK: attributes that are not known, or number things, make no groups,
 {
     const auto s = test::small_volume(false);
     const std::string text = test::vtk_text(s, {}, 3);
-    const auto file = io::parse_volume(exchange(text, "VECTORS push float", "SPECIAL push float"), volume_format::vtk);
+    const auto file = io::impl::parse_volume(exchange(text, "VECTORS push float", "SPECIAL push float"), volume_format::vtk);
     REQUIRE(file.notes.size() == 1);
     CHECK(file.notes[0].find("'SPECIAL'") != std::string::npos);
     CHECK(file.find_group("part:1").vertices.size() == 4);
@@ -55,7 +55,7 @@ TEST_CASE("VTK: attributes that are not known, or number things, make no groups,
         many.points.emplace_back(v, 0, 0);
         many.cells.push_back({io::cell_kind::vertex, {v}, v});
     }
-    const auto numbered = io::parse_volume(test::vtk_text(many, {}, 3), volume_format::vtk);
+    const auto numbered = io::impl::parse_volume(test::vtk_text(many, {}, 3), volume_format::vtk);
     CHECK(numbered.groups.size() == 2); // side:0, side:1
     REQUIRE(numbered.notes.size() == 1);
     CHECK(numbered.notes[0].find("'part' has more than 256 different values") != std::string::npos);
@@ -75,7 +75,7 @@ TEST_CASE("VTK: lookup tables, scalars without a table and metadata within field
     text = exchange(text, "side 1 5 int\n",
                     "first 1 1 float\n3\nMETADATA\nINFORMATION 1\nNAME L2 LOCATION x\nDATA 2 0 1\n\nside 1 5 int\n");
     text = exchange(text, "FIELD FieldData 1\nfirst", "FIELD FieldData 2\nfirst");
-    const auto file = io::parse_volume(text, volume_format::vtk);
+    const auto file = io::impl::parse_volume(text, volume_format::vtk);
     CHECK(file.notes.empty());
     CHECK(file.find_group("part:1").vertices.size() == 4);
     CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
@@ -97,7 +97,7 @@ TEST_CASE("VTK: strings, variants and bits are passed over, before points and be
         bytes = exchange(bytes, "SCALARS part int",
                          "SCALARS on bit 1\nLOOKUP_TABLE default\n" + std::string(text ? "1 0 1\n" : "\xa0\n") +
                              "SCALARS part int");
-        const auto file = io::parse_volume(bytes, volume_format::vtk);
+        const auto file = io::impl::parse_volume(bytes, volume_format::vtk);
         CHECK(file.points.size() == s.points.size());
         CHECK(file.notes.empty());
         CHECK(file.find_group("part:7").vertices == std::vector<idx>{0, 1, 2});
@@ -113,7 +113,7 @@ TEST_CASE("VTU: bits and strings make no groups")
                                         "<DataArray type=\"String\" Name='s' format='ascii'>65 0</DataArray>"})
         {
             const auto file =
-                io::parse_volume(exchange(test::vtu_text(s, {text}), "<PointData>", "<PointData>" + std::string(array)),
+                io::impl::parse_volume(exchange(test::vtu_text(s, {text}), "<PointData>", "<PointData>" + std::string(array)),
                                  volume_format::vtu);
             CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
         }
@@ -124,7 +124,7 @@ TEST_CASE("VTK: voxels and pixels are hexahedra and quads, whose corners run aro
     const std::string text = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
                              "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\nCELLS 2 14\n"
                              "8 0 1 2 3 4 5 6 7\n4 0 1 2 3\nCELL_TYPES 2\n11\n8\n";
-    const auto file = io::parse_volume(text, volume_format::vtk);
+    const auto file = io::impl::parse_volume(text, volume_format::vtk);
     REQUIRE(file.cells.size() == 2);
     CHECK(file.cells[0].kind == io::cell_kind::hexahedron);
     CHECK(file.cells[0].corners == std::vector<idx>{0, 1, 3, 2, 4, 5, 7, 6});
@@ -144,7 +144,7 @@ TEST_CASE("VTU: arrays that share their bytes make no more of a file than these"
     const auto begin = raw.find("<DataArray type='Int32' Name=\"side\""), end = raw.find("/>", begin) + 2;
     std::string same;
     for (int k = 0; k < 2000; ++k) same += raw.substr(begin, end - begin);
-    const auto file = io::parse_volume(exchange(raw, "<PointData>", "<PointData>" + same), volume_format::vtu);
+    const auto file = io::impl::parse_volume(exchange(raw, "<PointData>", "<PointData>" + same), volume_format::vtu);
     std::size_t values = 0;
     for (const auto& label : file.labels) values += label.values.size();
     CHECK(values < file.bytes.size());
@@ -157,7 +157,7 @@ TEST_CASE("VTK: errors tell the line")
     const std::string text = test::vtk_text(test::small_volume(false), {}, 3);
     const auto refuses = [](const std::string& bytes, const char* message)
     {
-        CHECK_THROWS_WITH_AS(io::parse_volume(bytes, volume_format::vtk, "a.vtk"), doctest::Contains(message),
+        CHECK_THROWS_WITH_AS(io::impl::parse_volume(bytes, volume_format::vtk, "a.vtk"), doctest::Contains(message),
                              io::io_error);
     };
     refuses("solid", "line 1: not a VTK file");
@@ -185,7 +185,7 @@ TEST_CASE("VTU: errors tell the line and the remedy")
     const std::string text = test::vtu_text(s, {}), raw = test::vtu_text(s, {.text = false});
     const auto refuses = [](const std::string& bytes, const char* message)
     {
-        CHECK_THROWS_WITH_AS(io::parse_volume(bytes, volume_format::vtu, "a.vtu"), doctest::Contains(message),
+        CHECK_THROWS_WITH_AS(io::impl::parse_volume(bytes, volume_format::vtu, "a.vtu"), doctest::Contains(message),
                              io::io_error);
     };
     refuses("x", "there is no <VTKFile>");
@@ -211,7 +211,7 @@ TEST_CASE("VTU: errors tell the line and the remedy")
 
     // What is wrong with an attribute alone costs its groups.
     const auto file =
-        io::parse_volume(exchange(text, "format=\"ascii\">0 1 0 1 0<", "format=\"zip\">AAAA<"), volume_format::vtu);
+        io::impl::parse_volume(exchange(text, "format=\"ascii\">0 1 0 1 0<", "format=\"zip\">AAAA<"), volume_format::vtu);
     REQUIRE(file.notes.size() == 1);
     CHECK(file.notes[0].find("no groups were made of 'side': format 'zip'") != std::string::npos);
 }

@@ -12,12 +12,12 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/io/detail/plain_file.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/read_file.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/write_files.hpp>
-#include <taut/io/write_obj.hpp>
+#include <taut/impl/io/detail/plain_file.hpp>
+#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_file.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/io/write_obj.hpp>
 
 using namespace taut;
 using test::temporary_folder;
@@ -27,15 +27,15 @@ namespace
 {
 
 /// As systems do it that have no files without a name.
-struct named_file : io::detail::posix_file
+struct named_file : io::impl::posix_file
 {
-    explicit named_file(const io::detail::file_target& target) : posix_file(target, false) {}
+    explicit named_file(const io::impl::file_target& target) : posix_file(target, false) {}
 };
 
 template <class File>
 void write_with(const fs::path& path, const std::string& text)
 {
-    File file(io::detail::resolve_target(path));
+    File file(io::impl::resolve_target(path));
     file.write(text);
     file.finish();
     file.link();
@@ -57,7 +57,7 @@ fs::path hidden_in(const fs::path& folder)
 
 } // namespace
 
-#define EVERY_FILE io::detail::posix_file, named_file, io::detail::plain_file
+#define EVERY_FILE io::impl::posix_file, named_file, io::impl::plain_file
 
 TEST_CASE_TEMPLATE("written files: nothing is there before the end, and nothing is left without it", File, EVERY_FILE)
 {
@@ -65,7 +65,7 @@ TEST_CASE_TEMPLATE("written files: nothing is there before the end, and nothing 
     folder.write(folder / "old.txt", "old and long");
     for (const char* name : {"new.txt", "old.txt"})
     {
-        File file(io::detail::resolve_target(folder / name));
+        File file(io::impl::resolve_target(folder / name));
         file.write("half");
         CHECK_FALSE(fs::exists(folder / "new.txt"));
         file.finish();
@@ -133,7 +133,7 @@ TEST_CASE_TEMPLATE("written files: a pipe stays a pipe and gets the text", File,
     const auto pipe = folder / "pipe";
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     std::string got;
-    std::thread reader([&] { got = io::read_file(pipe); });
+    std::thread reader([&] { got = io::impl::read_file(pipe); });
     write_with<File>(pipe, "text");
     reader.join();
     CHECK(got == "text");
@@ -158,7 +158,7 @@ TEST_CASE_TEMPLATE("written files: what cannot be written is an error with the r
 TEST_CASE("written files: a file without a name is not to be seen while it is written")
 {
     const temporary_folder folder;
-    io::detail::posix_file file(io::detail::resolve_target(folder / "a"));
+    io::impl::posix_file file(io::impl::resolve_target(folder / "a"));
     file.write("text");
     if (folder.entries() != 0) MESSAGE("this file system has no files without a name");
     CHECK(folder.entries() <= 1);
@@ -172,7 +172,7 @@ TEST_CASE("written files: a temporary name cannot be guessed, is the user's own 
     folder.write(folder / "victim", "precious");
     fs::path first;
     {
-        named_file file(io::detail::resolve_target(folder / "secret"));
+        named_file file(io::impl::resolve_target(folder / "secret"));
         first = hidden_in(folder / "");
         REQUIRE_FALSE(first.empty());
         CHECK(mode_of(first) == 0600);
@@ -182,7 +182,7 @@ TEST_CASE("written files: a temporary name cannot be guessed, is the user's own 
         file.write("text");
     }
     CHECK(folder.read(folder / "victim") == "precious");
-    named_file file(io::detail::resolve_target(folder / "secret"));
+    named_file file(io::impl::resolve_target(folder / "secret"));
     const auto second = hidden_in(folder / "");
     CHECK(second != first);
     CHECK(second.filename().string().size() >= 16);
@@ -194,30 +194,30 @@ TEST_CASE("written files: remove_temporaries() removes what is unfinished and ha
     folder.write(folder / "a", "old");
     write_with<named_file>(folder / "done", "text");
     {
-        named_file unfinished(io::detail::resolve_target(folder / "a"));
-        io::detail::posix_file finished(io::detail::resolve_target(folder / "b"));
+        named_file unfinished(io::impl::resolve_target(folder / "a"));
+        io::impl::posix_file finished(io::impl::resolve_target(folder / "b"));
         finished.finish();
         finished.link();
         CHECK(folder.entries() == 4);
-        io::remove_temporaries();
+        io::impl::remove_temporaries();
         CHECK(folder.entries() == 2);
         CHECK_THROWS_AS(finished.rename(), io::io_error);
 
         // No other file gets a hidden name that nobody would remove.
-        io::detail::posix_file late(io::detail::resolve_target(folder / "late"));
+        io::impl::posix_file late(io::impl::resolve_target(folder / "late"));
         late.finish();
         CHECK_THROWS_AS(late.link(), io::io_error);
         CHECK(folder.entries() == 2);
     }
-    io::remove_temporaries();
-    io::detail::naming_is_over = false; // this program goes on
+    io::impl::remove_temporaries();
+    io::impl::naming_is_over = false; // this program goes on
     CHECK(folder.read(folder / "a") == "old");
     CHECK(folder.read(folder / "done") == "text");
 
     // More at once than can be noted is no error.
     std::vector<std::unique_ptr<named_file>> many;
     for (int k = 0; k < 100; ++k)
-        many.push_back(std::make_unique<named_file>(io::detail::resolve_target(folder / std::to_string(k))));
+        many.push_back(std::make_unique<named_file>(io::impl::resolve_target(folder / std::to_string(k))));
     CHECK(folder.entries() == 102);
     many.clear();
     CHECK(folder.entries() == 2);
@@ -227,19 +227,19 @@ TEST_CASE("written files: an open file is written where it stands, not replaced"
 {
     const temporary_folder folder;
     const auto path = folder / "log";
-    const io::detail::descriptor open(::open(path.c_str(), O_CREAT | O_RDWR, 0600));
+    const io::impl::descriptor open(::open(path.c_str(), O_CREAT | O_RDWR, 0600));
     REQUIRE(::write(*open, "before ", 7) == 7);
     const std::string name = "/dev/fd/" + std::to_string(*open);
-    CHECK(io::is_stream(name));
+    CHECK(io::impl::is_stream(name));
     io::write_file(name, "after");
     fs::create_symlink(name, folder / "link");
     io::write_file(folder / "link", ", twice");
     CHECK(folder.read(path) == "before after, twice");
     CHECK(fs::is_symlink(folder / "link"));
     CHECK(::lseek(*open, 7, SEEK_SET) == 7);
-    CHECK(io::read_file(name) == "after, twice");
+    CHECK(io::impl::read_file(name) == "after, twice");
     CHECK_THROWS_AS(io::write_file("/dev/fd/9999", "text"), io::io_error);
-    CHECK_THROWS_AS(io::read_file("/dev/fd/9999"), io::io_error);
+    CHECK_THROWS_AS(io::impl::read_file("/dev/fd/9999"), io::io_error);
 }
 
 TEST_CASE("require_writable: says before the work what would be said after it, and changes nothing")
@@ -247,11 +247,11 @@ TEST_CASE("require_writable: says before the work what would be said after it, a
     const temporary_folder folder;
     folder.write(folder / "old", "old");
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
-    for (const char* name : {"old", "new", "pipe"}) CHECK_NOTHROW(io::require_writable(folder / name));
-    CHECK_NOTHROW(io::require_writable("/dev/null"));
-    CHECK_THROWS_AS(io::require_writable(folder / "missing" / "a"), io::io_error);
-    CHECK_THROWS_AS(io::require_writable(folder / ""), io::io_error);
-    CHECK_THROWS_AS(io::require_writable("/dev/fd/9999"), io::io_error);
+    for (const char* name : {"old", "new", "pipe"}) CHECK_NOTHROW(io::impl::require_writable(folder / name));
+    CHECK_NOTHROW(io::impl::require_writable("/dev/null"));
+    CHECK_THROWS_AS(io::impl::require_writable(folder / "missing" / "a"), io::io_error);
+    CHECK_THROWS_AS(io::impl::require_writable(folder / ""), io::io_error);
+    CHECK_THROWS_AS(io::impl::require_writable("/dev/fd/9999"), io::io_error);
     CHECK(folder.read(folder / "old") == "old");
     CHECK(folder.entries() == 2);
 
@@ -261,7 +261,7 @@ TEST_CASE("require_writable: says before the work what would be said after it, a
     fs::permissions(folder / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
     for (const char* name : {"old", "sealed/new"})
     {
-        CHECK_THROWS_WITH_AS(io::require_writable(folder / name), doctest::Contains("Permission denied"), io::io_error);
+        CHECK_THROWS_WITH_AS(io::impl::require_writable(folder / name), doctest::Contains("Permission denied"), io::io_error);
         CHECK_THROWS_WITH_AS(io::write_file(folder / name, ""), doctest::Contains("Permission denied"), io::io_error);
     }
     CHECK(folder.read(folder / "old") == "old");
@@ -336,10 +336,10 @@ TEST_CASE("write_moved: of OBJ all but coordinates stays, and what they were joi
 
 TEST_CASE("read_file: what has no end is an error")
 {
-    CHECK_THROWS_WITH_AS(io::read_file("/dev/zero", 3 << 20), doctest::Contains("more than 3 MiB"), io::io_error);
+    CHECK_THROWS_WITH_AS(io::impl::read_file("/dev/zero", 3 << 20), doctest::Contains("more than 3 MiB"), io::io_error);
     const temporary_folder folder;
     folder.write(folder / "a", "123456789");
-    CHECK(io::read_file(folder / "a", 9) == "123456789");
-    CHECK_THROWS_AS(io::read_file(folder / "a", 8), io::io_error);
-    CHECK(io::most_bytes_to_read() > 1 << 20);
+    CHECK(io::impl::read_file(folder / "a", 9) == "123456789");
+    CHECK_THROWS_AS(io::impl::read_file(folder / "a", 8), io::io_error);
+    CHECK(io::impl::most_bytes_to_read() > 1 << 20);
 }

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/measure/quality.hpp>
+#include <taut/impl/measure/quality.hpp>
 
 #include "support/meshes.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/measure/rigid_motion.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
 
 using namespace taut;
 

@@ -6,10 +6,11 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/measure/shape_quality.hpp>
-#include <taut/mesh/ideal.hpp>
+#include <taut/impl/measure/shape_quality.hpp>
+#include <taut/impl/mesh/ideal.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 TEST_CASE("shape quality: a regular element has 1, whatever its size and place, and known angles")
 {

@@ -5,9 +5,10 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/measure/similarity.hpp>
+#include <taut/impl/measure/similarity.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 TEST_CASE("similarity: one that moved the anchors is found again")
 {

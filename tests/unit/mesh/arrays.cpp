@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/exact/certify.hpp>
-#include <taut/mesh/arrays.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/mesh/arrays.hpp>
 
 using namespace taut;
 

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 namespace
 {

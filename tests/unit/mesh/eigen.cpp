@@ -8,6 +8,7 @@
 #include <taut/eigen.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

@@ -6,12 +6,13 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/mesh/facets.hpp>
+#include <taut/impl/mesh/facets.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// Compares the table with a std::map from sorted facets to sides.

@@ -7,9 +7,10 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/mesh/first_flip.hpp>
+#include <taut/impl/mesh/first_flip.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

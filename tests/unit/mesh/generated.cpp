@@ -2,9 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/mesh/incidence.hpp>
+#include <taut/impl/mesh/incidence.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 TEST_CASE("generated meshes: planar ones are counter-clockwise")

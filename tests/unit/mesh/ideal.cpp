@@ -5,8 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/core/linalg.hpp>
-#include <taut/mesh/ideal.hpp>
+#include <taut/impl/core/linalg.hpp>
+#include <taut/impl/mesh/ideal.hpp>
 
 // Small numbers are compared as ratios: doctest's Approx is absolute below 1.
 namespace

@@ -7,13 +7,14 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/mesh/incidence.hpp>
-#include <taut/mesh/order.hpp>
+#include <taut/impl/mesh/incidence.hpp>
+#include <taut/impl/mesh/order.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// The mesh with its vertices and cells in random order.
@@ -79,7 +80,7 @@ TEST_CASE("order: the Morton code interleaves all 21 bits of the coordinates")
         std::uint64_t expected = 0;
         for (int b = 20; b >= 0; --b)
             for (const auto c : x) expected = expected << 1 | (c >> b & 1u);
-        CHECK(detail::morton(vec3(x[0], x[1], x[2])) == expected);
+        CHECK(impl::morton(vec3(x[0], x[1], x[2])) == expected);
     }
 }
 

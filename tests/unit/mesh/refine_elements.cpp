@@ -8,11 +8,12 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/mesh/boundary.hpp>
-#include <taut/mesh/refine_elements.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/mesh/refine_elements.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

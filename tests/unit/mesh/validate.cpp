@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace
 {

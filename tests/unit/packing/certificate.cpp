@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/chart_sets.hpp>
-#include <taut/packing/certificate.hpp>
+#include <taut/impl/packing/certificate.hpp>
 
 namespace
 {
@@ -103,7 +103,7 @@ TEST_CASE("packing certificate: the gap is that of the nearest points, by all pa
                 { return size * taut::vec2(axis.x * p.x - axis.y * p.y, axis.y * p.x + axis.x * p.y) + shift; });
         }
         // Borders by many points.
-        const auto o = taut::detail::find_outlines(s.uv, s.cells, s.first_cell, s.first_vertex);
+        const auto o = taut::impl::find_outlines(s.uv, s.cells, s.first_cell, s.first_vertex);
         std::vector<std::pair<taut::vec2, int>> points;
         for (int c = 0; c < 8; ++c)
             for (auto e = o.first[static_cast<std::size_t>(c)]; e < o.first[static_cast<std::size_t>(c) + 1]; ++e)

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/chart_sets.hpp>
-#include <taut/packing/chart_overlaps.hpp>
+#include <taut/impl/packing/chart_overlaps.hpp>
 
 namespace
 {
@@ -115,7 +115,7 @@ TEST_CASE("chart overlaps: agree with all pairs of triangles on random charts, m
                 bool meet = false;
                 for (idx t = s.first_cell[a]; t < s.first_cell[a + 1]; ++t)
                     for (idx o = s.first_cell[b]; o < s.first_cell[b + 1]; ++o)
-                        meet = meet || taut::detail::interiors_meet(corners(t), corners(o));
+                        meet = meet || taut::impl::interiors_meet(corners(t), corners(o));
                 expected += meet;
             }
         CHECK(overlaps_of(s).pairs == expected);

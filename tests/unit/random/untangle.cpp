@@ -9,13 +9,14 @@
 
 #include <support/size.hpp>
 #include <support/untangle_checks.hpp>
-#include <taut/start/barycentric_map.hpp>
-#include <taut/untangle/untangle_host.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/untangle/untangle_host.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 
 /// Small disks of random connectivity and shape: a triangle that grew ears, filled notches and split triangles.

@@ -8,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/mesh/validate.hpp>
-#include <taut/repair/repair_surface.hpp>
+#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/repair/repair_surface.hpp>
 
 namespace
 {

@@ -15,13 +15,14 @@
 
 #include <support/extreme_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/mesh/validate.hpp>
-#include <taut/repair/repair_surface.hpp>
+#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/repair/repair_surface.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using taut::idx;
 using ids = std::vector<idx>;
 
@@ -106,7 +107,7 @@ bool closed(const mesh<triangle>& m)
 
 std::size_t parts(const mesh<triangle>& m)
 {
-    return detail::components(m).first.size();
+    return impl::components(m).first.size();
 }
 
 void turn(std::array<idx, 3>& t)

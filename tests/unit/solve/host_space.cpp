@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/solve/host_space.hpp>
+#include <taut/impl/solve/host_space.hpp>
 
 #include <array>
 #include <limits>

@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/solve/line/backtracking.hpp>
-#include <taut/solve/line/bracket.hpp>
-#include <taut/solve/line/hybrid.hpp>
-#include <taut/solve/line/strong_wolfe.hpp>
+#include <taut/impl/solve/line/backtracking.hpp>
+#include <taut/impl/solve/line/bracket.hpp>
+#include <taut/impl/solve/line/hybrid.hpp>
+#include <taut/impl/solve/line/strong_wolfe.hpp>
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "functions.hpp"
 
-#include <taut/solve/newton.hpp>
+#include <taut/impl/solve/newton.hpp>
 
 #include <doctest/doctest.h>
 

@@ -5,8 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/solve/host_objective.hpp>
-#include <taut/solve/prescribed.hpp>
+#include <taut/impl/solve/host_objective.hpp>
+#include <taut/impl/solve/prescribed.hpp>
 
 using namespace taut::solve;
 

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/solve/report.hpp>
+#include <taut/impl/solve/report.hpp>
 
 using namespace taut::solve;
 

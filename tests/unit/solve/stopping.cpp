@@ -112,7 +112,7 @@ TEST_CASE("stopping: an exception of the observer passes through and leaves the 
 
 TEST_CASE("stopping: the time limit ends the run in the middle of a line search")
 {
-    using clock = taut::budget::clock;
+    using clock = taut::impl::budget::clock;
     constexpr auto limit = std::chrono::milliseconds(20);
     int calls = 0, late = 0;
     clock::time_point first;

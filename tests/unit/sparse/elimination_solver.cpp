@@ -6,13 +6,13 @@
 #include <doctest/doctest.h>
 
 #include "support/meshes.hpp"
-#include <taut/start/barycentric_map.hpp>
-#include <taut/start/make_barycentric_system.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/start/make_barycentric_system.hpp>
 
 namespace
 {
 
-using taut::barycentric_system;
+using taut::impl::barycentric_system;
 using taut::barycentric_weights;
 using taut::vec2;
 
@@ -50,7 +50,7 @@ TEST_CASE("elimination: a path of springs is solved to full relative accuracy wh
     // Position k is the share of compliance to its left. Stiffness over 60 decades: condition number about 1e60.
     std::vector<double> weight;
     for (int k = 0; k < 61; ++k) weight.push_back(std::pow(10.0, (k * 37) % 61 - 30));
-    const auto x = taut::elimination_solver{}(path(weight));
+    const auto x = taut::impl::elimination_solver{}(path(weight));
     double total = 0;
     for (const double w : weight) total += 1 / w;
     double left = 0;
@@ -64,7 +64,7 @@ TEST_CASE("elimination: a path of springs is solved to full relative accuracy wh
 
 TEST_CASE("elimination: one solver takes systems with the same pattern and with others in turn")
 {
-    taut::elimination_solver solver;
+    taut::impl::elimination_solver solver;
     const auto first = solver(path({1, 1, 1}));
     CHECK(first[0].x == doctest::Approx(1.0 / 3));
     CHECK(solver(path({1, 2, 1}))[0].x == doctest::Approx(0.4));
@@ -74,14 +74,14 @@ TEST_CASE("elimination: one solver takes systems with the same pattern and with 
 
 TEST_CASE("elimination: no unknowns, no solution")
 {
-    CHECK(taut::elimination_solver{}(barycentric_system{}).empty());
+    CHECK(taut::impl::elimination_solver{}(barycentric_system{}).empty());
 }
 
 TEST_CASE("elimination: unknowns that hang on nothing are an error")
 {
     auto system = path({1, 1, 1});
     for (auto& e : system.excess) e = 0;
-    CHECK_THROWS_AS(taut::elimination_solver{}(system), taut::error);
+    CHECK_THROWS_AS(taut::impl::elimination_solver{}(system), taut::error);
 }
 
 TEST_CASE("elimination tree: every variable is eliminated once, children come first, borders are eliminated later")
@@ -89,8 +89,8 @@ TEST_CASE("elimination tree: every variable is eliminated once, children come fi
     const auto m = taut::test::bumpy(15, 0.3, 4);
     const std::vector<char> fixed(m.points().size(), 0);
     const std::vector<vec2> x(m.points().size());
-    const auto system = taut::make_barycentric_system(m.points(), m.cells(), fixed, x, barycentric_weights::uniform);
-    const taut::detail::elimination_tree tree(system.offset, system.column);
+    const auto system = taut::impl::make_barycentric_system(m.points(), m.cells(), fixed, x, barycentric_weights::uniform);
+    const taut::impl::elimination_tree tree(system.offset, system.column);
     std::vector<int> front_of(system.size(), -1);
     int f = 0;
     for (const auto& front : tree.fronts())
@@ -137,7 +137,7 @@ TEST_CASE("barycentric system: rows carry positive weights and the excess toward
     for (const auto v : loop) fixed[static_cast<std::size_t>(v)] = 1;
     for (const auto weights : {barycentric_weights::uniform, barycentric_weights::mean_value})
     {
-        const auto system = taut::make_barycentric_system(m.points(), m.cells(), fixed, x, weights);
+        const auto system = taut::impl::make_barycentric_system(m.points(), m.cells(), fixed, x, weights);
         REQUIRE(system.size() == 9);
         for (std::size_t i = 0; i < 9; ++i)
         {
@@ -165,7 +165,7 @@ TEST_CASE("barycentric system: a degenerate triangle has no mean value weights, 
     const std::vector<std::array<taut::idx, 3>> cells{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
     const std::vector<char> fixed{1, 1, 1, 0};
     const std::vector<vec2> x{{0, 0}, {1, 0}, {0, 1}, {0, 0}};
-    CHECK_THROWS_AS(taut::make_barycentric_system(points, cells, fixed, x, barycentric_weights::mean_value),
+    CHECK_THROWS_AS(taut::impl::make_barycentric_system(points, cells, fixed, x, barycentric_weights::mean_value),
                     taut::error);
-    CHECK(taut::make_barycentric_system(points, cells, fixed, x, barycentric_weights::uniform).excess[0] == 3);
+    CHECK(taut::impl::make_barycentric_system(points, cells, fixed, x, barycentric_weights::uniform).excess[0] == 3);
 }

@@ -6,13 +6,13 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/start/isometric_newton.hpp>
+#include <taut/impl/start/isometric_newton.hpp>
 
 namespace
 {
 
 using taut::vec2;
-using block = taut::detail::front_cholesky::block;
+using block = taut::impl::front_cholesky::block;
 
 /// J^T J with random 6 x 6 entries: positive definite.
 std::vector<block> random_blocks(std::size_t count)
@@ -56,7 +56,7 @@ TEST_CASE("front Cholesky: solves sums of triangles' matrices, with and without 
                     for (std::size_t j = 0; j < 6; ++j)
                         b[std::size_t(m.cells()[c][i / 2])][int(i % 2)] +=
                             blocks[c][i][j] * x[std::size_t(m.cells()[c][j / 2])][int(j % 2)];
-            taut::detail::front_cholesky solver(m.cells(), fixed);
+            taut::impl::front_cholesky solver(m.cells(), fixed);
             for (int again = 0; again < 2; ++again)
             {
                 solver.factorize(blocks, 0);
@@ -71,7 +71,7 @@ TEST_CASE("front Cholesky: once the caller says no, there are no factors; the ne
     const auto m = taut::test::bumpy(20);
     const std::vector<char> fixed(m.points().size(), 0);
     const auto blocks = random_blocks(m.cells().size());
-    taut::detail::front_cholesky solver(m.cells(), fixed), other(m.cells(), fixed);
+    taut::impl::front_cholesky solver(m.cells(), fixed), other(m.cells(), fixed);
     int asked = 0;
     CHECK(!solver.factorize(blocks, 0, [&] { return ++asked < 5; }));
     CHECK(asked == 5);
@@ -83,7 +83,7 @@ TEST_CASE("front Cholesky: once the caller says no, there are no factors; the ne
 
 TEST_CASE("front Cholesky: several are factorized together as each is by itself, and which are not definite is told")
 {
-    using solver = taut::detail::front_cholesky;
+    using solver = taut::impl::front_cholesky;
     const std::vector<taut::mesh<taut::triangle>> meshes{taut::test::bumpy(40), taut::test::grid(12, 9),
                                                          taut::test::fan(6, true), taut::test::single_triangle()};
     std::vector<std::vector<char>> fixed;
@@ -132,7 +132,7 @@ TEST_CASE("isometric Newton: steps go down to a map that no displacement improve
         std::vector<char> fixed(n, 0);
         if (pin) fixed[0] = fixed[n / 2] = 1;
         auto uv = x;
-        taut::detail::isometric_newton newton(m.points(), m.cells(), fixed);
+        taut::impl::isometric_newton newton(m.points(), m.cells(), fixed);
         double energy = newton.value(uv);
         REQUIRE(std::isfinite(energy));
         for (int i = 0; i < 60; ++i)
@@ -162,7 +162,7 @@ TEST_CASE("front Cholesky: says whether the sum was positive definite, on meshes
     for (const auto& m : {taut::test::single_triangle(), taut::test::grid(12, 9), taut::test::bumpy(40)})
     {
         auto blocks = random_blocks(m.cells().size());
-        taut::detail::front_cholesky solver(m.cells(), std::vector<char>(m.points().size(), 0));
+        taut::impl::front_cholesky solver(m.cells(), std::vector<char>(m.points().size(), 0));
         solver.factorize(blocks, 1e-12);
         CHECK(solver.definite());
         for (block& b : blocks)

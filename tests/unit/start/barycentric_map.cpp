@@ -6,8 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/exact/crossings.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/exact/crossings.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 #include "support/meshes.hpp"
 
@@ -61,7 +61,7 @@ void require_injective(const surface& m)
         CAPTURE(static_cast<int>(params.boundary.shape));
         CAPTURE(static_cast<int>(params.boundary.spacing));
         CAPTURE(static_cast<int>(params.weights));
-        const auto start = taut::barycentric_map(m, params);
+        const auto start = taut::impl::barycentric_map(m, params);
         REQUIRE(start.uv.size() == m.points().size());
         CHECK(start.flips.elements == m.cells().size());
         CHECK(start.flips.flipped == 0);
@@ -119,20 +119,20 @@ TEST_CASE("barycentric map: mean value weights reproduce a planar convex mesh wi
     // The unit square on a square with chord spacing is a similarity of the boundary, so of the whole map.
     const auto m = taut::test::bumpy(10, 0.0, 3);
     const auto start =
-        taut::barycentric_map(m, {{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::mean_value});
+        taut::impl::barycentric_map(m, {{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::mean_value});
     CHECK(start.distortion.measure == doctest::Approx(4).epsilon(1e-9));
     CHECK(start.distortion.uniform == doctest::Approx(4).epsilon(1e-9));
     CHECK(start.flips.min_det == doctest::Approx(1).epsilon(1e-9));
     CHECK(start.flips.max_det == doctest::Approx(1).epsilon(1e-9));
     const auto uniform =
-        taut::barycentric_map(m, {{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::uniform});
+        taut::impl::barycentric_map(m, {{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::uniform});
     CHECK(uniform.distortion.measure > 4.01);
 }
 
 TEST_CASE("barycentric map: every free vertex is the mean of its neighbours")
 {
     const auto m = taut::test::bumpy(9, 0.3, 2);
-    const auto start = taut::barycentric_map(m, {.weights = barycentric_weights::uniform});
+    const auto start = taut::impl::barycentric_map(m, {.weights = barycentric_weights::uniform});
     const auto loops = taut::boundary_loops(m);
     std::vector<char> boundary(m.points().size(), 0);
     for (const auto v : loops[0]) boundary[static_cast<std::size_t>(v)] = 1;
@@ -152,7 +152,7 @@ TEST_CASE("barycentric map: the outline goes round once, counter-clockwise, spac
 {
     const auto m = taut::test::flat_disk(6);
     const auto loop = taut::boundary_loops(m)[0];
-    const auto start = taut::barycentric_map(m, {.boundary = {.spacing = boundary_spacing::uniform}});
+    const auto start = taut::impl::barycentric_map(m, {.boundary = {.spacing = boundary_spacing::uniform}});
     const double step = 2 * std::numbers::pi / static_cast<double>(loop.size());
     for (std::size_t k = 0; k < loop.size(); ++k)
     {
@@ -165,13 +165,13 @@ TEST_CASE("barycentric map: the outline goes round once, counter-clockwise, spac
 TEST_CASE("barycentric map: a model a hundred orders of magnitude smaller or larger has the same map, scaled")
 {
     const auto m = taut::test::bumpy(6, 0.2, 1);
-    const auto one = taut::barycentric_map(m);
+    const auto one = taut::impl::barycentric_map(m);
     for (const int exponent : {-400, 400})
     {
         const double scale = std::ldexp(1.0, exponent);
         auto points = m.points();
         for (auto& p : points) p *= scale;
-        const auto other = taut::barycentric_map(surface(points, m.cells()));
+        const auto other = taut::impl::barycentric_map(surface(points, m.cells()));
         CHECK(other.flips.flipped == 0);
         CHECK(other.distortion.measure == one.distortion.measure);
         for (std::size_t v = 0; v < one.uv.size(); ++v) CHECK(other.uv[v] == one.uv[v] * scale);
@@ -183,7 +183,7 @@ TEST_CASE("barycentric map: an annulus is mapped with its hole open")
     const auto m = taut::test::annulus(24);
     for (const auto& params : all_params())
     {
-        const auto start = taut::barycentric_map(m, params);
+        const auto start = taut::impl::barycentric_map(m, params);
         CHECK(start.holes == 1);
         CHECK(start.uv.size() == m.points().size());
         CHECK(start.flips.flipped == 0);
@@ -197,7 +197,7 @@ TEST_CASE("barycentric map: surfaces that are no disk are refused with their fau
     {
         try
         {
-            taut::barycentric_map(m);
+            taut::impl::barycentric_map(m);
         }
         catch (const taut::mesh_error& e)
         {
@@ -217,12 +217,12 @@ TEST_CASE("barycentric map: a user's solver is asked, and its flaws are reported
 {
     const auto m = taut::test::grid(6, 6);
     std::size_t unknowns = 0;
-    const auto lazy = [&unknowns](const taut::barycentric_system& system)
+    const auto lazy = [&unknowns](const taut::impl::barycentric_system& system)
     {
         unknowns = system.size();
         return std::vector<vec2>(system.size(), vec2(0));
     };
-    const auto start = taut::barycentric_map(m, {}, lazy);
+    const auto start = taut::impl::barycentric_map(m, {}, lazy);
     CHECK(unknowns == 25);
     CHECK(start.flips.flipped > 0);
     CHECK_FALSE(static_cast<bool>(start.flips));
@@ -237,11 +237,11 @@ TEST_CASE("barycentric map: stretch rounds lower the distortion of a deep surfac
     for (const auto& base : all_params())
     {
         auto params = base;
-        const auto plain = taut::barycentric_map(m, params);
+        const auto plain = taut::impl::barycentric_map(m, params);
         params.stretch_rounds = 1;
-        const auto once = taut::barycentric_map(m, params);
+        const auto once = taut::impl::barycentric_map(m, params);
         params.stretch_rounds = 10;
-        const auto often = taut::barycentric_map(m, params);
+        const auto often = taut::impl::barycentric_map(m, params);
         CHECK(once.flips.flipped == 0);
         CHECK(often.flips.flipped == 0);
         CHECK(once.distortion.measure < 0.1 * plain.distortion.measure);
@@ -256,14 +256,14 @@ TEST_CASE("barycentric map: stretch rounds never return a worse map, and none wh
 {
     const auto flat = taut::test::bumpy(10, 0.0, 3);
     barycentric_params params{{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::mean_value};
-    const auto plain = taut::barycentric_map(flat, params);
+    const auto plain = taut::impl::barycentric_map(flat, params);
     params.stretch_rounds = 5;
-    const auto rounds = taut::barycentric_map(flat, params);
+    const auto rounds = taut::impl::barycentric_map(flat, params);
     CHECK(rounds.distortion.measure <= plain.distortion.measure);
     params.stretch_rounds = 21;
-    CHECK_THROWS_AS(taut::barycentric_map(flat, params), taut::parameter_error);
+    CHECK_THROWS_AS(taut::impl::barycentric_map(flat, params), taut::parameter_error);
     params.stretch_rounds = -1;
-    CHECK_THROWS_AS(taut::barycentric_map(flat, params), taut::parameter_error);
+    CHECK_THROWS_AS(taut::impl::barycentric_map(flat, params), taut::parameter_error);
 }
 
 TEST_CASE("barycentric map: stretch rounds repair what rounding folds")
@@ -278,16 +278,16 @@ TEST_CASE("barycentric map: stretch rounds repair what rounding folds")
         p.y *= 1 + 0.2 * std::sin(7 * k * k);
     }
     const surface m(points, taut::test::tube(24, 24).cells());
-    const auto plain = taut::barycentric_map(m);
+    const auto plain = taut::impl::barycentric_map(m);
     CHECK(plain.flips.flipped > 0);
     CHECK(std::isinf(plain.distortion.measure));
-    const auto rounds = taut::barycentric_map(m, {.stretch_rounds = 4});
+    const auto rounds = taut::impl::barycentric_map(m, {.stretch_rounds = 4});
     CHECK(rounds.flips.flipped == 0);
 }
 
 TEST_CASE("barycentric map: prints what it is")
 {
     std::ostringstream out;
-    out << taut::barycentric_map(taut::test::single_triangle());
+    out << taut::impl::barycentric_map(taut::test::single_triangle());
     CHECK(out.str().find("start: 0 of 1 triangles flipped, det 1") == 0);
 }

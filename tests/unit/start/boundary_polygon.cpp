@@ -4,14 +4,14 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
 #include "support/meshes.hpp"
 
 namespace
 {
 
-using taut::boundary_polygon;
+using taut::impl::boundary_polygon;
 using taut::boundary_shape;
 using taut::boundary_spacing;
 using taut::vec2;
@@ -49,7 +49,7 @@ double perimeter(const std::vector<vec2>& p)
 
 int turn(const std::vector<vec2>& p, std::size_t k)
 {
-    return taut::orient2d(p[k], p[(k + 1) % p.size()], p[(k + 2) % p.size()]);
+    return taut::impl::orient2d(p[k], p[(k + 1) % p.size()], p[(k + 2) % p.size()]);
 }
 
 } // namespace
@@ -132,7 +132,7 @@ TEST_CASE("boundary polygon: sides that cannot avoid an interior edge are bent o
     for (std::size_t k = 1; k < 16; k += 2) ears.emplace_back(k, (k + 2) % 16);
     const auto p = boundary_polygon(loop, {boundary_shape::square, boundary_spacing::uniform}, 4.0, ears);
     CHECK(area(p) == doctest::Approx(4));
-    for (const auto& [a, b] : ears) CHECK(taut::orient2d(p[a], p[(a + 1) % 16], p[b]) == 1);
+    for (const auto& [a, b] : ears) CHECK(taut::impl::orient2d(p[a], p[(a + 1) % 16], p[b]) == 1);
     for (std::size_t k = 0; k < 16; ++k) CHECK(turn(p, k) >= 0);
 }
 

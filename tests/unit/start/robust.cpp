@@ -5,24 +5,24 @@
 #include <doctest/doctest.h>
 
 #include <support/extreme_meshes.hpp>
-#include <taut/start/coarse_start.hpp>
+#include <taut/impl/start/coarse_start.hpp>
 
 namespace
 {
 
-using taut::coarse_start;
+using taut::impl::coarse_start;
 using taut::idx;
-using taut::robust_start;
+using taut::impl::robust_start;
 using taut::vec2;
 using taut::vec3;
 using surface = taut::mesh<taut::triangle>;
 
 /// Valid, at the scale of least energy, and below a bound.
-void require_good(const taut::start_map& map, const surface& m, double most)
+void require_good(const taut::impl::start_map& map, const surface& m, double most)
 {
     REQUIRE(map.uv.size() == m.points().size());
     const taut::ideal_elements<taut::triangle> ideal(m);
-    taut::start_map again;
+    taut::impl::start_map again;
     again.uv = map.uv;
     again.assess(m, ideal);
     CHECK(map.flips.flipped == 0);
@@ -122,7 +122,7 @@ TEST_CASE("robust start: a fixed boundary stays on the outline")
 {
     const auto m = taut::test::bumpy(20, 0.5);
     const auto map = robust_start(m, {.fixed_boundary = true});
-    const auto reference = taut::barycentric_map(m);
+    const auto reference = taut::impl::barycentric_map(m);
     CHECK(map.flips.flipped == 0);
     CHECK(map.distortion.measure < reference.distortion.measure);
     const auto loops = taut::boundary_loops(m);
@@ -151,7 +151,7 @@ TEST_CASE("robust start: closed surfaces and parameters out of range are refused
     CHECK_THROWS_AS(robust_start(m, {.tolerance = 2}), taut::parameter_error);
     CHECK_THROWS_AS(robust_start(m, {.enough = -1}), taut::parameter_error);
     CHECK_THROWS_AS(robust_start(m, {.iterations = -1}), taut::parameter_error);
-    const auto h = taut::make_hierarchy(m);
+    const auto h = taut::impl::make_hierarchy(m);
     CHECK_THROWS_AS(coarse_start(m, h, {.vertices = 2}), taut::parameter_error);
     CHECK_THROWS_AS(coarse_start(taut::test::grid(4, 4), h), taut::parameter_error);
 }
@@ -160,19 +160,19 @@ TEST_CASE("coarse start: fine surfaces are mapped through their hierarchy, the s
 {
     for (const auto& m : {taut::test::cap(60, 2.5), taut::test::bumpy(70, 0.4), taut::test::long_tube(14, 20)})
     {
-        const auto h = taut::make_hierarchy(m);
+        const auto h = taut::impl::make_hierarchy(m);
         REQUIRE(h.levels.size() > 2);
         const auto map = coarse_start(m, h, {.vertices = 300, .coarse = {.threads = 1}});
         require_good(map, m, 200);
         CHECK(coarse_start(m, h, {.vertices = 300, .coarse = {.threads = 4}}).uv == map.uv);
-        CHECK(map.distortion.measure < taut::barycentric_map(m).distortion.measure);
+        CHECK(map.distortion.measure < taut::impl::barycentric_map(m).distortion.measure);
     }
 }
 
 TEST_CASE("coarse start: a distortion that grows from level to level is put right on the way")
 {
     const auto m = taut::test::long_tube(8, 150);
-    require_good(coarse_start(m, taut::make_hierarchy(m), {.vertices = 200}), m, 2000);
+    require_good(coarse_start(m, taut::impl::make_hierarchy(m), {.vertices = 200}), m, 2000);
 }
 
 TEST_CASE("coarse start: a fixed boundary stays on the outline")
@@ -182,8 +182,8 @@ TEST_CASE("coarse start: a fixed boundary stays on the outline")
     const auto loop = taut::boundary_loops(m)[0];
     for (const taut::idx v : loop) keep[std::size_t(v)] = 1;
     const auto map =
-        coarse_start(m, taut::make_hierarchy(m, keep), {.vertices = 600, .coarse = {.fixed_boundary = true}});
-    const auto reference = taut::barycentric_map(m);
+        coarse_start(m, taut::impl::make_hierarchy(m, keep), {.vertices = 600, .coarse = {.fixed_boundary = true}});
+    const auto reference = taut::impl::barycentric_map(m);
     CHECK(map.flips.flipped == 0);
     CHECK(map.distortion.measure < reference.distortion.measure);
     for (const taut::idx v : loop) CHECK(glm::distance(map.uv[std::size_t(v)], reference.uv[std::size_t(v)]) < 1e-9);
@@ -192,14 +192,14 @@ TEST_CASE("coarse start: a fixed boundary stays on the outline")
 TEST_CASE("coarse start: a hierarchy without the boundary that is to be fixed is refused")
 {
     const auto m = taut::test::cap(20, 2);
-    CHECK_THROWS_AS(coarse_start(m, taut::make_hierarchy(m), {.vertices = 100, .coarse = {.fixed_boundary = true}}),
+    CHECK_THROWS_AS(coarse_start(m, taut::impl::make_hierarchy(m), {.vertices = 100, .coarse = {.fixed_boundary = true}}),
                     taut::parameter_error);
 }
 
 TEST_CASE("coarse start: the outline is the longest boundary loop of the fine surface")
 {
     const auto m = with_hole(60);
-    const auto map = coarse_start(m, taut::make_hierarchy(m), {.vertices = 100});
+    const auto map = coarse_start(m, taut::impl::make_hierarchy(m), {.vertices = 100});
     require_good(map, m, 4.01);
     CHECK(map.holes == 1);
     CHECK(taut::boundary_loops(m)[map.outline].size() == 240);
@@ -208,7 +208,7 @@ TEST_CASE("coarse start: the outline is the longest boundary loop of the fine su
 TEST_CASE("coarse start: units do not matter")
 {
     const auto m = taut::test::cap(40, 2.5);
-    const auto map = coarse_start(m, taut::make_hierarchy(m));
+    const auto map = coarse_start(m, taut::impl::make_hierarchy(m));
     const auto large = scaled(m, 0x1p300);
-    CHECK(coarse_start(large, taut::make_hierarchy(large)).distortion.measure == map.distortion.measure);
+    CHECK(coarse_start(large, taut::impl::make_hierarchy(large)).distortion.measure == map.distortion.measure);
 }

@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/symbolic/differentiate.hpp>
-#include <taut/symbolic/glm.hpp>
-#include <taut/symbolic/recording.hpp>
+#include <taut/impl/symbolic/differentiate.hpp>
+#include <taut/impl/symbolic/glm.hpp>
+#include <taut/impl/symbolic/recording.hpp>
 
 #include "numeric.hpp"
 
@@ -61,12 +61,12 @@ struct sample
 template <class T, int D>
 void check_energy(double p)
 {
-    taut::tape t;
-    const taut::tape_scope scope(t);
+    taut::impl::tape t;
+    const taut::impl::tape_scope scope(t);
     const sample<T, D> at;
     deformed<sym<T>, D> e;
     std::vector<sym<T>> x;
-    std::vector<taut::binding> values;
+    std::vector<taut::impl::binding> values;
     for (int k = 0; k < D * D; ++k)
     {
         x.push_back(e.S[k / D][k % D] = sym<T>::variable());
@@ -99,8 +99,8 @@ TEST_CASE_TEMPLATE("energy: one template gives the host's value and its gradient
 TEST_CASE("energy: second derivatives are symmetric and agree with differences of the gradient")
 {
     constexpr int D = 3;
-    taut::tape t;
-    const taut::tape_scope scope(t);
+    taut::impl::tape t;
+    const taut::impl::tape_scope scope(t);
     const sample<double, D> at;
     deformed<sym<double>, D> e;
     std::vector<sym<double>> x;
@@ -114,7 +114,7 @@ TEST_CASE("energy: second derivatives are symmetric and agree with differences o
 
     const auto bind = [&](int entry, double offset)
     {
-        std::vector<taut::binding> values;
+        std::vector<taut::impl::binding> values;
         for (int k = 0; k < D * D; ++k)
             values.emplace_back(x[std::size_t(k)], at.S[k / D][k % D] + (k == entry ? offset : 0));
         return values;

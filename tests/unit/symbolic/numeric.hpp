@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <taut/symbolic/evaluate.hpp>
+#include <taut/impl/symbolic/evaluate.hpp>
 
 /// Relative agreement, absolute below 1.
 template <class T>

@@ -3,10 +3,10 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/symbolic/differentiate.hpp>
-#include <taut/symbolic/evaluate.hpp>
-#include <taut/symbolic/loop.hpp>
-#include <taut/symbolic/recording.hpp>
+#include <taut/impl/symbolic/differentiate.hpp>
+#include <taut/impl/symbolic/evaluate.hpp>
+#include <taut/impl/symbolic/loop.hpp>
+#include <taut/impl/symbolic/recording.hpp>
 
 using taut::sym;
 
@@ -94,7 +94,7 @@ TEST_CASE("recording: indices are arithmetic, may be loaded, and never leave 32 
     const auto i = r.global_id();
     const auto j = r.global_id(1);
     y[i + n * j] = x[cells[i] * 2] + x[cells[i + n] * 2 + 1];
-    const taut::kernel_text k = r.finish("gather");
+    const taut::impl::kernel_text k = r.finish("gather");
     CHECK(k.source.find("__global const int* cells, const int n, __global double* y") != std::string::npos);
     CHECK(k.source.find("get_global_id(1)") != std::string::npos);
     CHECK(k.source.find("long") == std::string::npos);
@@ -149,15 +149,15 @@ TEST_CASE("recording: a recording is current while it lives")
 {
     {
         taut::recording r;
-        CHECK(&taut::tape::current() == &r.recorded());
+        CHECK(&taut::impl::tape::current() == &r.recorded());
     }
-    CHECK_THROWS_AS(taut::tape::current(), taut::tape_error);
+    CHECK_THROWS_AS(taut::impl::tape::current(), taut::impl::tape_error);
 }
 
 TEST_CASE("recording: a kernel in float is written with doubles, and mentions none")
 {
     using taut::scalar_type;
-    const auto record = [](scalar_type type, taut::kernel_form form)
+    const auto record = [](scalar_type type, taut::impl::kernel_form form)
     {
         taut::recording r(type);
         const auto x = r.in<double>("x", type);
@@ -180,14 +180,14 @@ TEST_CASE("recording: a kernel in float is written with doubles, and mentions no
         z[i + 1] = select(chosen > 0.5, sym<double>(1.0), sym<double>(0.0));
         return r.finish("f", form).source;
     };
-    for (const auto form : {taut::kernel_form::item, taut::kernel_form::guarded, taut::kernel_form::run})
+    for (const auto form : {taut::impl::kernel_form::item, taut::impl::kernel_form::guarded, taut::impl::kernel_form::run})
     {
         const std::string narrow = record(scalar_type::f32, form), wide = record(scalar_type::f64, form);
         CHECK(narrow.find("double") == std::string::npos);
         CHECK(narrow.find("fp64") == std::string::npos);
         CHECK(narrow.find("__global const float* x, __global const int* starts, __global float* y, __global float* z, "
                           "const float a") != std::string::npos);
-        CHECK(count(narrow, taut::detail::literal(0.1f)) == 1);
+        CHECK(count(narrow, taut::impl::literal(0.1f)) == 1);
         CHECK(wide.find("float*") == std::string::npos);
         CHECK(wide.find("__global const double* x") != std::string::npos);
     }
@@ -224,16 +224,16 @@ TEST_CASE("recording: float that meets double without a cast is an error")
     const auto a = r.scalar<double>("a");
     const auto i = r.global_id();
     const sym<double> u = x[i], v = y[i];
-    CHECK_THROWS_AS(u + v, taut::tape_error);
-    CHECK_THROWS_AS(v - u, taut::tape_error);
-    CHECK_THROWS_AS(a * u, taut::tape_error);
-    CHECK_THROWS_AS(u / a, taut::tape_error);
-    CHECK_THROWS_AS(static_cast<void>(u < v), taut::tape_error);
-    CHECK_THROWS_AS(static_cast<void>(v == u), taut::tape_error);
-    CHECK_THROWS_AS(select(u < 1, u, v), taut::tape_error);
-    CHECK_THROWS_AS(min(u, v), taut::tape_error);
-    CHECK_THROWS_AS(pow(u, v), taut::tape_error);
-    CHECK_THROWS_AS(y[i] += u, taut::tape_error);
+    CHECK_THROWS_AS(u + v, taut::impl::tape_error);
+    CHECK_THROWS_AS(v - u, taut::impl::tape_error);
+    CHECK_THROWS_AS(a * u, taut::impl::tape_error);
+    CHECK_THROWS_AS(u / a, taut::impl::tape_error);
+    CHECK_THROWS_AS(static_cast<void>(u < v), taut::impl::tape_error);
+    CHECK_THROWS_AS(static_cast<void>(v == u), taut::impl::tape_error);
+    CHECK_THROWS_AS(select(u < 1, u, v), taut::impl::tape_error);
+    CHECK_THROWS_AS(min(u, v), taut::impl::tape_error);
+    CHECK_THROWS_AS(pow(u, v), taut::impl::tape_error);
+    CHECK_THROWS_AS(y[i] += u, taut::impl::tape_error);
     CHECK_NOTHROW(taut::cast(scalar_type::f64, u) + v);
     CHECK_NOTHROW(y[i] = u); // a store has the type of its array
 }

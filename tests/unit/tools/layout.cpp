@@ -111,9 +111,9 @@ TEST_CASE("layout: the legend runs from the lowest colour at the bottom to the h
     for (int y = 0; y < picture.height(); ++y)
         for (int i = static_cast<int>(frame.bar_high.x) + 6; i < picture.width(); ++i) dark += picture(i, y).r < 128;
     CHECK(dark > 50);
-    CHECK(io::detail::scale_ticks(scale) == std::vector<double>{1, 1.5, 2, 3, 5, 7, 10});
-    CHECK(io::detail::scale_ticks(io::distortion_scale(0.1, 1000)).front() == 0.1);
-    CHECK(io::detail::scale_ticks(io::distortion_scale(0.1, 1000)).back() == 1000);
+    CHECK(io::impl::scale_ticks(scale) == std::vector<double>{1, 1.5, 2, 3, 5, 7, 10});
+    CHECK(io::impl::scale_ticks(io::distortion_scale(0.1, 1000)).front() == 0.1);
+    CHECK(io::impl::scale_ticks(io::distortion_scale(0.1, 1000)).back() == 1000);
 }
 
 TEST_CASE("layout: the boundary is dark, the inside without edges is not")
@@ -157,14 +157,14 @@ TEST_CASE("layout: the caption counts")
     const auto faces = io::survey_faces(m.uv, m.cells, distortion);
     layout_style style;
     style.energy = 4.5;
-    CHECK(io::detail::layout_caption(faces, style, {}) ==
+    CHECK(io::impl::layout_caption(faces, style, {}) ==
           "18 faces, 1 flipped, energy 4.5, 1 not finite  |  distortion: median 2, 99 % below 2, largest 2");
     const io::layout_overlay overlay{.branch_points = {vec2(0.5), vec2(0.25)}};
     CHECK(
-        io::detail::layout_caption(faces, style, overlay).starts_with("18 faces, 1 flipped, 2 branch points, energy"));
+        io::impl::layout_caption(faces, style, overlay).starts_with("18 faces, 1 flipped, 2 branch points, energy"));
     style.census = "9 quads, 0 inverted"; // faces are halves of them
     CHECK(
-        io::detail::layout_caption(faces, style, overlay).starts_with("9 quads, 0 inverted, 2 branch points, energy"));
+        io::impl::layout_caption(faces, style, overlay).starts_with("9 quads, 0 inverted, 2 branch points, energy"));
 }
 
 TEST_CASE("layout: the same input gives the same picture")

@@ -80,7 +80,7 @@ TEST_CASE("overlay: targets outside of the map are within the picture, those tha
     const grid_mesh m(2);
     const layout_overlay overlay{{{{0, 0}, {-3, 5}}, {{1, 1}, {std::numeric_limits<double>::quiet_NaN(), 0}}}};
     const io::image picture = io::layout_picture(m.uv, m.cells, {}, m.loops, small, overlay);
-    const auto points = io::detail::with_targets(m.uv, overlay);
+    const auto points = io::impl::with_targets(m.uv, overlay);
     CHECK(pixel(picture, io::layout_frame(points, small)({-3, 5})) == pin_color);
     CHECK(xml_fault(io::layout_svg(m.uv, m.cells, {}, m.loops, small, overlay)) == "");
 }

@@ -13,7 +13,7 @@
 using namespace taut;
 using io::canvas;
 using io::rgb;
-using namespace io::detail;
+using namespace io::impl;
 
 namespace
 {

@@ -8,12 +8,13 @@
 #include <support/untangle_checks.hpp>
 #include <support/winding.hpp>
 
-#include <taut/untangle/untangle_host.hpp>
+#include <taut/impl/untangle/untangle_host.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using test::check_typed;
 
 /// A square that has coarser levels, its vertices inside scrambled; the boundary is pinned if `bound`.

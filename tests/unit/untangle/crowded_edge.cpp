@@ -9,12 +9,13 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/exact/predicates.hpp>
-#include <taut/mesh/boundary.hpp>
-#include <taut/untangle/proofs/crowded_edge.hpp>
-#include <taut/untangle/untangle_host.hpp>
+#include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/untangle/proofs/crowded_edge.hpp>
+#include <taut/impl/untangle/untangle_host.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {
@@ -59,7 +60,7 @@ infeasibility judged(const untangle_problem<tetrahedron>& p)
     std::vector<taut::idx> all;
     for (taut::idx c = 0; c < p.rest.cell_count(); ++c) all.push_back(c);
     infeasibility found;
-    detail::judge_edges(
+    impl::judge_edges(
         p, all, [] { return true; }, found);
     return found;
 }
@@ -82,7 +83,7 @@ TEST_CASE("side_view: a form is positive where the tetrahedron is, on all sides"
     int counts[3] = {0, 0, 0};
     for (int k = 0; k < 600; ++k)
     {
-        const detail::flat_side side{k % 3, k % 2 ? 1.0 : 0.0, k % 2 ? -1 : 1};
+        const impl::flat_side side{k % 3, k % 2 ? 1.0 : 0.0, k % 2 ? -1 : 1};
         // Vertices 0, 1, 2 within, 3, 4, 5 on the side: multiples of 1/64 between 1/64 and 97/64, so that the view's
         // units are those of the cube.
         std::vector<vec3> x;
@@ -97,7 +98,7 @@ TEST_CASE("side_view: a form is positive where the tetrahedron is, on all sides"
         }
         const untangle_problem<tetrahedron> p{mesh<tetrahedron>(x, {{0, 1, 2, 3}}), x, held};
         const std::array<taut::idx, 3> corners{3, 4, 5};
-        detail::side_view view(p, side, 0, 1, corners);
+        impl::side_view view(p, side, 0, 1, corners);
         std::array<taut::idx, 6> order{0, 1, 2, 3, 4, 5};
         std::shuffle(order.begin(), order.end(), random);
         const std::array<taut::idx, 4> t{order[0], order[1], order[2], order[3]};
@@ -137,7 +138,7 @@ TEST_CASE("cases_around: of an edge of four positive tetrahedra one case is true
         bool positive = true;
         for (taut::idx c = 1; c <= 4; ++c) positive = positive && sign(x, {0, 5, c, c % 4 + 1}) > 0;
         if (!positive) continue;
-        const auto cases = detail::cases_around(0, {1, 2, 3, 4});
+        const auto cases = impl::cases_around(0, {1, 2, 3, 4});
         bool any = false;
         for (std::size_t i = 0; i < cases.size(); ++i)
             if (std::all_of(cases[i].begin(), cases[i].end(), [&](const auto& t) { return sign(x, t) > 0; }))
@@ -195,7 +196,7 @@ TEST_CASE("judge_edges: nothing is said where the outline is free, nor after a r
     auto p = edge_over_a_floor({vec2(0, 0), vec2(1, 0), vec2(3, 0), vec2(2, 0)});
     infeasibility found;
     const std::array<taut::idx, 1> cell{0};
-    detail::judge_edges(
+    impl::judge_edges(
         p, cell, [] { return false; }, found);
     CHECK(!found);
     p.held[9] = 0;

@@ -8,10 +8,11 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/exact/certify.hpp>
-#include <taut/untangle/proofs/infeasible.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/untangle/proofs/infeasible.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

@@ -7,9 +7,10 @@
 
 #include <support/infeasible_problems.hpp>
 #include <support/meshes.hpp>
-#include <taut/untangle/untangle_refined.hpp>
+#include <taut/impl/untangle/untangle_refined.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 TEST_CASE("refine_infeasible: an element that its pinned corners turn over is split at its edge inside")
 {

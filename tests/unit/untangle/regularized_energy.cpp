@@ -8,14 +8,15 @@
 #include <doctest/doctest.h>
 #include <support/meshes.hpp>
 
-#include <taut/energy/modes.hpp>
-#include <taut/untangle/epsilon_schedule.hpp>
-#include <taut/untangle/regularized_sum.hpp>
+#include <taut/impl/energy/modes.hpp>
+#include <taut/impl/untangle/epsilon_schedule.hpp>
+#include <taut/impl/untangle/regularized_sum.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 double entry(const mat2& S, std::size_t i)
 {
@@ -110,9 +111,9 @@ TEST_CASE_TEMPLATE("regularized energy: the sum over a mesh has the gradient of 
         cells = {{0, 1, 2, 3}};
     const mesh<Element> m(points, cells);
     const held_marks<D> held(std::vector<std::uint8_t>{1, 0, 0, 0});
-    detail::regularized_sum<Element> f(m, held);
+    impl::regularized_sum<Element> f(m, held);
     f.eps = 0.2;
-    f.shapes = detail::rest_shapes(m, 1.0);
+    f.shapes = impl::rest_shapes(m, 1.0);
 
     std::mt19937 random(3);
     std::uniform_real_distribution<double> at(-1, 1);
@@ -133,7 +134,7 @@ TEST_CASE_TEMPLATE("regularized energy: the sum over a mesh has the gradient of 
 
 TEST_CASE("epsilon schedule: it falls while steps are full, hardly while they are cut, and starts again")
 {
-    detail::epsilon_schedule full(-1.0), cut(-1.0);
+    impl::epsilon_schedule full(-1.0), cut(-1.0);
     for (int i = 0; i < 10; ++i)
     {
         full.lower(1.0, 0.99, 1.0, -0.5);

@@ -13,13 +13,14 @@
 #include <support/untangle_checks.hpp>
 #include <support/winding.hpp>
 
-#include <taut/start/barycentric_map.hpp>
-#include <taut/untangle/untangle_host.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/untangle/untangle_host.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 using test::check_typed;
 
 /// The plane mesh with its boundary pinned at place(p) and its other vertices there too.

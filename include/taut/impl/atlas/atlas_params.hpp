@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include <taut/impl/atlas/flatten_charts.hpp>
+#include <taut/impl/atlas/segment.hpp>
+#include <taut/impl/packing/pack_params.hpp>
+
+namespace taut
+{
+
+/// Where a run of make_atlas() is.
+struct atlas_progress
+{
+    std::string_view stage;                                  ///< "charts", "flatten", "pack" or "certify"
+    idx charts = 0;                                          ///< that are done in this stage
+    double value = std::numeric_limits<double>::quiet_NaN(); ///< mean energy of these, or the use of the squares
+    double seconds = 0;                                      ///< since the start
+    bool usable = false;                                     ///< a run that ends now has a result
+};
+
+/// How an atlas is made. Every field has a sensible default.
+struct atlas_params
+{
+    segment_params charts = {}; ///< how far charts go, and seams that are given
+
+    /// Charts are what `charts.seams` part, and stay: they are flattened, from `initial` if it is given, and packed.
+    bool keep_charts = false;
+
+    /// Of kept and pinned charts: the map to start from, or to stay at, one coordinate a corner; or empty.
+    std::vector<std::array<vec2, 3>> initial = {};
+
+    /// Triangles that stay at `initial`, bit for bit: one flag each, or empty. They are charts by themselves, parted
+    /// where `initial` is; all others are laid around them. Theirs is a map without flips or overlaps in the tiles.
+    std::vector<char> pinned = {};
+
+    /// Charts are mirror images of each other, in a plane that is found (symmetry.hpp); none leads across it, but for
+    /// those of polygons that lie across. Not together with charts that are kept or pinned. make_atlas() throws
+    /// symmetry_error where there is no such plane.
+    bool symmetric = false;
+
+    flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
+    pack_params packing = {};       ///< the same
+
+    /// The lower left corner of the first tile, whole numbers. {0, -1} is for files whose v runs downwards: their
+    /// coordinates are (u, -v), which is exact where 1 - v is not.
+    vec2 origin = vec2(0.0);
+
+    /// What a file makes of a coordinate, as by rounding to floats: the certificate is of these. Null: nothing.
+    vec2 (*stored)(vec2) = nullptr;
+
+    /// Wall-clock limit of the whole call. What has no good map by then is laid in patches, as it is seen from one
+    /// side.
+    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+
+    /// Asked several times a second whether to go on.
+    std::function<bool(const atlas_progress&)> observer = {};
+};
+
+} // namespace taut

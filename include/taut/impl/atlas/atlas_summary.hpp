@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/atlas/atlas_report.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
+#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/packing/pack.hpp>
+
+namespace taut::impl
+{
+
+/// Area and energy of chart k at the best scale of its own; infinite where a triangle is turned over.
+inline std::pair<double, double> area_and_energy(const chart_mesh& charts, std::size_t k, std::span<const vec2> uv,
+                                                 const ideal_elements<triangle>& ideal)
+{
+    double area = 0, stretch = 0, shrink = 0; // |S|^2 and |S^-1|^2 by area
+    for (auto c = static_cast<std::size_t>(charts.first_cell[k]);
+         c < static_cast<std::size_t>(charts.first_cell[k + 1]); ++c)
+    {
+        const mat2 S = shape_matrix<2>(charts.surface.cells()[c], uv, ideal.inverse[c]);
+        const double square = glm::dot(S[0], S[0]) + glm::dot(S[1], S[1]), det = glm::determinant(S);
+        area += ideal.measure[c];
+        stretch += ideal.measure[c] * square;
+        shrink += det > 0 ? ideal.measure[c] * (square / det / det) : std::numeric_limits<double>::infinity();
+    }
+    return {area, 2 * std::sqrt(stretch / area) * std::sqrt(shrink / area)};
+}
+
+/// Puts in a report what charts are like, each by itself and all of them at one common scale.
+/// uv: one a vertex of charts.surface, in the tiles; layout: without places where there is none
+inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv, const packing& layout)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    const auto& cells = charts.surface.cells();
+    const ideal_elements<triangle> ideal(charts.surface);
+    std::vector<double> values(cells.size()); // one a triangle
+    const auto for_each_cell = [&](const auto& value)
+    {
+        parallel_for(values.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t c = begin; c < end; ++c) values[c] = value(c);
+                     });
+    };
+    for_each_cell([&](std::size_t c)
+                  { return orient(uv[u(cells[c][0])], uv[u(cells[c][1])], uv[u(cells[c][2])]).det / 2; });
+    double in_space = 0, in_plane = 0;
+    for (const double area : values) in_plane += area;
+    for (idx k = 0; k < charts.charts(); ++k)
+    {
+        chart_summary chart{.triangles = charts.first_cell[u(k) + 1] - charts.first_cell[u(k)],
+                            .tile = layout.places.empty() ? 0 : layout.places[u(k)].tile};
+        std::tie(chart.area, chart.energy) = area_and_energy(charts, u(k), uv, ideal);
+        in_space += chart.area;
+        report.worst = std::max(report.worst, chart.energy);
+        report.charts.push_back(chart);
+    }
+    const double scale = std::sqrt(in_space / in_plane);
+    for_each_cell(
+        [&](std::size_t c)
+        {
+            const mat2 S = scale * shape_matrix<2>(cells[c], uv, ideal.inverse[c]);
+            const double det = glm::determinant(S);
+            return ideal.measure[c] * (det > 0 ? taut::energy::isometric{}(element<double, 2>{S, det, ideal.measure[c]})
+                                               : std::numeric_limits<double>::infinity());
+        });
+    double sum = 0;
+    for (const double x : values) sum += x;
+    report.distortion = sum / in_space;
+    report.utilization = layout.utilization;
+}
+
+} // namespace taut::impl

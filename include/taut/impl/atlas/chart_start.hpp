@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/atlas/chart_mesh.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
+
+namespace taut::impl
+{
+
+/// A chart as a mesh of its own, times a power of two that brings its extent near 1. Vertices and triangles keep their
+/// order.
+struct single_chart
+{
+    mesh<triangle> surface;
+    double unit; ///< lengths here by those of the chart mesh
+
+    static single_chart of(const chart_mesh& charts, idx k)
+    {
+        const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+        const idx v0 = charts.first_vertex[u(k)], v1 = charts.first_vertex[u(k) + 1];
+        const idx c0 = charts.first_cell[u(k)], c1 = charts.first_cell[u(k) + 1];
+        std::vector<vec3> points(charts.surface.points().begin() + v0, charts.surface.points().begin() + v1);
+        const vec3 origin = points.front();
+        double extent = 0;
+        for (vec3& p : points)
+        {
+            p -= origin;
+            extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        }
+        const double unit = extent > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(extent), -1000, 1000)) : 1.0;
+        for (vec3& p : points) p *= unit;
+        std::vector<std::array<idx, 3>> cells(charts.surface.cells().begin() + c0, charts.surface.cells().begin() + c1);
+        for (auto& t : cells)
+            for (idx& v : t) v -= v0;
+        return {mesh<triangle>(std::move(points), std::move(cells)), unit};
+    }
+};
+
+/// The points seen along the mean normal; none where that is 0.
+inline std::vector<vec2> projected(const mesh<triangle>& m)
+{
+    vec3 normal(0.0);
+    for (idx c = 0; c < m.cell_count(); ++c)
+    {
+        const auto x = m.rest(c);
+        normal += glm::cross(x[1] - x[0], x[2] - x[0]);
+    }
+    std::vector<vec2> uv;
+    if (!(glm::length(normal) > 0)) return uv;
+    normal = glm::normalize(normal);
+    const vec3 other = std::abs(normal.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    const vec3 across = glm::normalize(glm::cross(normal, other)), up = glm::cross(normal, across);
+    uv.reserve(m.points().size());
+    for (const vec3& p : m.points()) uv.emplace_back(glm::dot(p, across), glm::dot(p, up));
+    return uv;
+}
+
+/// A first map of a chart.
+struct chart_start
+{
+    std::vector<vec2> uv;
+    double energy = std::numeric_limits<double>::infinity(); ///< area mean
+
+    /// Takes a map, or none, if it is valid and better.
+    void consider(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::vector<vec2> other)
+    {
+        if (other.empty()) return;
+        start_map map;
+        map.uv = std::move(other);
+        map.assess(m, ideal);
+        if (!map.flips || !(map.distortion.measure < energy)) return;
+        energy = map.distortion.measure;
+        uv = std::move(map.uv);
+    }
+
+    /// The given map, if it is valid; else the chart as seen along its mean normal, or a barycentric map where that is
+    /// folded or bad. given: one point a vertex, or empty; in units of the chart.
+    /// Throws mesh_error where the chart is closed or has handles, `error` where no map without flips was found.
+    static chart_start of(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::vector<vec2> given)
+    {
+        chart_start start;
+        start.consider(m, ideal, std::move(given));
+        if (!start.uv.empty()) return start;
+        start.consider(m, ideal, projected(m));
+        constexpr double good = 6; // what Newton's method lowers in a few steps
+        if (start.energy < good) return start;
+        try
+        {
+            const auto f = facets(m);
+            validate(m, f, {.referenced = false, .one_boundary = false});
+            start.consider(m, ideal, barycentric_map(m, f, {.stretch_rounds = 1}).uv);
+        }
+        catch (const error&)
+        {
+            if (start.uv.empty()) throw;
+        }
+        if (start.uv.empty()) throw error("no map without flipped triangles was found to begin with");
+        return start;
+    }
+};
+
+} // namespace taut::impl

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/atlas/atlas_params.hpp>
+#include <taut/impl/atlas/atlas_report.hpp>
+#include <taut/impl/atlas/atlas_summary.hpp>
+#include <taut/impl/atlas/crossing_charts.hpp>
+#include <taut/impl/atlas/round_polygon.hpp>
+#include <taut/impl/atlas/seen_patches.hpp>
+#include <taut/impl/atlas/surface_part.hpp>
+#include <taut/impl/atlas/symmetry/symmetric_half.hpp>
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/mesh/validate.hpp>
+
+namespace taut::impl
+{
+
+/// The charts of a surface with their maps, each where it was flattened: the first phases of make_atlas().
+class flat_charts
+{
+public:
+    flat_charts(queue& q, const mesh<triangle>& m, const atlas_params& params)
+        : queue_(q), mesh_(m), params_(params), facets_(facets(m)), budget_(params.time_limit)
+    {
+    }
+
+    void run()
+    {
+        if (params_.keep_charts)
+            keep_charts();
+        else if (params_.symmetric)
+            mirror_charts();
+        else
+            make_charts();
+        join_polygons();
+    }
+
+protected:
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    /// The triangles of the surface in the plane, in its units, each as it lies in its chart.
+    struct laid_triangles
+    {
+        std::vector<vec2> uv;       // one a corner
+        std::vector<double> energy; // one a triangle: of its chart
+    };
+
+    /// Asks whether to go on, in a stage.
+    observer asking(std::string_view stage)
+    {
+        return [this, stage](const progress& p)
+        {
+            const bool in_time = budget_.in_time();
+            const bool wanted = !params_.observer || params_.observer({.stage = stage,
+                                                                       .charts = static_cast<idx>(p.iteration),
+                                                                       .value = p.value,
+                                                                       .seconds = budget_.total(),
+                                                                       .usable = usable_});
+            report_.complete = report_.complete && in_time && wanted;
+            return report_.complete;
+        };
+    }
+
+    /// All charts at once. steps: of each, at most
+    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps)
+    {
+        auto params = params_.flattening;
+        params.max_iterations = std::min(params.max_iterations, steps);
+        params.initial = initial;
+        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
+        params.observer = asking("flatten");
+        const double begin = budget_.total();
+        auto flat = flatten_charts(queue_, charts, params);
+        report_.seconds.flatten += budget_.total() - begin;
+        usable_ = true;
+        return flat;
+    }
+
+    void make_charts()
+    {
+        usable_ = true; // whatever there is by the end of the time is laid as it is seen
+        auto params = params_.charts;
+        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
+        params.observer = asking("charts");
+        // What takes more steps at first is mostly cut after all of them.
+        constexpr int few = 25;
+        const auto first_maps = [this](const chart_mesh& charts, std::span<const vec2> start)
+        { return flatten(charts, start, start.empty() ? few : std::numeric_limits<int>::max()); };
+        auto made = segment_surface(mesh_, facets_, maps_by(first_maps), params);
+        report_.complete = report_.complete && budget_.in_time();
+        seam_ = std::move(made.seam);
+        laid_triangles laid{std::move(made.uv), std::move(made.energy)};
+        if (report_.complete)
+            cut(laid);
+        else
+            cut_unfinished(std::move(laid), made.crosses);
+        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
+        if (report_.complete) mend(unfit());
+    }
+
+    /// The charts of a run that has ended; those that have no map yet, or none that is any good, as they are seen.
+    void cut_unfinished(laid_triangles laid, std::span<const char> crosses)
+    {
+        const double most = std::max(seen_patches::most_energy, params_.charts.max_distortion);
+        std::vector<char> wanted(laid.energy.size());
+        for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
+        if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)
+            report_.notes.push_back("what had no map by then became " + std::to_string(lay_patches(laid, wanted)) +
+                                    " charts, laid as they are seen");
+        cut(laid);
+    }
+
+    /// Makes the charts of one half of the surface, and their mirror images.
+    void mirror_charts()
+    {
+        mirror_ = find_symmetry(mesh_, facets_, params_.charts.together);
+        const symmetric_half half(mesh_, facets_, *mirror_);
+        std::vector<char> seams, together;
+        atlas_params of_half = half.params(params_, seams, together);
+        of_half.time_limit = budget_.left();
+        flat_charts one(queue_, half.surface(), of_half);
+        one.report_.seconds = report_.seconds;
+        one.run();
+        report_ = std::move(one.report_);
+        usable_ = true;
+        seam_ = half.seams(one.seam_);
+        const auto laid = one.triangles_as_laid();
+        laid_triangles whole{std::vector<vec2>(facets_.twin.size()), std::vector<double>(mesh_.cells().size())};
+        half.for_each_corner(
+            [&](std::size_t corner, std::size_t own, bool mirrored)
+            {
+                whole.uv[corner] = mirrored ? vec2(-laid.uv[own].x, laid.uv[own].y) : laid.uv[own];
+                whole.energy[corner / 3] = laid.energy[own / 3];
+            });
+        cut(whole);
+        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
+        mend(turned());
+    }
+
+    /// One flag a chart: 1 where a triangle is turned over, as it may be where polygons that are mirror images are cut
+    /// along other diagonals.
+    std::vector<char> turned() const
+    {
+        std::vector<char> bad(energy_.size(), 0);
+        const auto& cells = charts_->surface.cells();
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            for (auto c = u(charts_->first_cell[k]); c < u(charts_->first_cell[k + 1]) && !bad[k]; ++c)
+                bad[k] = orient2d(flat_[u(cells[c][0])], flat_[u(cells[c][1])], flat_[u(cells[c][2])]) <= 0;
+        return bad;
+    }
+
+    void keep_charts()
+    {
+        seam_.assign(params_.charts.seams.begin(), params_.charts.seams.end());
+        seam_.resize(facets_.twin.size(), 0);
+        charts_.emplace(cut_charts(mesh_, facets_, seam_));
+        std::vector<vec2> initial(params_.initial.empty() ? 0 : charts_->surface.points().size());
+        if (!initial.empty())
+            for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
+                            { initial[v] = params_.initial[cell][corner]; });
+        auto flat = flatten(*charts_, initial, std::numeric_limits<int>::max());
+        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
+        for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
+        flat_ = std::move(flat.uv);
+        mend(unfit());
+    }
+
+    /// Calls f(triangle of the surface, corner, vertex of the charts) for all corners.
+    template <class F>
+    void for_each_corner(F&& f) const
+    {
+        for (std::size_t i = 0; i < charts_->cell_origins.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) f(u(charts_->cell_origins[i]), k, u(charts_->surface.cells()[i][k]));
+    }
+
+    /// One flag a chart: 1 where it has no map, or overlaps itself.
+    std::vector<char> unfit() const
+    {
+        auto bad = crossing_charts(*charts_, flat_);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            bad[k] = bad[k] != 0 || !(energy_[k] < std::numeric_limits<double>::infinity());
+        return bad;
+    }
+
+    /// Keeps the borders of these charts apart, and takes those apart for which that does not succeed.
+    void mend(std::vector<char> bad)
+    {
+        constexpr idx most = 32; // one by one: more would take long
+        const double begin = budget_.total();
+        idx mended = 0, tried = 0;
+        for (std::size_t k = 0; k < bad.size(); ++k)
+        {
+            if (!bad[k] || !report_.complete || tried == most) continue;
+            ++tried;
+            const idx first = charts_->first_vertex[k], end = charts_->first_vertex[k + 1];
+            std::vector<vec3> points(charts_->surface.points().begin() + first,
+                                     charts_->surface.points().begin() + end);
+            std::vector<std::array<idx, 3>> cells(charts_->surface.cells().begin() + charts_->first_cell[k],
+                                                  charts_->surface.cells().begin() + charts_->first_cell[k + 1]);
+            for (auto& t : cells)
+                for (idx& v : t) v -= first;
+            parameterize_params params{.initial = {flat_.begin() + first, flat_.begin() + end},
+                                       .placement = placement::as_solved,
+                                       .holes = true,
+                                       .no_overlap = true,
+                                       .time_limit = std::max(budget_.left(), budget::seconds(1e-6)),
+                                       .observer = asking("flatten")};
+            const mesh<triangle> chart(std::move(points), std::move(cells));
+            if (!check(chart, {.one_boundary = false}).empty()) continue;
+            const auto map = parameterize(queue_, chart, params);
+            if (!map) continue;
+            std::copy(map.uv.begin(), map.uv.end(), flat_.begin() + first);
+            energy_[k] = map.report.solve.value;
+            bad[k] = 0;
+            ++mended;
+        }
+        if (mended > 0)
+        {
+            const auto crossing = crossing_charts(*charts_, flat_);
+            for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] != 0 || crossing[k] != 0;
+            report_.notes.push_back(
+                std::to_string(mended) +
+                (mended == 1 ? " chart that overlapped itself was" : " charts that overlapped themselves were") +
+                " mapped anew with its border kept apart");
+        }
+        report_.seconds.flatten += budget_.total() - begin;
+        if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
+    }
+
+    /// These charts become patches that lie as they are seen; charts that are to be kept cannot.
+    /// largest: triangles of a patch at most
+    void take_apart(const std::vector<char>& bad, std::size_t largest = 1024)
+    {
+        if (!report_.reason.empty()) return;
+        const auto first_bad = static_cast<std::size_t>(std::find(bad.begin(), bad.end(), char(1)) - bad.begin());
+        if (params_.keep_charts)
+        {
+            report_.reason = "the chart of triangle " +
+                             std::to_string(charts_->cell_origins[u(charts_->first_cell[first_bad])]) +
+                             " has no map, or none without overlaps, and cannot be kept; let charts be made";
+            return;
+        }
+        std::vector<char> wanted(mesh_.cells().size(), 0);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
+                wanted[u(charts_->cell_origins[i])] = bad[k];
+        auto laid = triangles_as_laid();
+        const auto patches = lay_patches(laid, std::move(wanted), largest);
+        cut(laid);
+        const auto count = std::count(bad.begin(), bad.end(), char(1));
+        report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") + " without a map became " +
+                                std::to_string(patches) + ", laid as they are seen");
+    }
+
+    /// These triangles, one flag each, become patches of so many at most. Returns how many patches there are.
+    std::size_t lay_patches(laid_triangles& laid, std::vector<char> wanted, std::size_t largest = 1024)
+    {
+        constexpr std::ptrdiff_t many = 50'000; // worth more threads, where what comes of it is for want of time
+        if (!report_.complete && std::count(wanted.begin(), wanted.end(), char(1)) > many)
+        {
+            const auto octant = octants(mesh_);
+            for (std::size_t c = 0; c < wanted.size(); ++c)
+                if (wanted[c] != 0) wanted[c] = octant[c];
+        }
+        const auto seen = lay_as_seen(mesh_, facets_, wanted, params_.charts.seams, largest);
+        lay_anew(
+            laid, [&](std::size_t c) { return seen.patch[c]; }, [&](idx patch) { return seen.energy[u(patch)]; },
+            [&](std::size_t c, std::size_t k) { return seen.uv[c][k]; });
+        return seen.energy.size();
+    }
+
+    /// The triangles of the surface as they lie in the charts.
+    laid_triangles triangles_as_laid() const
+    {
+        laid_triangles laid{std::vector<vec2>(facets_.twin.size()), std::vector<double>(mesh_.cells().size())};
+        for (std::size_t k = 0; k < energy_.size(); ++k)
+            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
+                laid.energy[u(charts_->cell_origins[i])] = energy_[k];
+        for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
+                        { laid.uv[3 * cell + corner] = flat_[v]; });
+        return laid;
+    }
+
+    /// Lays some triangles in other places, and has seams there. label(triangle): of its chart, -1 where all stays;
+    /// energy_of(label), uv_of(triangle, corner): of the new ones
+    template <class Label, class Energy, class Map>
+    void lay_anew(laid_triangles& laid, Label&& label, Energy&& energy_of, Map&& uv_of)
+    {
+        parallel_for(mesh_.cells().size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         for (std::size_t c = begin; c < end; ++c)
+                         {
+                             const idx own = label(c);
+                             if (own >= 0) laid.energy[c] = energy_of(own);
+                             for (std::size_t s = 3 * c; s < 3 * c + 3; ++s)
+                             {
+                                 if (own >= 0) laid.uv[s] = uv_of(c, s % 3);
+                                 if (facets_.twin[s] < 0) continue;
+                                 const idx other = label(u(facets_.twin[s]) / 3);
+                                 const bool given = !params_.charts.seams.empty() && params_.charts.seams[s] != 0;
+                                 if (own >= 0 || other >= 0) seam_[s] = given || own != other;
+                             }
+                         }
+                     });
+    }
+
+    /// Cuts the surface along its seams.
+    void cut(const laid_triangles& laid)
+    {
+        charts_.emplace(cut_charts(mesh_, facets_, seam_));
+        flat_.resize(charts_->surface.points().size());
+        for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
+                        { flat_[v] = laid.uv[3 * cell + corner]; });
+        energy_.clear();
+        for (std::size_t k = 0; k + 1 < charts_->first_cell.size(); ++k)
+            energy_.push_back(laid.energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
+    }
+
+    /// Polygons that several charts have parts of become charts by themselves.
+    void join_polygons()
+    {
+        const auto& together = params_.charts.together;
+        if (together.empty() || params_.keep_charts || !report_.reason.empty()) return;
+        const auto polygon = polygons_of(facets_, together);
+        std::vector<char> parted(mesh_.cells().size(), 0);
+        for (std::size_t s = 0; s < together.size(); ++s)
+            if (together[s] != 0 && facets_.twin[s] >= 0 && seam_[s] != 0) parted[u(polygon[s / 3])] = 1;
+        if (std::count(parted.begin(), parted.end(), char(1)) == 0) return;
+        const auto label = [&](std::size_t c)
+        {
+            const idx p = polygon[c];
+            return parted[u(p)] ? p : -1;
+        };
+        auto laid = triangles_as_laid();
+        lay_anew(
+            laid, label, [](idx) { return std::numeric_limits<double>::infinity(); },
+            [](std::size_t, std::size_t) { return vec2(0.0); });
+        std::vector<idx> triangles, number(mesh_.points().size(), -1);
+        for (std::size_t c = 0; c < parted.size(); ++c)
+            if (label(c) >= 0) triangles.push_back(static_cast<idx>(c));
+        const surface_part part = part_of(mesh_, triangles, seam_, number);
+        flatten_params few = params_.flattening;
+        few.initial = {};
+        few.max_iterations = report_.complete ? few.max_iterations : 0; // their starts are made at once
+        auto maps = flatten_charts(queue_, part.charts, few);
+        const ideal_elements<triangle> ideal(part.charts.surface);
+        for (idx k = 0; k < part.charts.charts(); ++k)
+        {
+            double& energy = maps.charts[u(k)].energy;
+            if (energy < std::numeric_limits<double>::infinity() && !overlaps_itself(part.charts, u(k), maps.uv))
+                continue;
+            lay_round(part.charts, u(k), maps.uv);
+            energy = area_and_energy(part.charts, u(k), maps.uv, ideal).second;
+        }
+        for (idx k = 0; k < part.charts.charts(); ++k)
+            for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
+            {
+                const auto c = u(part.triangles[i]);
+                laid.energy[c] = maps.charts[u(k)].energy;
+                for (std::size_t j = 0; j < 3; ++j) laid.uv[3 * c + j] = maps.uv[u(part.charts.surface.cells()[i][j])];
+            }
+        cut(laid);
+        report_.notes.push_back("polygons that were in several charts became charts by themselves");
+        mend(unfit());
+    }
+
+    queue& queue_;
+    const mesh<triangle>& mesh_;
+    const atlas_params& params_;
+    facet_table facets_;
+    budget budget_;
+    atlas_report report_;
+    std::optional<mirror_symmetry> mirror_;
+    std::vector<char> seam_; // one a side of the surface
+    std::optional<chart_mesh> charts_;
+    std::vector<vec2> flat_;     // one a vertex of the charts, in units of the surface
+    std::vector<double> energy_; // one a chart
+    bool usable_ = false;
+};
+
+} // namespace taut::impl

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <taut/impl/atlas/atlas_params.hpp>
+#include <taut/impl/atlas/atlas_report.hpp>
+#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/packing/pack.hpp>
+
+namespace taut
+{
+
+/// A surface as a set of charts that lie side by side in squares.
+struct atlas
+{
+    chart_mesh charts; ///< the surface cut apart
+    /// One a vertex of charts.surface; tile t is the unit square at atlas_params::origin + (t % 10, t / 10), as in
+    /// UDIM.
+    std::vector<vec2> uv;
+    packing layout; ///< how charts were turned, scaled and shifted
+    atlas_report report;
+
+    /// Texture coordinates by corner: numbers into uv, a triple for each triangle of the surface, in its order.
+    std::vector<std::array<idx, 3>> corners() const
+    {
+        std::vector<std::array<idx, 3>> result(charts.surface.cells().size());
+        for (std::size_t i = 0; i < result.size(); ++i)
+            result[static_cast<std::size_t>(charts.cell_origins[i])] = charts.surface.cells()[i];
+        return result;
+    }
+
+    /// True if it is certified: no triangle is flipped, no two overlap, and charts are as far apart as asked.
+    explicit operator bool() const { return report.reason.empty(); }
+};
+
+/// What make_atlas() asks of a surface.
+inline constexpr mesh_requirements atlas_requirements{
+    .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
+
+/// Makes an atlas of any surface: cuts it into charts that can be flattened within a bound of distortion, flattens all
+/// of them at once on the queue's device, packs them, and certifies the result in exact arithmetic.
+///
+/// m: an oriented manifold without flat triangles; it may have several parts, be closed, have handles and holes.
+///    repair_surface() (repair/repair_surface.hpp) makes one of what is not.
+/// A run that the time limit or the observer ends returns charts as they are by then, packed and certified all the
+/// same; atlas_report::complete is false. Throws mesh_error, symmetry_error, parameter_error, device_error,
+/// build_error.
+atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params = {});
+
+} // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/atlas/make_atlas.ipp>
+#endif

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/atlas/atlas_summary.hpp>
+#include <taut/impl/atlas/crossing_charts.hpp>
+#include <taut/impl/atlas/flat_charts.hpp>
+#include <taut/impl/atlas/pinned_charts.hpp>
+#include <taut/impl/atlas/settled_charts.hpp>
+#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/impl/exact/convex_polygons.hpp>
+#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/packing/certificate.hpp>
+#include <taut/impl/packing/outlines.hpp>
+
+namespace taut::impl
+{
+
+/// One run of make_atlas(), phase by phase.
+class atlas_making : flat_charts
+{
+public:
+    using flat_charts::flat_charts;
+
+    atlas run()
+    {
+        validate(mesh_, facets_, atlas_requirements);
+        report_.seconds.setup = budget_.lap();
+        flat_charts::run();
+        lay();
+        settle();
+        note_enlarged();
+        if (mirror_)
+        {
+            const auto [pairs, own] = count_mirrored(*charts_, *mirror_);
+            report_.symmetry = {mirror_->normal, mirror_->offset, pairs, own};
+        }
+        certify_all({});
+        return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
+    }
+
+    /// The pinned charts of this surface with an atlas of the rest, certified together.
+    atlas with(const pinned_charts& pins, atlas made)
+    {
+        budget_.lap(); // what the rest took is in its report
+        made = pins.joined(std::move(made));
+        report_ = std::move(made.report);
+        std::vector<char> pinned(report_.charts.size(), 0);
+        pinned.resize(pinned.size() + static_cast<std::size_t>(pins.charts()), 1);
+        report_.charts.clear();
+        report_.worst = 0;
+        charts_.emplace(std::move(made.charts));
+        uv_ = std::move(made.uv);
+        layout_ = std::move(made.layout);
+        layout_.utilization += pins.area() / params_.packing.tiles;
+        seam_ = seams_of(*charts_, facets_);
+        const auto staying = std::count(pinned.begin(), pinned.end(), char(1));
+        report_.notes.push_back(std::to_string(staying) + (staying == 1 ? " chart stays" : " charts stay") + " where " +
+                                (staying == 1 ? "it was" : "they were"));
+        certify_all(pinned);
+        return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
+    }
+
+private:
+    /// Lays charts in the tiles, as a file holds them.
+    void lay()
+    {
+        if (!report_.reason.empty())
+        {
+            uv_ = flat_;
+            return;
+        }
+        // Where polygons are made convex there is room for it: nothing is beside a chart yet.
+        polygons_ = convex();
+        if (polygons_.size() > 0) settle_charts(*charts_, polygons_, flat_, {});
+        auto params = params_.packing;
+        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
+        params.observer = asking("pack");
+        params.densities = densities_of(*charts_);
+        const idx rows = (params.tiles + 9) / 10;
+        const double step = spacing_at(params_.origin + vec2(std::min(params.tiles, 10), rows) - 0.25, params_.stored);
+        params.rounding = std::max(params.rounding, 4 * step); // so far vertices may be moved
+        outlines_ = find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
+        layout_ = pack_outlined(flat_, outlines_, params);
+        report_.complete = report_.complete && layout_.complete;
+        uv_ = layout_.apply(flat_, charts_->first_vertex);
+        for (std::size_t k = 0; k < layout_.places.size(); ++k) // rows of ten tiles
+        {
+            const idx tile = layout_.places[k].tile, row = tile / 10;
+            for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
+                uv_[v] += params_.origin + vec2(-10 * row, row);
+        }
+        bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
+        report_.seconds.pack += budget_.lap();
+    }
+
+    /// Charts that rounding spoils, and that cannot be mended where they lie, are laid anew: larger, if they are small
+    /// for the digits of the file, else in smaller patches.
+    void settle()
+    {
+        constexpr int most_rounds = 32; // places change for all charts, and so do the digits of those that were good
+        for (int round = 0; round < most_rounds; ++round)
+        {
+            if (!report_.reason.empty() || std::count(bad_.begin(), bad_.end(), char(1)) == 0) return;
+            auto bad = bad_;
+            for (std::size_t k = 0; k < bad.size(); ++k)
+                if (bad[k] && enlarge(k)) bad[k] = 0;
+            idx largest = 0; // of those that are left
+            for (std::size_t k = 0; k < bad.size(); ++k)
+                if (bad[k]) largest = std::max(largest, charts_->first_cell[k + 1] - charts_->first_cell[k]);
+            if (largest > 0)
+            {
+                take_apart(bad, std::clamp<std::size_t>(u(largest) / 4, 1, 1024));
+                join_polygons();
+            }
+            if (report_.reason.empty()) lay();
+        }
+    }
+
+    /// Has a chart laid larger if its triangles are not much larger than the steps of the file's numbers. Returns
+    /// whether they are not.
+    bool enlarge(std::size_t k)
+    {
+        const std::span own(uv_.data() + charts_->first_vertex[k], uv_.data() + charts_->first_vertex[k + 1]);
+        vec2 low = own.front(), high = low;
+        for (const vec2& p : own)
+        {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        const idx first = charts_->first_cell[k], end = charts_->first_cell[k + 1];
+        const double wanted = 256 * std::sqrt(static_cast<double>(end - first)) * spacing_at(high, params_.stored);
+        const double size = glm::length(high - low);
+        if (size >= wanted) return false;
+        grown_.resize(mesh_.cells().size(), 1.0);
+        for (auto i = u(first); i < u(end); ++i)
+            grown_[u(charts_->cell_origins[i])] *= std::min(1e9, 2 * wanted / std::max(size, wanted * 1e-9));
+        return true;
+    }
+
+    void note_enlarged()
+    {
+        const auto densities = densities_of(*charts_);
+        const auto count = std::count_if(densities.begin(), densities.end(), [](double x) { return x > 1; });
+        if (count > 0)
+            report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart is" : " charts are") +
+                                    " laid larger than others, as the numbers of the file are too coarse for " +
+                                    (count == 1 ? "it" : "them"));
+    }
+
+    /// How much larger than others each chart is laid; empty if none is.
+    std::vector<double> densities_of(const chart_mesh& charts) const
+    {
+        std::vector<double> densities;
+        if (grown_.empty()) return densities;
+        for (std::size_t k = 0; k < u(charts.charts()); ++k)
+            densities.push_back(grown_[u(charts.cell_origins[u(charts.first_cell[k])])]);
+        return densities;
+    }
+
+    /// The polygons of charts that are convex in space.
+    convex_polygons convex() const
+    {
+        if (params_.charts.together.empty()) return {};
+        const auto polygon = polygons_of(facets_, params_.charts.together);
+        std::vector<idx> label(charts_->cell_origins.size());
+        for (std::size_t i = 0; i < label.size(); ++i) label[i] = polygon[u(charts_->cell_origins[i])];
+        return find_convex_polygons(charts_->surface.cells(), label, charts_->surface.points());
+    }
+
+    /// pinned: as for certify_packing()
+    void certify_all(std::span<const char> pinned)
+    {
+        const auto& cut = charts_->surface;
+        summarize(report_, *charts_, uv_, layout_);
+        report_.tiles = params_.packing.tiles;
+        report_.seam_length = length_of_seams(mesh_, facets_, seam_);
+        if (!report_.reason.empty()) return;
+        report_.flips = certify<2>(cut.cells(), std::span<const vec2>(uv_));
+        if (!report_.flips || outlines_.turned || outlines_.charts() != charts_->charts())
+            outlines_ = find_outlines(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex);
+        const auto sealed = certify_outlined(uv_, cut.cells(), outlines_, pinned);
+        if (!pinned.empty()) polygons_ = convex();
+        report_.polygons = u(polygons_.size());
+        report_.concave = find_concave(polygons_, uv_).size();
+        const auto crossing = crossing_charts(*charts_, uv_);
+        report_.overlaps =
+            sealed.overlaps.pairs + static_cast<std::size_t>(std::count(crossing.begin(), crossing.end(), char(1)));
+        report_.least_distance = std::min(sealed.gap, sealed.border) * params_.packing.resolution;
+        report_.seconds.certify += budget_.lap();
+        if (!report_.flips)
+            report_.reason = std::to_string(report_.flips.flipped) + " triangles" + turned_ids() +
+                             " are turned over by the digits of the file; " + remedy;
+        else if (const auto bad = std::find(crossing.begin(), crossing.end(), char(1)); bad != crossing.end())
+            report_.reason = "the border of chart " + std::to_string(bad - crossing.begin()) + ", that of triangle " +
+                             std::to_string(first_triangle(static_cast<std::size_t>(bad - crossing.begin()))) +
+                             ", meets itself in the digits of the file; " + remedy;
+        else if (report_.overlaps > 0)
+            report_.reason = std::to_string(report_.overlaps) +
+                             " charts overlap in the atlas: the first are those of triangles " +
+                             std::to_string(first_triangle(u(sealed.overlaps.first[0]))) + " and " +
+                             std::to_string(first_triangle(u(sealed.overlaps.first[1])));
+        else if (!sealed.holds(params_.packing.padding, params_.packing.resolution))
+            report_.reason = "charts are nearer to each other, or to the border, than the padding";
+        if (report_.concave > 0)
+            report_.notes.push_back(std::to_string(report_.concave) +
+                                    (report_.concave == 1 ? " polygon is" : " polygons are") +
+                                    " not convex in the atlas, though in space; cut along other diagonals, triangles "
+                                    "of them turn over");
+    }
+
+    static constexpr const char* remedy =
+        "a file with more digits (.obj) may hold them, or --upright lay them where they are right";
+
+    idx first_triangle(std::size_t chart) const { return charts_->cell_origins[u(charts_->first_cell[chart])]; }
+
+    /// " (3, 8, ...)", as the surface numbers them.
+    std::string turned_ids() const
+    {
+        std::string text;
+        for (const idx c : report_.flips.ids)
+            text += (text.empty() ? " (" : ", ") + std::to_string(charts_->cell_origins[u(c)]);
+        return text.empty() ? text : text + (report_.flips.flipped > report_.flips.ids.size() ? ", ...)" : ")");
+    }
+
+    std::vector<char> bad_;     // one a chart: whether it is not valid as it is laid
+    convex_polygons polygons_;  // of the charts
+    std::vector<double> grown_; // one a triangle of the surface: how much larger its chart is laid; empty if none is
+    std::vector<vec2> uv_;      // one a vertex of the charts, in the tiles
+    packing layout_;
+    chart_outlines outlines_; // of the charts as they were laid; the same in the tiles, unless triangles turned over
+};
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
+{
+    // Beyond these sizes areas, or products of them, would be no numbers.
+    if (const double unit = impl::unit_scale(m); unit > 1e70 || unit < 1e-70)
+    {
+        atlas made = make_atlas(q, scaled(m, unit), params);
+        made.charts.surface = scaled(made.charts.surface, 1 / unit);
+        made.layout.scale *= unit;
+        for (auto& place : made.layout.places) place.scale *= unit;
+        made.report.seam_length /= unit;
+        if (made.report.symmetry) made.report.symmetry->offset /= unit;
+        for (auto& chart : made.report.charts) chart.area /= unit * unit;
+        return made;
+    }
+    if (params.symmetric && (params.keep_charts || !params.pinned.empty()))
+        throw parameter_error("symmetric", "makes charts; none can be kept or pinned");
+    impl::atlas_making whole(q, m, params);
+    if (std::count(params.pinned.begin(), params.pinned.end(), char(0)) ==
+        static_cast<std::ptrdiff_t>(params.pinned.size()))
+        return whole.run();
+    impl::pinned_charts::require(m, params);
+    const auto f = facets(m);
+    validate(m, f, atlas_requirements);
+    const impl::pinned_charts pins(m, f, params);
+    std::vector<char> seams, together;
+    const atlas_params of_rest = pins.of_rest(seams, together);
+    return whole.with(pins, impl::atlas_making(q, pins.rest(), of_rest).run());
+}
+
+} // namespace taut

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/atlas/crossing_charts.hpp>
+#include <taut/impl/atlas/surface_part.hpp>
+#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/packing/certificate.hpp>
+
+namespace taut::impl
+{
+
+/// Charts that stay where they are, and the rest of their surface.
+class pinned_charts
+{
+public:
+    /// Refers to all; some triangles are pinned. Throws packing_error where charts cannot stay.
+    pinned_charts(const mesh<triangle>& m, const facet_table& f, const atlas_params& params)
+        : mesh_(m),
+          params_(params),
+          pinned_(part(true, seams_of_map(m, f, params.initial))),
+          rest_(part(false, std::vector<char>(f.twin.size(), 0)))
+    {
+        place();
+        certify_places();
+    }
+
+    /// Throws parameter_error.
+    static void require(const mesh<triangle>& m, const atlas_params& params)
+    {
+        if (params.pinned.size() != m.cells().size()) throw parameter_error("pinned", "must have one flag a triangle");
+        if (params.initial.size() != m.cells().size())
+            throw parameter_error("initial", "must have the places of pinned triangles");
+        if (std::count(params.pinned.begin(), params.pinned.end(), char(0)) == 0)
+            throw parameter_error("pinned", "leaves nothing to lay; pin fewer triangles");
+    }
+
+    /// The surface without them.
+    const mesh<triangle>& rest() const { return rest_.charts.surface; }
+
+    /// What is asked of that. seams, together: for what they refer to
+    atlas_params of_rest(std::vector<char>& seams, std::vector<char>& together) const
+    {
+        atlas_params params = params_;
+        const auto of_part = [&](std::span<const char> flags)
+        {
+            std::vector<char> result(flags.empty() ? 0 : 3 * rest_.triangles.size());
+            for (std::size_t s = 0; s < result.size(); ++s) result[s] = flags[rest_.origin(s)];
+            return result;
+        };
+        params.charts.seams = seams = of_part(params.charts.seams);
+        params.charts.together = together = of_part(params.charts.together);
+        params.pinned.clear();
+        params.initial.clear();
+        for (const idx c : rest_.triangles) params.initial.push_back(params_.initial[u(c)]);
+        if (!params_.keep_charts) params.initial.clear();
+        const auto sides = facets(pinned_.charts.surface);
+        for (std::size_t k = 0; k < tiles_.size(); ++k)
+            for (idx s = 3 * pinned_.charts.first_cell[k]; s < 3 * pinned_.charts.first_cell[k + 1]; ++s)
+            {
+                if (sides.twin[u(s)] >= 0) continue;
+                const auto [a, b] = side_vertices(pinned_.charts.surface, s);
+                params.packing.walls.push_back(
+                    {tiles_[k], {uv_[u(a)] - corner(tiles_[k]), uv_[u(b)] - corner(tiles_[k])}});
+            }
+        return params;
+    }
+
+    /// The charts of the rest, then the pinned ones.
+    atlas joined(atlas made) const
+    {
+        chart_mesh& charts = made.charts;
+        std::vector<std::array<idx, 3>> cells = charts.surface.cells();
+        for (idx& c : charts.cell_origins) c = rest_.triangles[u(c)];
+        const auto vertices = static_cast<idx>(made.uv.size()), before = static_cast<idx>(cells.size());
+        made.layout.places.resize(u(charts.charts())); // without an atlas of the rest there are none
+        for (auto t : pinned_.charts.surface.cells())
+        {
+            for (idx& v : t) v += vertices;
+            cells.push_back(t);
+        }
+        charts.cell_origins.insert(charts.cell_origins.end(), pinned_.triangles.begin(), pinned_.triangles.end());
+        for (std::size_t k = 0; k < tiles_.size(); ++k)
+        {
+            charts.first_cell.push_back(before + pinned_.charts.first_cell[k + 1]);
+            charts.first_vertex.push_back(vertices + pinned_.charts.first_vertex[k + 1]);
+            made.layout.places.push_back({.tile = tiles_[k]});
+        }
+        made.uv.insert(made.uv.end(), uv_.begin(), uv_.end());
+        charts.vertex_origins.assign(made.uv.size(), 0);
+        std::vector<vec3> points(made.uv.size());
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+                const idx v = mesh_.cells()[u(charts.cell_origins[i])][k];
+                charts.vertex_origins[u(cells[i][k])] = v;
+                points[u(cells[i][k])] = mesh_.points()[u(v)];
+            }
+        charts.surface = mesh<triangle>(std::move(points), std::move(cells));
+        return made;
+    }
+
+    idx charts() const { return pinned_.charts.charts(); }
+
+    /// The area of their triangles where they lie.
+    double area() const
+    {
+        double sum = 0;
+        for (const auto& t : pinned_.charts.surface.cells())
+            sum += orient(uv_[u(t[0])], uv_[u(t[1])], uv_[u(t[2])]).det / 2;
+        return sum;
+    }
+
+private:
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    vec2 corner(idx tile) const { return params_.origin + vec2(tile % 10, tile / 10); }
+
+    surface_part part(bool pinned, std::span<const char> seam) const
+    {
+        std::vector<idx> triangles, number(mesh_.points().size(), -1);
+        for (idx c = 0; c < mesh_.cell_count(); ++c)
+            if ((params_.pinned[u(c)] != 0) == pinned) triangles.push_back(c);
+        return part_of(mesh_, triangles, seam, number);
+    }
+
+    void place()
+    {
+        uv_.resize(pinned_.charts.surface.points().size());
+        for (std::size_t i = 0; i < pinned_.triangles.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+                const vec2& x = params_.initial[u(pinned_.triangles[i])][k];
+                uv_[u(pinned_.charts.surface.cells()[i][k])] = params_.stored != nullptr ? params_.stored(x) : x;
+            }
+        for (idx k = 0; k < pinned_.charts.charts(); ++k)
+        {
+            vec2 low(std::numeric_limits<double>::infinity()), high = -low;
+            for (auto v = u(pinned_.charts.first_vertex[u(k)]); v < u(pinned_.charts.first_vertex[u(k) + 1]); ++v)
+            {
+                if (!finite(uv_[v])) refuse(k, "has no place, or one that is no number");
+                low = glm::min(low, uv_[v]);
+                high = glm::max(high, uv_[v]);
+            }
+            const vec2 square = glm::floor(low / 2.0 + high / 2.0), tile = square - params_.origin;
+            const bool inside = tile.x >= 0 && tile.x < 10 && tile.y >= 0 && tile.y < 100 &&
+                                10 * tile.y + tile.x < params_.packing.tiles && low.x >= square.x &&
+                                low.y >= square.y && high.x <= square.x + 1 && high.y <= square.y + 1;
+            if (!inside) refuse(k, "leaves the square");
+            tiles_.push_back(static_cast<idx>(10 * tile.y + tile.x));
+        }
+    }
+
+    void certify_places() const
+    {
+        const auto& charts = pinned_.charts;
+        const auto& cells = charts.surface.cells();
+        if (const auto flips = certify<2>(cells, std::span<const vec2>(uv_)); !flips)
+            for (idx k = 0; k < charts.charts(); ++k)
+            {
+                const std::span some(cells.data() + charts.first_cell[u(k)],
+                                     cells.data() + charts.first_cell[u(k) + 1]);
+                if (!certify<2>(some, std::span<const vec2>(uv_))) refuse(k, "is mirrored or folded");
+            }
+        const auto crossing = crossing_charts(charts, uv_);
+        for (idx k = 0; k < charts.charts(); ++k)
+            if (crossing[u(k)]) refuse(k, "overlaps itself");
+        const auto overlaps = find_chart_overlaps(uv_, cells, charts.first_cell, charts.first_vertex);
+        if (overlaps.pairs > 0)
+            refuse(overlaps.first[0], "overlaps that of triangle " + std::to_string(first_triangle(overlaps.first[1])) +
+                                          ", which is pinned, too");
+    }
+
+    idx first_triangle(idx chart) const { return pinned_.triangles[u(pinned_.charts.first_cell[u(chart)])]; }
+
+    [[noreturn]] void refuse(idx chart, const std::string& why) const
+    {
+        const idx c = first_triangle(chart);
+        throw packing_error(packing_fault::pinned, {c},
+                            "the pinned chart of triangle " + std::to_string(c) + ' ' + why + "; do not pin it");
+    }
+
+    const mesh<triangle>& mesh_;
+    const atlas_params& params_;
+    const surface_part pinned_, rest_;
+    std::vector<vec2> uv_;   // one a vertex of the pinned charts
+    std::vector<idx> tiles_; // of each
+};
+
+} // namespace taut::impl

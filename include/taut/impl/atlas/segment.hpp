@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/atlas/chart_mesh.hpp>
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/core/error.hpp>
+
+namespace taut
+{
+
+/// How to make charts of a surface. Distortions are area means of energy::isometric, 4 at least.
+struct segment_params
+{
+    /// Bound of a chart, above 4. Charts above it are cut further.
+    double max_distortion = 4.2;
+
+    /// Bound of the whole surface, above 4, at one common scale: there are as few charts as it allows.
+    double mean_distortion = 4.045;
+
+    /// Edges that are to be seams in any case: one flag a side, the same on both sides of an edge; or empty.
+    std::span<const char> seams = {};
+
+    /// Edges that are to be none, as the diagonals of a polygon: one flag a side as above; or empty. A seam leads
+    /// through one where nothing else keeps a bound.
+    std::span<const char> together = {};
+
+    /// Charts of more than a 200th of the area that take less of their convex hull in the plane are cut, 0 to 1: limbs
+    /// go their own ways, for the sake of packing.
+    double least_fill = 0.82;
+
+    /// At most so many times charts are cut further, 0 to 100. Each time those that were cut are flattened.
+    int cut_rounds = 8;
+
+    /// At most so many times neighbours are united, 0 to 100. Each time, most of the surface is flattened anew. Small
+    /// ones are tried once more, unless it is 0.
+    int unite_rounds = 1;
+
+    /// Time limit of the whole call: charts are then what they are, or pieces without maps.
+    impl::budget::seconds time_limit = impl::budget::unlimited;
+
+    /// Asked before each round and within it: go on?
+    taut::observer observer = {};
+
+    /// Throws parameter_error with the name of a field outside its domain.
+    void validate() const
+    {
+        if (!(max_distortion > 4)) throw parameter_error("max_distortion", "must be above 4, that of no distortion");
+        if (!(mean_distortion > 4)) throw parameter_error("mean_distortion", "must be above 4, that of no distortion");
+        if (!(least_fill >= 0 && least_fill <= 1)) throw parameter_error("least_fill", "must be 0 to 1");
+        if (cut_rounds < 0 || cut_rounds > 100) throw parameter_error("cut_rounds", "must be 0 to 100");
+        if (unite_rounds < 0 || unite_rounds > 100) throw parameter_error("unite_rounds", "must be 0 to 100");
+    }
+};
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// What was done, and how long it took in seconds.
+struct segment_report
+{
+    double distortion = 4;         ///< of the whole surface, charts without a map left out
+    double largest_distortion = 4; ///< of a chart that has a map
+    idx unmapped = 0;              ///< charts without a valid map
+    idx above = 0;                 ///< charts above max_distortion: of single triangles, or for want of rounds or time
+    idx crossing = 0;              ///< charts whose boundary meets itself in the plane
+    idx cut = 0, united = 0;       ///< charts cut further, pairs united
+    double seam_length = 0;        ///< in units of the surface
+    double tree_seconds = 0;       ///< pieces united to a tree
+    double straighten_seconds = 0;
+    double flatten_seconds = 0;
+    double total_seconds = 0;
+};
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// Charts of a surface, and their maps.
+struct segmentation
+{
+    std::vector<char> seam; ///< one flag a side of the surface; some have one chart on both sides
+    chart_mesh charts;
+    std::vector<vec2> uv;       ///< one a vertex of charts.surface: as it was flattened
+    std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
+    impl::segment_report report;
+};
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// Maps of charts, as they come from flatten_charts().
+struct chart_maps
+{
+    std::vector<vec2> uv;       ///< one a vertex
+    std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
+    std::vector<char> settled;  ///< one a chart; 0: the map could be better, for want of effort
+};
+
+
+/// Maps of charts; of those that are given a map to begin with, all that effort can do.
+using charts_to_maps = std::function<chart_maps(const chart_mesh&, std::span<const vec2>)>;
+
+/// A segmentation before the surface is cut apart.
+struct uncut_segmentation
+{
+    std::vector<char> seam;     ///< one flag a side
+    std::vector<vec2> uv;       ///< one a corner
+    std::vector<double> energy; ///< one a triangle: of its chart
+    std::vector<char> crosses;  ///< one a triangle: whether its chart overlaps itself
+    segment_report report;      ///< but for what it says of seams and counts of charts
+};
+
+uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
+                                   const segment_params& params);
+
+segmentation cut_apart(const mesh<triangle>& m, const facet_table& f, uncut_segmentation made,
+                       const segment_params& params);
+
+/// `flatten` of segment() in one form.
+template <class Flatten>
+charts_to_maps maps_by(Flatten& flatten)
+{
+    return [&flatten](const chart_mesh& charts, std::span<const vec2> start)
+    {
+        constexpr bool in_steps = std::is_invocable_v<Flatten&, const chart_mesh&, std::span<const vec2>>;
+        auto flat = [&]
+        {
+            if constexpr (in_steps)
+                return flatten(charts, start);
+            else
+                return flatten(charts);
+        }();
+        chart_maps maps{std::move(flat.uv), {}, {}};
+        for (const auto& chart : flat.charts)
+        {
+            maps.energy.push_back(chart.valid ? chart.energy : std::numeric_limits<double>::infinity());
+            if constexpr (in_steps)
+                maps.settled.push_back(!chart.valid || chart.settled());
+            else
+                maps.settled.push_back(1);
+        }
+        return maps;
+    };
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// Cuts a surface to charts that can be flattened within a bound of distortion, few of them, along short seams that
+/// follow creases. Every chart is a disk, or one with holes of the surface in it, whatever the surface is: closed, with
+/// handles, of several components.
+///
+/// Pieces are united bottom-up by an estimate of their distortion; then charts are flattened, cut further where they
+/// are above the bound, and united where it allows (cluster_tree.hpp). Deterministic if `flatten` is. Time O(n log n)
+/// beside that of `flatten`.
+///
+/// m: an oriented manifold without flat triangles; f: its facets
+/// flatten: callable with a chart_mesh, returns uv (one a vertex), and charts with `valid` and `energy` each. It may
+///    take a second argument, std::span<const vec2>, and say settled() of charts: then it need not make much effort for
+///    charts that most often are cut anyway. Those that stay and are not settled come again with the maps so far.
+/// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).
+template <class Flatten>
+segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& flatten,
+                     const segment_params& params = {})
+{
+    return impl::cut_apart(m, f, impl::segment_surface(m, f, impl::maps_by(flatten), params), params);
+}
+
+} // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/atlas/segment.ipp>
+#endif

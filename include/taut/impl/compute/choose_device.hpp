@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <taut/impl/compute/device.hpp>
+#include <taut/impl/compute/errors.hpp>
+
+namespace taut
+{
+
+/// What a device must offer.
+struct device_requirements
+{
+    bool fp64 = false;        ///< double precision is a must; without it fp64 is only preferred
+    std::uint64_t memory = 0; ///< bytes of global memory
+};
+
+/// A device of this machine, and why it cannot serve; an empty refusal means that it can.
+struct listed_device
+{
+    taut::device device;
+    std::string refusal;
+};
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// Why d does not meet the needs, in words; empty if it does.
+std::string device_refusal(const device& d, const device_requirements& needs = {});
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// Every device of every platform, in the order of the driver loader: TAUT_DEVICE counts them in this order, from 0.
+std::vector<listed_device> devices(const device_requirements& needs = {});
+
+/// The device that a wish names: an index into devices(), or a part of a device's, vendor's or platform's name, in any
+/// case. Of several that fit, and for an empty wish, the best one: double precision before none, then GPU before CPU,
+/// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits; what the message then
+/// calls the wish is `said` and the wish.
+device find_device(const std::string& wish, const device_requirements& needs = {},
+                   const std::string& said = "the wish ");
+
+/// The device that TAUT_DEVICE names if it is set, else the best one; see find_device.
+device choose_device(const device_requirements& needs = {});
+
+} // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/compute/detail/choose_device.ipp>
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <taut/impl/core/error.hpp>
+
+namespace taut
+{
+
+/// No OpenCL device fits. The text lists every platform and device seen, why each was refused, and the remedy.
+class no_device : public error
+{
+public:
+    using error::error;
+};
+
+/// An OpenCL call failed, or would fail silently later (an allocation beyond the device's limits, a double kernel on a
+/// device without fp64). code() is the OpenCL error number, 0 where the library refused before calling the driver.
+class device_error : public error
+{
+public:
+    device_error(std::string operation, const std::string& reason, std::string device, int code = 0)
+        : error(operation + ": " + reason + " [device " + device + "]"),
+          operation_(std::move(operation)),
+          device_(std::move(device)),
+          code_(code)
+    {
+    }
+
+    const std::string& operation() const noexcept { return operation_; }
+    /// Name and driver version of the device.
+    const std::string& device() const noexcept { return device_; }
+    int code() const noexcept { return code_; }
+
+private:
+    std::string operation_;
+    std::string device_;
+    int code_;
+};
+
+/// A kernel that the device's compiler refused: its name, the compiler's log, and the numbered source around the lines
+/// that the log names.
+class build_error : public device_error
+{
+public:
+    build_error(std::string kernel, std::string log, std::string excerpt, const std::string& device, int code)
+        : device_error("building kernel " + kernel, "the compiler says\n" + log + excerpt, device, code),
+          kernel_(std::move(kernel)),
+          log_(std::move(log)),
+          excerpt_(std::move(excerpt))
+    {
+    }
+
+    const std::string& kernel() const noexcept { return kernel_; }
+    const std::string& log() const noexcept { return log_; }
+    const std::string& excerpt() const noexcept { return excerpt_; }
+
+private:
+    std::string kernel_;
+    std::string log_;
+    std::string excerpt_;
+};
+
+} // namespace taut

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/compute/detail/build_excerpt.hpp>
+#include <taut/impl/compute/detail/few_functions.hpp>
+#include <taut/impl/compute/kernels/functions.hpp>
+#include <taut/impl/compute/detail/program_builder.hpp>
+#include <taut/impl/compute/device.hpp>
+#include <taut/impl/compute/errors.hpp>
+#include <taut/impl/compute/quirks.hpp>
+
+namespace taut::impl
+{
+
+/// The programs that a queue has built, by source text and build options, with their kernel objects. The queue owns it,
+/// so device and driver are part of the key by ownership, and nothing outlives the driver. Kernels are kept, not only
+/// programs: a kernel object carries what the driver compiled for it. Not safe between threads.
+class program_cache
+{
+public:
+    /// quick, elsewhere: see queue_options.
+    program_cache(boost::compute::context context, taut::device device, bool quick, program_builder elsewhere)
+        : context_(std::move(context)), device_(std::move(device)), quick_(quick), elsewhere_(std::move(elsewhere))
+    {
+    }
+
+    /// A program that will be needed: the other builder hears of it, once.
+    void expect(const std::string& source, const std::string& options)
+    {
+        if (!elsewhere_ || quick_) return;
+        const auto [found, unknown] = entries_.try_emplace(options + '\0' + source);
+        if (unknown) found->second.whole = elsewhere_(source, options, {});
+    }
+
+    /// Builds a program, and the other builder hears of kernels of it, once. Does nothing where there is none.
+    void share(const std::string& source, const std::string& options, const std::vector<std::string>& kernels)
+    {
+        if (!elsewhere_ || quick_ || kernels.empty()) return;
+        entry& found = entries_.try_emplace(options + '\0' + source).first->second;
+        if (!found.shared.empty()) return;
+        if (!found.built) build(found, source, kernels.front(), options);
+        found.shared = kernels;
+        found.part = elsewhere_(source, options, kernels);
+    }
+
+    /// Says whether the program is being built elsewhere still.
+    build_under_way under_way(const std::string& source, const std::string& options) const
+    {
+        const auto found = entries_.find(options + '\0' + source);
+        return found == entries_.end() ? nullptr : found->second.whole;
+    }
+    /// Whether that kernel of it is.
+    build_under_way under_way(const std::string& source, const std::string& options, const std::string& name) const
+    {
+        const auto found = entries_.find(options + '\0' + source);
+        if (found == entries_.end()) return nullptr;
+        const auto& shared = found->second.shared;
+        return std::find(shared.begin(), shared.end(), name) == shared.end() ? nullptr : found->second.part;
+    }
+
+    /// The kernel of that name, built at the first request. Throws build_error if the compiler refuses the source and
+    /// device_error if the program has no such kernel.
+    boost::compute::kernel& find(const std::string& source, const std::string& name, const std::string& options)
+    {
+        entry& found = entries_.try_emplace(options + '\0' + source).first->second;
+        const auto known = found.kernels.find(name);
+        if (known != found.kernels.end()) return known->second;
+
+        if (!found.built) build(found, source, name, options);
+        try
+        {
+            return found.kernels.emplace(name, found.program.create_kernel(name)).first->second;
+        }
+        catch (const boost::compute::opencl_error& e)
+        {
+            throw device_error("creating kernel " + name, "the program has no such kernel (" + e.error_string() + ")",
+                               device_.label(), e.error_code());
+        }
+    }
+
+    /// Programs built so far, and the seconds that building them took.
+    std::size_t builds() const noexcept { return builds_; }
+    double seconds() const noexcept { return seconds_; }
+
+private:
+    struct entry
+    {
+        boost::compute::program program;
+        bool built = false;
+        std::vector<std::string> shared;
+        build_under_way whole, part; ///< elsewhere: the program, and the kernels that it shares
+        std::unordered_map<std::string, boost::compute::kernel> kernels;
+    };
+
+    void build(entry& target, const std::string& source, const std::string& name, const std::string& options)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        try
+        {
+            if (!built_without_header(target, source, options)) compile(target, source, options);
+        }
+        catch (const boost::compute::opencl_error& e)
+        {
+            std::string log = log_of(target.program);
+            if (log.empty()) log = e.error_string();
+            if (log.back() != '\n') log += '\n';
+            throw build_error(name, log, impl::build_excerpt(source, log), device_.label(), e.error_code());
+        }
+        target.built = true;
+        ++builds_;
+        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    /// Without warnings: PoCL counts them on the standard error, and without AVX-512 warns of vectors of 512 bits.
+    void compile(entry& target, const std::string& source, const std::string& options)
+    {
+        target.program = boost::compute::program::create_with_source(source, context_);
+        target.program.build((quick_ ? "-cl-std=CL1.2 -w -cl-opt-disable " : "-cl-std=CL1.2 -w ") + options);
+    }
+
+    /// Builds a program that says it calls few functions without OpenCL's header of all of them, where drivers leave it
+    /// out for its guard. False for other programs, and for what such a driver refuses: it may do better with the
+    /// header.
+    bool built_without_header(entry& target, const std::string& source, const std::string& options)
+    {
+        if (!quirks::reads_long_header(device_) || !options.starts_with(impl::few_functions)) return false;
+        try
+        {
+            compile(target, impl::kernels::functions + ("#line 1\n" + source), options + " -D_OPENCL_H_");
+            return true;
+        }
+        catch (const boost::compute::opencl_error&)
+        {
+            return false;
+        }
+    }
+
+    /// What the compiler said; a driver that failed earlier may have nothing to say.
+    static std::string log_of(const boost::compute::program& program)
+    {
+        try
+        {
+            return program.build_log();
+        }
+        catch (const boost::compute::opencl_error&)
+        {
+            return {};
+        }
+    }
+
+    boost::compute::context context_;
+    taut::device device_;
+    bool quick_;
+    program_builder elsewhere_;
+    std::unordered_map<std::string, entry> entries_;
+    std::size_t builds_ = 0;
+    double seconds_ = 0;
+};
+
+} // namespace taut::impl

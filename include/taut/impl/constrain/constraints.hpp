@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/constrain/arc_length.hpp>
+#include <taut/impl/constrain/constraint_error.hpp>
+#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+
+namespace taut
+{
+
+/// Coordinates of a vertex that hold exactly: bit k of `held` says that coordinate k is value[k].
+template <int D>
+struct hard_pin
+{
+    std::uint8_t held = 0;
+    vec<D> value{0.0};
+};
+
+/// A wish: weight * |x - target|^2 is added to what is minimised.
+template <int D>
+struct spring
+{
+    idx vertex;
+    vec<D> target;
+    double weight;
+};
+
+/// Where vertices of a map have to be (pins, which hold bit for bit), and where they should rather be (springs).
+///
+///     auto pins = taut::constraints(mesh).pin(12, {0, 0}).pin_u(5, 0.3).spring(40, {0.5, 0.5}, 10.0);
+///
+/// Positions are in units of the map; vertices count from 0. The mesh has to live as long as constraints are added, not
+/// longer. A call that throws changes nothing. All of them throw constraint_error: out_of_range, not_finite;
+/// contradictory and duplicate where a coordinate is held already.
+template <class Element = triangle>
+class constraints
+{
+public:
+    static constexpr int D = Element::dimension;
+    static constexpr std::uint8_t all = impl::held_marks<D>::every; ///< of held: every coordinate
+    using point = vec<D>;
+
+    constraints() = default; ///< none, of no mesh
+    explicit constraints(const mesh<Element>& m) : mesh_(&m) {}
+    explicit constraints(mesh<Element>&&) = delete; // a temporary would be gone when the next pin asks for it
+
+    /// Pins vertex v to x.
+    constraints& pin(idx v, const point& x)
+    {
+        return hold(std::array{v}, all, [&](std::size_t) { return x; });
+    }
+
+    /// Pins coordinate k of vertex v alone. Throws constraint_error also for no_coordinate.
+    constraints& pin(idx v, int k, double value)
+    {
+        require_coordinate(v, k);
+        point x(0.0);
+        x[k] = value;
+        return hold(std::array{v}, static_cast<std::uint8_t>(1u << k), [&](std::size_t) { return x; });
+    }
+
+    constraints& pin_u(idx v, double u) { return pin(v, 0, u); }
+    constraints& pin_v(idx v, double value) { return pin(v, 1, value); }
+
+    /// Pins vertices to one position each, where some may be pinned already: what was said of them no longer holds.
+    constraints& repin(std::span<const idx> vertices, std::span<const point> x)
+    {
+        require_count("a vertex", vertices.size(), x.size());
+        return hold(
+            vertices, all, [&](std::size_t i) { return x[i]; }, true);
+    }
+    constraints& repin(idx v, const point& x) { return repin(std::array{v}, std::array{x}); }
+
+    /// The same for coordinate k of vertex v alone; the others stay as they are held.
+    constraints& repin(idx v, int k, double value)
+    {
+        require_coordinate(v, k);
+        point x(0.0);
+        x[k] = value;
+        return hold(
+            std::array{v}, static_cast<std::uint8_t>(1u << k), [&](std::size_t) { return x; }, true);
+    }
+
+    /// As spring(), where v may have one already.
+    constraints& respring(idx v, const point& x, double weight)
+    {
+        const auto old = springs_.extract(v);
+        try
+        {
+            return spring(v, x, weight);
+        }
+        catch (...)
+        {
+            if (old) springs_.insert({v, old.mapped()});
+            throw;
+        }
+    }
+
+    /// Takes back what pins and springs say of vertex v, if they say anything.
+    constraints& release(idx v)
+    {
+        require_vertices(std::array{v});
+        pins_.erase(v);
+        springs_.erase(v);
+        return *this;
+    }
+
+    /// Pins the whole boundary, one loop, to a closed polygon: the loop goes around it once, by arc length, as the
+    /// edges at rest are long. `first` is laid on the polygon's first corner; -1: the boundary vertex of the smallest
+    /// number. The surface is to the left of the loop, so a counter-clockwise polygon keeps it the right way up. Throws
+    /// constraint_error (bad_polygon, out_of_range if `first` is not on the boundary); mesh_error unless there is one
+    /// boundary loop.
+    constraints& pin_boundary(std::span<const vec2> polygon, idx first = -1) requires(D == 2)
+    {
+        auto loop = boundary_loop();
+        if (first >= 0)
+        {
+            const auto start = std::find(loop.begin(), loop.end(), first);
+            if (start == loop.end())
+                throw constraint_error(constraint_fault::out_of_range, {first},
+                                       "vertex " + std::to_string(first) +
+                                           " is not on the boundary; start at one of its vertices");
+            std::rotate(loop.begin(), start, loop.end());
+        }
+        std::vector<double> lengths;
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            lengths.push_back(glm::distance(rest(loop[k]), rest(loop[(k + 1) % loop.size()])));
+        const auto x = impl::along_polygon(polygon, lengths);
+        return hold(loop, all, [&](std::size_t i) { return x[i]; });
+    }
+
+    /// Pins the whole boundary, one loop, to one position a vertex, in the order of boundary_loops().
+    /// Throws constraint_error (wrong_count); mesh_error unless there is one boundary loop.
+    constraints& pin_boundary_at(std::span<const vec2> positions) requires(D == 2)
+    {
+        const auto loop = boundary_loop();
+        require_count("a boundary vertex", loop.size(), positions.size());
+        return hold(loop, all, [&](std::size_t i) { return positions[i]; });
+    }
+
+    /// Pins vertices where the map x (one position a vertex of the mesh) has them.
+    constraints& fix(std::span<const idx> vertices, std::span<const point> x)
+    {
+        return move(vertices, x, [](const point& p) { return p; });
+    }
+
+    /// Pins vertices where they are at rest: volumes and planar surfaces (z = 0). Throws also for no_position.
+    constraints& fix(std::span<const idx> vertices)
+    {
+        return move(vertices, [](const point& p) { return p; });
+    }
+
+    /// Pins vertices to transform(p), p being where the map x has them.
+    template <class Transform>
+    constraints& move(std::span<const idx> vertices, std::span<const point> x, const Transform& transform)
+    {
+        require_count("a vertex", count(), x.size());
+        return hold(vertices, all, [&](std::size_t i) { return transform(x[static_cast<std::size_t>(vertices[i])]); });
+    }
+
+    /// Pins vertices to transform(p), p being where they are at rest. Throws also for no_position.
+    template <class Transform>
+    constraints& move(std::span<const idx> vertices, const Transform& transform)
+    {
+        require_positions_at_rest();
+        return hold(vertices, all, [&](std::size_t i) { return transform(point(rest(vertices[i]))); });
+    }
+
+    /// Draws vertex v towards x; a weight of 0 does nothing. Throws constraint_error also for bad_weight, idle_spring.
+    constraints& spring(idx v, const point& x, double weight)
+    {
+        require_vertices(std::array{v});
+        if (!finite(x, all)) impl::refuse_vertices(constraint_fault::not_finite, {v}, not_finite_);
+        if (!(weight >= 0) || !std::isfinite(weight))
+            impl::refuse_vertices(constraint_fault::bad_weight, {v},
+                                    "with a spring whose weight is negative or not finite; give a finite one >= 0");
+        if (held(v) == all) impl::refuse_vertices(constraint_fault::idle_spring, {v}, idle_spring_);
+        if (!springs_.try_emplace(v, taut::spring<D>{v, x, weight}).second)
+            impl::refuse_vertices(constraint_fault::duplicate, {v}, "with a second spring; leave one out");
+        return *this;
+    }
+
+    bool empty() const { return pins_.empty() && springs_.empty(); }
+
+    /// Throws constraint_error (not_finite) where targets are too far away in lengths of `unit` times these.
+    void require_near(double unit) const
+    {
+        std::vector<idx> far;
+        for (const auto& [v, pin] : pins_)
+            if (!finite(pin.value * unit, pin.held)) far.push_back(v);
+        for (const auto& [v, s] : springs_)
+            if (!finite(s.target * unit, all)) far.push_back(v);
+        impl::refuse_vertices(constraint_fault::not_finite, std::move(far),
+                                "with a target that is too far away for the size of the mesh; give a nearer one");
+    }
+
+    /// Throws constraint_error (unused_vertex) where anything is asked of one of these vertices, which ascend: those
+    /// that no cell names.
+    void require_used(std::span<const idx> unused) const
+    {
+        if (unused.empty()) return;
+        std::vector<idx> bad;
+        const auto is_unused = [&](idx v) { return std::binary_search(unused.begin(), unused.end(), v); };
+        for (const auto& [v, pin] : pins_)
+            if (is_unused(v)) bad.push_back(v);
+        for (const auto& [v, s] : springs_)
+            if (is_unused(v) && !pins_.contains(v)) bad.push_back(v);
+        std::sort(bad.begin(), bad.end());
+        impl::refuse_vertices(constraint_fault::unused_vertex, std::move(bad),
+                                std::string("pinned that no ") + Element::name +
+                                    " uses, so that nothing follows; pin others, or leave the pins out");
+    }
+
+    /// The same for a copy of the mesh. Throws constraint_error where it is another mesh, with fewer vertices.
+    constraints on(const mesh<Element>& copy) const
+    {
+        constraints c = *this;
+        c.mesh_ = &copy;
+        for (const auto& [v, pin] : pins_) c.require_vertices(std::array{v});
+        for (const auto& [v, s] : springs_) c.require_vertices(std::array{v});
+        return c;
+    }
+
+    /// The pins by vertex, ascending.
+    const std::map<idx, hard_pin<D>>& pins() const { return pins_; }
+
+    /// The springs, ascending by vertex.
+    std::vector<taut::spring<D>> springs() const
+    {
+        std::vector<taut::spring<D>> list;
+        for (const auto& [v, s] : springs_) list.push_back(s);
+        return list;
+    }
+
+    /// Bit k: coordinate k of vertex v is held.
+    std::uint8_t held(idx v) const
+    {
+        const auto at = pins_.find(v);
+        return at == pins_.end() ? std::uint8_t{0} : at->second.held;
+    }
+
+    /// held(), one a vertex.
+    impl::held_marks<D> held() const
+    {
+        impl::held_marks<D> marks(count());
+        for (const auto& [v, p] : pins_) marks[static_cast<std::size_t>(v)] = p.held;
+        return marks;
+    }
+
+    /// Gives the held coordinates of a map (one position a vertex) their values.
+    void impose(std::span<point> x) const
+    {
+        require_count("a vertex", count(), x.size());
+        for (const auto& [v, p] : pins_)
+            for (int k = 0; k < D; ++k)
+                if ((p.held >> k & 1u) != 0) x[static_cast<std::size_t>(v)][k] = p.value[k];
+    }
+
+private:
+    static constexpr const char* not_finite_ =
+        "with a target that is not finite, or so far away that distances are not; give nearer coordinates";
+    static constexpr double farthest_ = std::numeric_limits<double>::max() / 2; // so that differences are finite
+    static constexpr const char* idle_spring_ = "with a spring and a pin, which leaves the spring nothing to do; "
+                                                "leave one of them out";
+
+    std::size_t count() const { return mesh_ ? mesh_->points().size() : 0; }
+    const vec3& rest(idx v) const { return mesh_->points()[static_cast<std::size_t>(v)]; }
+
+    static bool finite(const point& x, std::uint8_t coordinates)
+    {
+        for (int k = 0; k < D; ++k)
+            if ((coordinates >> k & 1u) != 0 && !(std::abs(x[k]) <= farthest_)) return false;
+        return true;
+    }
+
+    void require_vertices(std::span<const idx> vertices) const
+    {
+        std::vector<idx> bad;
+        for (const idx v : vertices)
+            if (v < 0 || static_cast<std::size_t>(v) >= count()) bad.push_back(v);
+        impl::refuse_vertices(constraint_fault::out_of_range, std::move(bad),
+                                "that the mesh does not have; it has " + std::to_string(count()) + ", counted from 0");
+    }
+
+    static void require_coordinate(idx v, int k)
+    {
+        if (k < 0 || k >= D)
+            throw constraint_error(constraint_fault::no_coordinate, {v},
+                                   "vertex " + std::to_string(v) + " has no coordinate " + std::to_string(k) +
+                                       "; they count from 0 to " + std::to_string(D - 1));
+    }
+
+    static void require_count(const char* what, std::size_t wanted, std::size_t given)
+    {
+        if (wanted != given)
+            throw constraint_error(constraint_fault::wrong_count, {},
+                                   std::to_string(given) + " positions; give one " + what + ": " +
+                                       std::to_string(wanted));
+    }
+
+    void require_positions_at_rest() const
+    {
+        if constexpr (D == 2)
+            if (mesh_ &&
+                std::any_of(mesh_->points().begin(), mesh_->points().end(), [](const vec3& p) { return p.z != 0; }))
+                throw constraint_error(constraint_fault::no_position, {},
+                                       "a surface in space has no place in the plane yet; give the map, too");
+    }
+
+    std::vector<idx> boundary_loop() const requires(D == 2)
+    {
+        if (!mesh_) return {};
+        auto loops = boundary_loops(*mesh_);
+        if (loops.empty()) throw mesh_error(describe<Element>(mesh_fault::closed_surface, {}));
+        if (loops.size() > 1)
+        {
+            std::vector<idx> first;
+            for (const auto& loop : loops) first.push_back(loop[0]);
+            throw mesh_error(describe<Element>(mesh_fault::several_boundaries, std::move(first)));
+        }
+        return std::move(loops.front());
+    }
+
+    /// Holds `coordinates` of the vertices at where(i), i counting through them: all or, where it throws, none.
+    /// replace: whether what was held before is no fault.
+    template <class Where>
+    constraints& hold(std::span<const idx> vertices, std::uint8_t coordinates, const Where& where, bool replace = false)
+    {
+        require_vertices(vertices);
+        std::vector<idx> not_finite, contradictory, duplicate, idle;
+        std::map<idx, hard_pin<D>> added;
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+        {
+            const idx v = vertices[i];
+            const point x = where(i);
+            if (!finite(x, coordinates)) not_finite.push_back(v);
+            const auto earlier = pins_.find(v);
+            const auto [at, is_new] = added.try_emplace(v, earlier == pins_.end() ? hard_pin<D>{} : earlier->second);
+            hard_pin<D>& p = at->second;
+            bool again = false, differs = false;
+            for (int k = 0; k < D; ++k)
+            {
+                if ((coordinates >> k & 1u) == 0) continue;
+                const bool taken = !(replace && is_new) && (p.held >> k & 1u) != 0;
+                again = again || taken;
+                differs = differs || (taken && p.value[k] != x[k]);
+                if (!taken) p.value[k] = x[k];
+            }
+            p.held = static_cast<std::uint8_t>(p.held | coordinates);
+            if (again) (differs ? contradictory : duplicate).push_back(v);
+            if (p.held == all && springs_.contains(v)) idle.push_back(v);
+        }
+        impl::refuse_vertices(constraint_fault::not_finite, std::move(not_finite), not_finite_);
+        impl::refuse_vertices(constraint_fault::contradictory, std::move(contradictory),
+                                "pinned to two different positions; leave one of the pins out");
+        impl::refuse_vertices(constraint_fault::duplicate, std::move(duplicate),
+                                "pinned twice to the same position; leave one of the pins out");
+        impl::refuse_vertices(constraint_fault::idle_spring, std::move(idle), idle_spring_);
+        for (auto& [v, p] : added) pins_.insert_or_assign(v, p);
+        return *this;
+    }
+
+    const mesh<Element>* mesh_ = nullptr;
+    std::map<idx, hard_pin<D>> pins_;
+    std::map<idx, taut::spring<D>> springs_;
+};
+
+} // namespace taut

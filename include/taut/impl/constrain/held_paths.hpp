@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
+
+namespace taut::impl
+{
+
+/// The ways that held vertices take to their places: those that hang together, by edges between pinned vertices, move
+/// as a rigid body, and what the best rigid motion leaves to be done in a straight line meanwhile. On straight lines
+/// alone a face that turns by half a turn would shrink to a point half way.
+template <int D>
+class held_paths
+{
+public:
+    using map = std::vector<vec<D>>;
+
+    /// cells: their D + 1 vertices. from, to: one position a vertex, of `to` only held coordinates are read.
+    held_paths(std::span<const std::array<idx, D + 1>> cells, const held_marks<D>& marks, const map& from,
+               const map& to)
+        : marks_(marks), from_(from), to_(to), body_(marks.size(), -1)
+    {
+        for (const auto& body : bodies(cells))
+        {
+            map points, images;
+            for (const std::size_t v : body)
+            {
+                points.push_back(from[v]);
+                images.push_back(to[v]);
+                body_[v] = static_cast<idx>(motions_.size());
+            }
+            sizes_.push_back(body.size());
+            motions_.push_back(fit_rigid_motion(std::span<const vec<D>>(points), std::span<const vec<D>>(images)));
+        }
+    }
+
+    /// In how many parts the way should be gone, so that none turns by more than `most` radians.
+    int parts(double most = std::numbers::pi / 6) const
+    {
+        double largest = 0;
+        for (const auto& m : motions_) largest = std::max(largest, std::abs(m.angle));
+        return std::max(1, static_cast<int>(std::ceil(largest / most - 1e-9)));
+    }
+
+    /// The turn of the body that vertex v is a part of, axis times angle; none where it is of none, or of one of fewer
+    /// than D vertices, whose turn is open.
+    std::optional<vec3> turn(std::size_t v) const
+    {
+        if (body_[v] < 0 || sizes_[static_cast<std::size_t>(body_[v])] < D) return std::nullopt;
+        const auto& m = motions_[static_cast<std::size_t>(body_[v])];
+        return m.angle * m.axis;
+    }
+
+    /// Held coordinates of x where they are when a share t of the way is done; to the last bit where it is 1.
+    void place(double t, map& x) const
+    {
+        for (std::size_t v = 0; v < marks_.size(); ++v)
+        {
+            if (!marks_.any(v)) continue;
+            const vec<D> p = t >= 1 ? to_[v] : where(v, t);
+            for (int k = 0; k < D; ++k)
+                if (marks_.test(v, k)) x[v][k] = p[k];
+        }
+    }
+
+private:
+    vec<D> where(std::size_t v, double t) const
+    {
+        if (body_[v] < 0) return from_[v] + t * (to_[v] - from_[v]);
+        const auto& m = motions_[static_cast<std::size_t>(body_[v])];
+        return m(from_[v], t) + t * m.turned(to_[v] - m(from_[v]), (t - 1) * m.angle);
+    }
+
+    /// Pinned vertices that hang together.
+    std::vector<std::vector<std::size_t>> bodies(std::span<const std::array<idx, D + 1>> cells) const
+    {
+        std::vector<std::size_t> parent(marks_.size());
+        std::iota(parent.begin(), parent.end(), std::size_t{0});
+        const auto root = [&](std::size_t v)
+        {
+            while (parent[v] != v) v = parent[v] = parent[parent[v]];
+            return v;
+        };
+        for (const auto& cell : cells)
+        {
+            std::size_t first = marks_.size();
+            for (const idx corner : cell)
+            {
+                const auto v = static_cast<std::size_t>(corner);
+                if (!marks_.all(v)) continue;
+                if (first == marks_.size())
+                    first = root(v);
+                else
+                    parent[root(v)] = first;
+            }
+        }
+        std::vector<std::vector<std::size_t>> found;
+        std::vector<std::size_t> number(marks_.size(), marks_.size());
+        for (std::size_t v = 0; v < marks_.size(); ++v)
+        {
+            if (!marks_.all(v)) continue;
+            auto& n = number[root(v)];
+            if (n == marks_.size())
+            {
+                n = found.size();
+                found.emplace_back();
+            }
+            found[n].push_back(v);
+        }
+        return found;
+    }
+
+    held_marks<D> marks_;
+    map from_, to_;
+    std::vector<idx> body_; ///< of each vertex, or -1
+    std::vector<rigid_motion<D>> motions_;
+    std::vector<std::size_t> sizes_; ///< of the bodies, in vertices
+};
+
+} // namespace taut::impl

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/constrain/slide.hpp>
+#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/mesh/order.hpp>
+
+namespace taut::impl
+{
+
+/// A spring with a stiffness a coordinate: it adds the sum over k of stiffness[k] (x - target)[k]^2.
+template <int D>
+struct directed_spring
+{
+    idx vertex;
+    vec<D> target, stiffness;
+};
+
+/// The same in all coordinates.
+template <int D>
+std::vector<directed_spring<D>> directed(const std::vector<spring<D>>& springs)
+{
+    std::vector<directed_spring<D>> all;
+    for (const spring<D>& s : springs) all.push_back({s.vertex, s.target, vec<D>(s.weight)});
+    return all;
+}
+
+/// What is asked of single vertices besides being pinned, which is the matter of the layout: coordinates that are held
+/// alone, springs, and vertices that slide. Units are those of the map.
+template <int D>
+struct point_constraints
+{
+    held_marks<D> held;                      ///< one a vertex, or none
+    std::vector<directed_spring<D>> springs; ///< what they add is added to the energy's mean
+    std::vector<slide<D>> slides{};          ///< at most one a vertex
+
+    bool empty() const { return held.empty() && springs.empty() && slides.empty(); }
+
+    /// For vertices in other numbers.
+    point_constraints renumbered(const permutation& p) const
+    {
+        point_constraints r;
+        if (!held.empty()) r.held = held_marks<D>(p.apply(held.bits()));
+        for (directed_spring<D> s : springs)
+        {
+            s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];
+            r.springs.push_back(s);
+        }
+        for (slide<D> s : slides)
+        {
+            s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];
+            r.slides.push_back(s);
+        }
+        return r;
+    }
+
+    /// For a map whose lengths are `factor` times as long.
+    point_constraints scaled(double factor) const
+    {
+        point_constraints r = *this;
+        for (auto& s : r.springs)
+        {
+            s.target *= factor;
+            s.stiffness /= factor * factor;
+        }
+        return r;
+    }
+
+    /// One flag a vertex: true if it has any.
+    std::vector<bool> touched(std::size_t vertices) const
+    {
+        std::vector<bool> any(vertices, false);
+        for (std::size_t v = 0; v < held.size(); ++v) any[v] = held.any(v);
+        for (const auto& s : springs) any[static_cast<std::size_t>(s.vertex)] = true;
+        for (const auto& s : slides) any[static_cast<std::size_t>(s.vertex)] = true;
+        return any;
+    }
+};
+
+} // namespace taut::impl

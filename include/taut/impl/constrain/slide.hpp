@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include <taut/impl/core/types.hpp>
+
+namespace taut
+{
+
+/// A vertex that may move along a line or in a plane through where it is, and nowhere else.
+template <int D>
+struct slide
+{
+    idx vertex;
+    glm::mat<D, D, double> projection; ///< of displacements on the directions that are allowed: symmetric, P P = P
+
+    /// Across a direction, of any length but 0: in a plane, or in the plane along a line.
+    static slide across(idx v, const vec<D>& normal)
+    {
+        return {v, glm::mat<D, D, double>(1.0) - glm::outerProduct(normal, normal) / glm::dot(normal, normal)};
+    }
+
+    /// Along a direction, of any length but 0.
+    static slide along(idx v, const vec<D>& direction)
+    {
+        return {v, glm::outerProduct(direction, direction) / glm::dot(direction, direction)};
+    }
+};
+
+} // namespace taut

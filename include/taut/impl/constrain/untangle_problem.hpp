@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <taut/impl/core/error.hpp>
+#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/mesh/cell_corners.hpp>
+
+namespace taut
+{
+
+/// A map to be made injective while some coordinates of some vertices stay exactly where they are.
+template <class Element>
+struct untangle_problem
+{
+    static constexpr int D = Element::dimension;
+
+    mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
+    std::vector<vec<D>> initial; ///< one a vertex, in any state; a held coordinate is a hard constraint
+    impl::held_marks<D> held;          ///< one a vertex
+    /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
+    /// empty: none is known.
+    std::vector<vec<D>> draft = {};
+    /// What elements are wanted to look like, if not as they are at rest: edge matrices, upper triangular with a
+    /// positive diagonal, one a cell; their measures are weights, too.
+    std::vector<mat<D>> wanted = {};
+    /// The cell that each simplex is a corner of (mesh/cell_corners.hpp), where they are corners of others; else empty.
+    std::vector<idx> owners = {};
+    /// Vertices that stages hold where they are, though they may move along a line or in a plane: no proof may count
+    /// on their places.
+    std::vector<idx> sliding = {};
+
+    /// What proofs may count on.
+    impl::held_marks<D> held_for_sure() const
+    {
+        auto marks = held;
+        for (const idx v : sliding) marks[static_cast<std::size_t>(v)] = 0;
+        return marks;
+    }
+
+    /// True if no vertex of the boundary can move.
+    bool outline_pinned() const
+    {
+        const auto outline = boundary_facets(rest, owners);
+        return std::all_of(outline.begin(), outline.end(),
+                           [this](const auto& facet) {
+                               return std::all_of(facet.begin(), facet.end(),
+                                                  [this](idx v) { return held.all(static_cast<std::size_t>(v)); });
+                           });
+    }
+
+    /// Throws parameter_error: one initial position and one set of held coordinates a vertex, all of it finite.
+    void validate() const
+    {
+        const std::size_t n = rest.points().size();
+        if (initial.size() != n)
+            throw parameter_error("initial", "one position a vertex: " + std::to_string(n) + ", not " +
+                                                 std::to_string(initial.size()));
+        if (held.size() != n)
+            throw parameter_error("held", "one set of coordinates a vertex: " + std::to_string(n) + ", not " +
+                                              std::to_string(held.size()));
+        if (!draft.empty() && draft.size() != n)
+            throw parameter_error("draft", "one position a vertex, or none at all: " + std::to_string(n) + ", not " +
+                                               std::to_string(draft.size()));
+        const std::size_t cells = rest.cells().size();
+        if (!wanted.empty() && wanted.size() != cells)
+            throw parameter_error("wanted", "one matrix a cell, or none at all: " + std::to_string(cells) + ", not " +
+                                                std::to_string(wanted.size()));
+        if (!owners.empty() && owners.size() != cells)
+            throw parameter_error("owners", "one a cell, or none at all: " + std::to_string(cells) + ", not " +
+                                                std::to_string(owners.size()));
+        for (std::size_t v = 0; v < n; ++v)
+        {
+            for (int k = 0; k < D; ++k)
+                if (!std::isfinite(initial[v][k]))
+                    throw parameter_error("initial", "vertex " + std::to_string(v) + " is not finite");
+            if (held[v] > held.every)
+                throw parameter_error("held", "vertex " + std::to_string(v) + " has only " + std::to_string(D) +
+                                                  " coordinates");
+        }
+    }
+};
+
+} // namespace taut

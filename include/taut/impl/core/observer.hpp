@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <taut/impl/core/linalg.hpp>
+
+namespace taut
+{
+
+/// Where a run stands.
+struct progress
+{
+    int iteration = 0;   ///< accepted steps so far
+    double value = 0;    ///< f at the current iterate
+    double gradient = 0; ///< its relative gradient
+    double step = 0;     ///< the last accepted step
+    int evaluations = 0; ///< values computed so far
+    double seconds = 0;  ///< since the start
+    int level = 0;       ///< of a nested iteration; 0: the problem itself
+    bool iterate =
+        true; ///< a new iterate; false: in the middle of a line search, the other fields are the last iterate's
+    bool usable = true; ///< a run that ends now has a result; false where one of several phases has none yet
+    /// The map as it is, one point a vertex in the user's order and lengths, for a live view: valid as what is
+    /// returned, but not certified. Empty where there is no map of the whole surface. It costs a download where it is
+    /// called, and nothing where it is not; to be called by the observer only.
+    std::function<std::vector<vec2>()> coordinates = {};
+    /// The same of a volume.
+    std::function<std::vector<vec3>()> positions = {};
+};
+
+/// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with
+/// the best iterate so far (solve::stop::user). It runs on the thread of the solver; an exception passes through.
+using observer = std::function<bool(const progress&)>;
+
+} // namespace taut

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/edit/detail/split_chords.hpp>
+
+namespace taut
+{
+
+/// What is cut from one surface to be pasted on another: a region with its base. The base is the plane that the rim
+/// encloses best; what the region does above it is the detail.
+struct feature
+{
+    surface_region
+        region;           ///< edges between vertices of the rim are halved: their middles are vertices -1 of the source
+    vec3 centre{0.0};     ///< mean of the rim by length
+    vec3 normal{0, 0, 1}; ///< of the base, of length 1, to the outside
+    double radius = 0;    ///< largest distance of the rim from the centre
+
+    /// The axes of the base and its normal, as columns; right-handed.
+    mat3 frame() const
+    {
+        const vec3 across = std::abs(normal.x) < 0.9 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        const vec3 first = glm::normalize(glm::cross(across, normal));
+        return {first, glm::cross(normal, first), normal};
+    }
+};
+
+/// Throws parameter_error for a region whose rim encloses no area: its base has no direction.
+inline feature make_feature(surface_region region)
+{
+    feature f{.region = impl::split_chords(std::move(region))};
+    const auto& rim = f.region.rim;
+    const auto at = [&](std::size_t i) -> const vec3&
+    { return f.region.surface.points()[static_cast<std::size_t>(rim[i % rim.size()])]; };
+    double length = 0;
+    for (std::size_t i = 0; i < rim.size(); ++i)
+    {
+        const double edge = glm::distance(at(i), at(i + 1));
+        f.centre += edge / 2 * (at(i) + at(i + 1));
+        length += edge;
+    }
+    f.centre /= length;
+    vec3 area(0.0); // twice the vector area of the rim (Newell)
+    for (std::size_t i = 0; i < rim.size(); ++i)
+    {
+        area += glm::cross(at(i) - f.centre, at(i + 1) - f.centre);
+        f.radius = std::max(f.radius, glm::distance(at(i), f.centre));
+    }
+    if (!(glm::length(area) > 1e-6 * length * length))
+        throw parameter_error("region",
+                              "its rim encloses no area, so that its base has no direction; choose another one");
+    f.normal = glm::normalize(area);
+    return f;
+}
+
+} // namespace taut

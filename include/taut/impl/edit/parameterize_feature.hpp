@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <taut/impl/edit/paste.hpp>
+#include <taut/impl/map/parameterize.hpp>
+
+namespace taut::impl
+{
+
+/// A vertex of a feature and where it shall be in the map of the target.
+struct feature_pin
+{
+    idx vertex; ///< of the feature's region
+    vec2 at;
+};
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// The feature of a paste in the map of the target (paper, section 4.1): its rim is pinned to the correspondences of
+/// the paste, with any other vertices that are named, and the rest is mapped as isometrically as that allows, without
+/// flips. The rim is a simple polygon, so without other pins there is a map; where these contradict it, the outcome is
+/// infeasible, and report.ids names the triangles or vertices. Throws constraint_error, device_error.
+inline map_result parameterize_feature(queue& q, const paste& p, std::span<const impl::feature_pin> pins = {})
+{
+    const auto& region = p.part().region;
+    auto wanted = impl::rim_pins(region, p.rim_uv());
+    for (const auto& pin : pins) wanted.pin(pin.vertex, pin.at);
+    return parameterize(q, region.surface, {.constraints = wanted});
+}
+
+} // namespace taut

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/core/error.hpp>
+
+namespace taut
+{
+
+/// A feature that finds no place on a surface. what() has the reason and the remedy.
+class paste_error : public error
+{
+public:
+    using error::error;
+};
+
+} // namespace taut

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cmath>
+
+#include <taut/impl/core/error.hpp>
+#include <taut/impl/core/types.hpp>
+#include <taut/impl/edit/rbf_basis.hpp>
+
+namespace taut
+{
+
+/// How a feature is put on its place: at first as the smallest rotation takes the normal of its base to the normal of
+/// the target, half of its rim above the surface and half below.
+struct paste_pose
+{
+    double turn = 0;     ///< about the target's normal, in radians, counter-clockwise as seen from outside
+    double scale = 1;    ///< lengths of the pasted feature by those of the source
+    vec3 shift{0.0};     ///< in the units of the target
+    double softness = 0; ///< 0: the feature keeps its shape, the target bends to meet it; 1: the rim lies on the
+                         ///< target, the feature bends; between: between
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (!std::isfinite(turn)) throw parameter_error("turn", "must be a number");
+        if (!(scale > 0) || !std::isfinite(scale)) throw parameter_error("scale", "must be a positive number");
+        if (!(softness >= 0 && softness <= 1)) throw parameter_error("softness", "must be from 0 to 1");
+        if (!std::isfinite(shift.x) || !std::isfinite(shift.y) || !std::isfinite(shift.z))
+            throw parameter_error("shift", "must be numbers");
+    }
+};
+
+struct paste_params
+{
+    paste_pose pose = {}; ///< where the feature is at first
+
+    /// Radius of the part of the target that makes room, by that of the rim at its scale: 1.2 or more. What the
+    /// rim covers is replaced, and what is around it bends.
+    double reach = 1.8;
+
+    /// Of the fields that bend target and feature. `linear` overshoots least.
+    rbf_basis basis = rbf_basis::linear;
+
+    /// Of the map that lays the feature on the target, for the first soft pose: where the rim is hard to fit it takes
+    /// an untangling, which may never end.
+    std::chrono::duration<double> time_limit{20};
+
+    /// At most so many control points of each kind: along the rim, and where nothing moves.
+    idx controls = 300;
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        pose.validate();
+        if (!(reach >= 1.2) || !std::isfinite(reach)) throw parameter_error("reach", "must be 1.2 or more");
+        if (!(time_limit.count() > 0)) throw parameter_error("time_limit", "must be positive");
+        if (controls < 8) throw parameter_error("controls", "must be at least 8");
+        impl::rbf_value(basis, 0, 1);
+    }
+};
+
+} // namespace taut

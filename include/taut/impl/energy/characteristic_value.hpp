@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <taut/impl/energy/any_energy.hpp>
+
+namespace taut::impl
+{
+
+/// A rise of the energy above its value at rest that is typical: the largest at a stretch by 2 or by 1/2 along one
+/// axis, of the densities that are finite; 0 if none rises. It says what is much and what is little where the energy
+/// itself cannot, since it is 0 at rest: 2.25 of the isometric energy in the plane, which is 4 there.
+template <int D>
+double characteristic_value(const any_energy& energy)
+{
+    const auto at = [&](const mat<D>& S) { return energy(element<double, D>{S, glm::determinant(S), 1.0}); };
+    const double rest = at(mat<D>(1.0));
+    double most = 0;
+    for (int axis = 0; axis < D; ++axis)
+        for (const double stretch : {2.0, 0.5})
+        {
+            mat<D> S(1.0);
+            S[axis][axis] = stretch;
+            if (const double rise = at(S) - rest; std::isfinite(rise)) most = std::max(most, rise);
+        }
+    return most;
+}
+
+} // namespace taut::impl

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <taut/impl/core/block_sum.hpp>
+#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/mesh/ideal.hpp>
+
+namespace taut::impl
+{
+
+/// The map of element c as an energy sees it: S = A W^-1 (eq. 3), with A the edges of the image from corner 0.
+/// x: #V image points, in the units of `ideal`. The measure is the one of `ideal`.
+template <class Element>
+element<double, Element::dimension> mapped_element(const mesh<Element>& m, const ideal_elements<Element>& ideal,
+                                                   std::span<const vec<Element::dimension>> x, std::size_t c)
+{
+    constexpr int D = Element::dimension;
+    const mat<D> S = shape_matrix<D>(m.cells()[c], x, ideal.inverse[c]);
+    return {S, glm::determinant(S), ideal.measure[c]};
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// An energy's value at an element: +infinity beyond its barrier, where the element is flipped or flat.
+template <class Energy, int D>
+double bounded(const Energy& energy, const element<double, D>& e)
+{
+    return Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
+}
+
+/// An energy's value for every element, as bounded() has it.
+template <class Element, class Energy>
+std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Element>& ideal,
+                               std::span<const vec<Element::dimension>> x, const Energy& energy)
+{
+    std::vector<double> result(m.cells().size());
+    parallel_for(result.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t c = begin; c < end; ++c)
+                         result[c] = bounded(energy, mapped_element(m, ideal, x, c));
+                 });
+    return result;
+}
+
+/// Isometric distortion of every element, for pictures: 4 (triangles) or 2 (tetrahedra) where nothing is distorted.
+template <class Element>
+std::vector<double> distortion(const mesh<Element>& m, std::span<const vec<Element::dimension>> x)
+{
+    return distortion(m, ideal_elements<Element>(m), x, energy::isometric{});
+}
+
+/// The two means of a value per element.
+struct means
+{
+    double uniform = 0; ///< every element counts 1, as in the paper
+    double measure = 0; ///< every element counts its rest area or volume
+
+    /// Sums on the way to means: adds an element, or other sums; then divides them.
+    void add(double value, double by)
+    {
+        uniform += value;
+        measure += value * by;
+    }
+    means& operator+=(const means& other)
+    {
+        uniform += other.uniform;
+        measure += other.measure;
+        return *this;
+    }
+    means over(std::size_t elements, double total) const
+    {
+        return {uniform / static_cast<double>(elements), measure / total};
+    }
+};
+
+inline means mean(std::span<const double> value, std::span<const double> measure)
+{
+    means sums;
+    double total = 0;
+    for (std::size_t c = 0; c < value.size(); ++c)
+    {
+        sums.add(value[c], measure[c]);
+        total += measure[c];
+    }
+    return sums.over(value.size(), total);
+}
+
+/// Both means of value(element) over the elements of a map.
+template <class Element, class Value>
+means mean_over(const mesh<Element>& m, const ideal_elements<Element>& ideal,
+                std::span<const vec<Element::dimension>> x, const Value& value)
+{
+    struct sums
+    {
+        means values;
+        double total = 0;
+        sums& operator+=(const sums& o)
+        {
+            values += o.values;
+            total += o.total;
+            return *this;
+        }
+    };
+    const auto s = impl::block_sum<sums>(m.cells().size(),
+                                           [&](sums& part, std::size_t c)
+                                           {
+                                               const auto e = impl::mapped_element(m, ideal, x, c);
+                                               part.values.add(value(e), e.measure);
+                                               part.total += e.measure;
+                                           });
+    return s.values.over(m.cells().size(), s.total);
+}
+
+} // namespace taut

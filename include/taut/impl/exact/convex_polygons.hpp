@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/core/counting_sort.hpp>
+#include <taut/impl/core/csr.hpp>
+#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/core/types.hpp>
+#include <taut/impl/exact/predicates.hpp>
+
+namespace taut
+{
+
+/// The convex polygons among the faces of a surface, whichever way they are cut into triangles. Whoever reads a file
+/// may cut them another way: all triangles of all of these ways are positive in a map where every corner turns left.
+struct convex_polygons
+{
+    std::vector<std::array<idx, 3>> corners; ///< each corner between those before and after it, polygon by polygon
+    std::vector<idx> first{0};               ///< of the corners of each polygon, and one more
+    std::vector<idx> numbers;                ///< of the polygons, as they were given
+
+    idx size() const { return static_cast<idx>(first.size()) - 1; }
+    std::span<const std::array<idx, 3>> corners_of(idx polygon) const
+    {
+        const auto begin = static_cast<std::size_t>(first[static_cast<std::size_t>(polygon)]);
+        const auto end = static_cast<std::size_t>(first[static_cast<std::size_t>(polygon) + 1]);
+        return std::span(corners).subspan(begin, end - begin);
+    }
+};
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// The outline of triangles that make up a polygon, from one vertex to the next, until the next call on a thread; empty
+/// if it is none without holes.
+inline std::span<const idx> outline_of(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon)
+{
+    static thread_local std::vector<std::array<idx, 2>> sides, border;
+    static thread_local std::vector<idx> loop;
+    sides.clear();
+    border.clear();
+    loop.clear();
+    for (const idx c : polygon)
+        for (std::size_t k = 0; k < 3; ++k)
+            sides.push_back({cells[static_cast<std::size_t>(c)][k], cells[static_cast<std::size_t>(c)][(k + 1) % 3]});
+    std::sort(sides.begin(), sides.end());
+    for (const auto& [a, b] : sides)
+        if (!std::binary_search(sides.begin(), sides.end(), std::array{b, a})) border.push_back({a, b});
+    if (border.size() != polygon.size() + 2) return {};
+    for (idx v = border.front()[0]; loop.size() < border.size();)
+    {
+        const auto next = std::lower_bound(border.begin(), border.end(), std::array{v, idx(0)});
+        if (next == border.end() || (*next)[0] != v || (next + 1 != border.end() && next[1][0] == v)) return {};
+        loop.push_back(v);
+        v = (*next)[1];
+        if (v == loop.front() && loop.size() < border.size()) return {};
+    }
+    return loop;
+}
+
+/// Whether an outline in space is convex, as it is seen along its normal; almost straight corners do not count as that.
+inline bool is_convex(std::span<const idx> loop, std::span<const vec3> points)
+{
+    constexpr double straight = 1e-6; // sine of the angle
+    const std::size_t n = loop.size();
+    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(loop[k % n])]; };
+    vec3 normal(0.0);
+    for (std::size_t k = 1; k + 1 < n; ++k) normal += glm::cross(at(k) - at(0), at(k + 1) - at(0));
+    const double size = glm::length(normal);
+    if (!(size > 0)) return false;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+        const vec3 in = at(k + 1) - at(k), out = at(k + 2) - at(k + 1);
+        if (!(glm::dot(glm::cross(in, out), normal) > straight * glm::length(in) * glm::length(out) * size))
+            return false;
+    }
+    return true;
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// Finds the polygons of more than three corners that are convex in space.
+/// cells: triangles; polygon: a number for each, from 0, that of its polygon; points: one a vertex
+inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon,
+                                            std::span<const vec3> points)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    convex_polygons found;
+    if (polygon.empty()) return found;
+    found.corners.reserve(2 * cells.size());
+    const auto labels = u(*std::max_element(polygon.begin(), polygon.end())) + 1;
+    impl::csr members{{}, std::vector<idx>(cells.size())};
+    members.offsets = impl::counting_sort(
+        cells.size(), labels, [&](std::size_t c) { return polygon[c]; },
+        [&](std::size_t c, std::size_t at) { members.items[at] = static_cast<idx>(c); });
+    for (std::size_t c = 0; c < cells.size(); ++c) // in the order of their first triangles
+    {
+        const auto own = members.row(polygon[c]);
+        if (own.size() < 2 || u(own.front()) != c) continue;
+        const auto loop = impl::outline_of(cells, own);
+        if (loop.empty() || !impl::is_convex(loop, points)) continue;
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            found.corners.push_back({loop[k], loop[(k + 1) % loop.size()], loop[(k + 2) % loop.size()]});
+        found.numbers.push_back(polygon[c]);
+        found.first.push_back(static_cast<idx>(found.corners.size()));
+    }
+    return found;
+}
+
+/// The polygons that are not convex in a map, or have a straight corner there, ascending; exact.
+inline std::vector<idx> find_concave(const convex_polygons& polygons, std::span<const vec2> x)
+{
+    const auto at = [x](idx v) { return x[static_cast<std::size_t>(v)]; };
+    std::vector<idx> concave;
+    for (idx k = 0; k < polygons.size(); ++k)
+    {
+        const auto corners = polygons.corners_of(k);
+        if (std::any_of(corners.begin(), corners.end(),
+                        [&](const auto& c) { return impl::orient2d(at(c[0]), at(c[1]), at(c[2])) <= 0; }))
+            concave.push_back(k);
+    }
+    return concave;
+}
+
+} // namespace taut

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/hierarchy/independent_set.hpp>
+#include <taut/impl/hierarchy/tracking.hpp>
+#include <taut/impl/hierarchy/prolongation.hpp>
+#include <taut/impl/hierarchy/removals.hpp>
+
+namespace taut::impl
+{
+
+/// Thins a surface in rounds of independent half-edge collapses (Dobkin, Kirkpatrick 1985), following each removed
+/// vertex on the surface that is left (MAPS: Lee, Sweldens, Schroeder, Cowsar, Dobkin 1998). Numbers stay those of the
+/// surface at the start. Nothing depends on the number of threads.
+class thinning
+{
+public:
+    thinning(thinning_surface surface, unsigned threads) : surface_(std::move(surface)), threads_(threads)
+    {
+        const std::size_t n = surface_.points.size();
+        key_.assign(n, removal_key::never);
+        size_.assign(n, 0);
+        round_.of.assign(n, -1);
+        where_.resize(n);
+        for (std::size_t v = 0; v < n; ++v)
+        {
+            const auto id = static_cast<idx>(v);
+            if (surface_.rings.ranges[v].size == 0) continue;
+            alive_.push_back(id);
+            where_[v] = {{id, id, id}, {1, 0, 0}};
+        }
+        log_.rounds = {0};
+        log_.rings.offsets = {0};
+        for_alive([&](idx v) { size_[static_cast<std::size_t>(v)] = star_size(surface_, v, surface_.rings[v]); });
+        double sum = 0;
+        for (const idx v : alive_) sum += static_cast<double>(size_[static_cast<std::size_t>(v)]);
+        whole_ = sum;
+    }
+
+    std::size_t alive() const { return alive_.size(); }
+
+    /// Removes vertices until `goal` are left or hardly any can go, or until proceed(), if given, says no.
+    void run(std::size_t goal, const std::function<bool()>& proceed = {})
+    {
+        // When few qualify the rules are relaxed, for the rest of the level.
+        constexpr collapse_rules strictness[] = {{0.12, 4, 0.6, false},
+                                                 {0.12, 16, 0.6, false},
+                                                 {0.06, 1e30, 0.5, false},
+                                                 {0.02, 1e30, 0.4, true},
+                                                 {0.002, 1e30, 0.3, true}};
+        std::size_t stage = 0;
+        while (alive_.size() > goal)
+        {
+            if (proceed && !proceed()) return;
+            const std::size_t before = alive_.size();
+            round(goal, strictness[stage]);
+            if (static_cast<double>(before - alive_.size()) > 0.05 * static_cast<double>(before)) continue;
+            if (++stage == std::size(strictness)) return;
+            std::fill(stubborn_.begin(), stubborn_.end(), 0);
+        }
+    }
+
+    /// What run() did. The object is then spent, but for coarse().
+    std::pair<prolongation<3>, removals<triangle>> result()
+    {
+        std::vector<idx> number(surface_.points.size(), 0);
+        for (std::size_t i = 0; i < alive_.size(); ++i)
+            number[static_cast<std::size_t>(alive_[i])] = static_cast<idx>(i);
+        prolongation<3> P;
+        P.columns.resize(where_.size());
+        P.weights.resize(where_.size());
+        parallel_for(
+            where_.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i)
+                {
+                    P.weights[i] = where_[i].weights;
+                    idx used = 0;
+                    for (std::size_t k = 0; k < 3; ++k)
+                        if (P.weights[i][k] > 0) used = number[static_cast<std::size_t>(where_[i].vertices[k])];
+                    for (std::size_t k = 0; k < 3; ++k)
+                        P.columns[i][k] =
+                            P.weights[i][k] > 0 ? number[static_cast<std::size_t>(where_[i].vertices[k])] : used;
+                }
+            },
+            threads_);
+        transpose(P, alive_.size(), threads_);
+        return {std::move(P), std::move(log_)};
+    }
+
+    /// The vertices that are left, ascending; the numbering of the coarse surface.
+    const std::vector<idx>& remaining() const { return alive_; }
+
+    /// The surface that is left, renumbered.
+    thinning_surface coarse() const
+    {
+        std::vector<idx> number(surface_.points.size(), 0);
+        thinning_surface c;
+        const std::size_t n = alive_.size();
+        c.rings.ranges.resize(n);
+        idx items = 0;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+            const auto v = static_cast<std::size_t>(alive_[i]);
+            number[v] = static_cast<idx>(i);
+            c.rings.ranges[i] = {items, surface_.rings.ranges[v].size};
+            items += surface_.rings.ranges[v].size;
+        }
+        c.rings.items.resize(static_cast<std::size_t>(items));
+        c.points.resize(n);
+        c.open.resize(n);
+        c.keep.resize(n);
+        parallel_for(
+            n,
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i)
+                {
+                    const auto v = static_cast<std::size_t>(alive_[i]);
+                    c.points[i] = surface_.points[v];
+                    c.open[i] = surface_.open[v];
+                    c.keep[i] = surface_.keep[v];
+                    idx* out = c.rings.items.data() + c.rings.ranges[i].first;
+                    for (const idx w : surface_.rings[alive_[i]]) *out++ = number[static_cast<std::size_t>(w)];
+                }
+            },
+            threads_);
+        return c;
+    }
+
+private:
+    template <class Body>
+    void for_alive(Body&& body)
+    {
+        parallel_for(
+            alive_.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i) body(alive_[i]);
+            },
+            threads_);
+    }
+
+    void round(std::size_t goal, const collapse_rules& rules)
+    {
+        make_keys(rules);
+        const auto& chosen = set_.choose(surface_, alive_, key_, threads_);
+        evaluate(chosen, rules);
+        drop_clashes();
+        limit(alive_.size() - goal);
+        commit();
+    }
+
+    void make_keys(const collapse_rules& rules)
+    {
+        // The area stays about the same while vertices go, so the mean star grows accordingly.
+        const double mean = whole_ / static_cast<double>(alive_.size());
+        const auto salt = scramble(static_cast<std::uint32_t>(log_.rounds.size()));
+        stubborn_.resize(key_.size());
+        for_alive(
+            [&](idx id)
+            {
+                const auto v = static_cast<std::size_t>(id);
+                const auto valence = static_cast<std::size_t>(surface_.rings.ranges[v].size);
+                const auto size = static_cast<float>(static_cast<double>(size_[v]) / mean);
+                // A boundary vertex of one triangle stays: its triangle would go with it.
+                const bool possible = !surface_.keep[v] && !stubborn_[v] && valence >= 3 && valence <= largest_star &&
+                                      static_cast<double>(size) <= rules.largest_size;
+                key_[v] = possible ? make_key(id, valence, size, salt) : removal_key::never;
+            });
+    }
+
+    /// Flattens the stars of the chosen vertices and finds their targets.
+    void evaluate(std::span<const idx> chosen, const collapse_rules& rules)
+    {
+        round_.collapses.resize(chosen.size());
+        round_.first_corner.resize(chosen.size());
+        idx corners = 0;
+        for (std::size_t i = 0; i < chosen.size(); ++i)
+        {
+            const auto v = static_cast<std::size_t>(chosen[i]);
+            round_.of[v] = static_cast<idx>(i);
+            round_.first_corner[i] = corners;
+            corners += surface_.rings.ranges[v].size;
+        }
+        round_.corners.resize(static_cast<std::size_t>(corners));
+        parallel_for(
+            chosen.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i)
+                {
+                    const idx v = chosen[i];
+                    const bool open = surface_.open[static_cast<std::size_t>(v)] != 0;
+                    const flat_star star = flatten(surface_.points, v, surface_.rings[v], open);
+                    round_.collapses[i] = {v, choose_target(surface_, v, star, rules)};
+                    std::copy_n(star.corner.begin(), star.size, round_.corners.begin() + round_.first_corner[i]);
+                }
+            },
+            threads_, 128);
+    }
+
+    /// Where two collapses make the same edge, the one with the larger key is given up; so is one without a target.
+    void drop_clashes()
+    {
+        given_up_.assign(round_.collapses.size(), 0);
+        parallel_for(
+            given_up_.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i)
+                {
+                    const auto& c = round_.collapses[i];
+                    if (c.target < 0) stubborn_[static_cast<std::size_t>(c.vertex)] = 1;
+                    given_up_[i] = c.target < 0 || loses(surface_, round_, c, key_);
+                }
+            },
+            threads_, 128);
+        for (std::size_t i = 0; i < given_up_.size(); ++i)
+            if (given_up_[i]) give_up(i);
+    }
+
+    void give_up(std::size_t i)
+    {
+        round_.of[static_cast<std::size_t>(round_.collapses[i].vertex)] = -1;
+        round_.collapses[i].target = -1;
+    }
+
+    /// Keeps at most `most` collapses, those with the smallest keys.
+    void limit(std::size_t most)
+    {
+        std::vector<std::pair<std::uint32_t, std::size_t>> ranked;
+        for (std::size_t i = 0; i < round_.collapses.size(); ++i)
+            if (round_.collapses[i].target >= 0)
+                ranked.emplace_back(key_[static_cast<std::size_t>(round_.collapses[i].vertex)], i);
+        if (ranked.size() <= most) return;
+        std::nth_element(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(most), ranked.end());
+        for (std::size_t r = most; r < ranked.size(); ++r) give_up(ranked[r].second);
+    }
+
+    void commit()
+    {
+        write_log();
+        parallel_for(
+            where_.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i) follow(surface_, round_, where_[i]);
+            },
+            threads_);
+        std::erase_if(alive_, [&](idx v) { return round_.of[static_cast<std::size_t>(v)] >= 0; });
+        splice_rings();
+    }
+
+    void write_log()
+    {
+        for (const auto& c : round_.collapses)
+        {
+            if (c.target < 0) continue;
+            log_.vertex.push_back(c.vertex);
+            log_.target.push_back(c.target);
+            log_.open.push_back(surface_.open[static_cast<std::size_t>(c.vertex)]);
+            const auto ring = surface_.rings[c.vertex];
+            log_.rings.items.insert(log_.rings.items.end(), ring.begin(), ring.end());
+            log_.rings.offsets.push_back(static_cast<idx>(log_.rings.items.size()));
+        }
+        log_.rounds.push_back(static_cast<idx>(log_.vertex.size()));
+    }
+
+    /// Writes all rings anew. Each piece finds its place when it is done, so that their order in memory is left to
+    /// chance; nothing looks at it.
+    void splice_rings()
+    {
+        spare_.ranges.resize(surface_.rings.ranges.size());
+        spare_.items.resize(surface_.rings.items.size()); // a collapse removes neighbours, on balance
+        std::atomic<std::size_t> filled{0};
+        parallel_for(
+            alive_.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                std::vector<idx> rings;
+                idx* out = nullptr;
+                for (std::size_t i = begin; i < end; ++i)
+                {
+                    const auto v = static_cast<std::size_t>(alive_[i]);
+                    const auto ring = surface_.rings[alive_[i]];
+                    const auto first = static_cast<std::size_t>(out - rings.data());
+                    if (first + largest_star * ring.size() > rings.size())
+                    {
+                        rings.resize(first + largest_star * ring.size() + 8 * (end - i));
+                        out = rings.data() + first;
+                    }
+                    idx* const start = out;
+                    out = splice(surface_, round_, alive_[i], out);
+                    if (!std::equal(ring.begin(), ring.end(), start, out))
+                    {
+                        stubborn_[v] = 0;
+                        size_[v] = star_size(surface_, alive_[i], {start, out});
+                    }
+                    spare_.ranges[v] = {static_cast<idx>(first), static_cast<idx>(out - start)};
+                }
+                rings.resize(static_cast<std::size_t>(out - rings.data()));
+                const std::size_t place = filled.fetch_add(rings.size());
+                std::copy(rings.begin(), rings.end(), spare_.items.begin() + static_cast<std::ptrdiff_t>(place));
+                for (std::size_t i = begin; i < end; ++i)
+                    spare_.ranges[static_cast<std::size_t>(alive_[i])].first += static_cast<idx>(place);
+            },
+            threads_);
+        std::swap(surface_.rings, spare_);
+    }
+
+    thinning_surface surface_;
+    unsigned threads_;
+    std::vector<idx> alive_;           // ascending
+    std::vector<surface_point> where_; // of each vertex at the start
+    std::vector<std::uint32_t> key_;
+    std::vector<float> size_;    // area of each star
+    std::vector<char> stubborn_; // no target was found and the star is still the same
+    double whole_ = 0;           // sum of the sizes at the start
+    independent_set set_;
+    collapse_round round_;
+    std::vector<char> given_up_;
+    ring_table spare_;
+    removals<triangle> log_;
+};
+
+} // namespace taut::impl

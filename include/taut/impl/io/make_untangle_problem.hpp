@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/io/prob.hpp>
+
+namespace taut
+{
+
+/// The problem of a mesh and a map of it, one position a vertex, under the hard pins; springs take no part in
+/// untangling. Held coordinates get their values, whatever the map has there.
+/// Throws constraint_error (wrong_count) unless map and constraints are of this mesh.
+template <class Element>
+untangle_problem<Element> make_untangle_problem(mesh<Element> rest, std::vector<vec<Element::dimension>> initial,
+                                                const constraints<Element>& pins)
+{
+    pins.impose(initial);
+    return {std::move(rest), std::move(initial), pins.held()};
+}
+
+/// The problem that a file states: its fixed vertices are pinned where the initial map has them.
+/// Throws mesh_error where the cells make no mesh.
+template <class Element>
+untangle_problem<Element> make_untangle_problem(io::prob_file<Element> file)
+{
+    impl::held_marks<Element::dimension> held(file.rest.size());
+    for (const idx v : file.fixed) held[static_cast<std::size_t>(v)] = held.every;
+    return {mesh<Element>(std::move(file.rest), std::move(file.cells)), std::move(file.initial), std::move(held)};
+}
+
+/// Adds the pins and springs of a file. Throws constraint_error.
+template <class Element>
+void add_pins(constraints<Element>& to, const std::vector<io::pin<Element::dimension>>& pins)
+{
+    constexpr int D = Element::dimension;
+    for (const auto& p : pins)
+    {
+        if (!p.hard())
+            to.spring(p.vertex, p.target, p.weight);
+        else if (p.held == constraints<Element>::all)
+            to.pin(p.vertex, p.target);
+        else
+            for (int k = 0; k < D; ++k)
+                if ((p.held >> k & 1u) != 0) to.pin(p.vertex, k, p.target[k]);
+    }
+}
+
+} // namespace taut

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <taut/impl/io/volume_file.hpp>
+
+namespace taut::io::impl
+{
+
+/// The extension in small letters.
+inline std::string small_extension(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    return extension;
+}
+
+/// By the extension; automatic if that is none of ours.
+inline volume_format volume_format_of_name(const std::filesystem::path& path)
+{
+    const std::string e = small_extension(path);
+    return e == ".mesh"                                  ? volume_format::medit
+           : e == ".msh"                                 ? volume_format::gmsh
+           : e == ".vtk"                                 ? volume_format::vtk
+           : e == ".vtu"                                 ? volume_format::vtu
+           : e == ".node" || e == ".ele" || e == ".face" ? volume_format::tetgen
+           : e == ".su2"                                 ? volume_format::su2
+           : e == ".prob"                                ? volume_format::problem
+                                                         : volume_format::automatic;
+}
+
+/// As volume_file::format has it.
+constexpr std::string_view name_of(volume_format format)
+{
+    switch (format)
+    {
+    case volume_format::automatic:
+        break;
+    case volume_format::medit:
+        return "MEDIT";
+    case volume_format::gmsh:
+        return "gmsh";
+    case volume_format::vtk:
+        return "VTK";
+    case volume_format::vtu:
+        return "VTU";
+    case volume_format::tetgen:
+        return "TetGen";
+    case volume_format::su2:
+        return "SU2";
+    case volume_format::problem:
+        return "problem";
+    }
+    return {};
+}
+
+} // namespace taut::io::impl

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/mesh/refine_elements.hpp>
+
+namespace taut::io::impl
+{
+
+/// The points as a reader gets them who keeps to the precision that the file declares: rounded to single where it
+/// does, else as they are. Text itself holds every digit in any case.
+/// points: one a point of the file.
+std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points);
+
+/// The bytes of the file with other coordinates. A coordinate that has not changed, bit for bit, keeps its bytes;
+/// others are the shortest decimal that reads back the same double, or binary as the file has it.
+/// points: one a point of the file; z = that of the file where it has two coordinates.
+/// Throws parameter_error: another number of points, a coordinate that is not finite (also after rounding), a z that
+/// the file has no place for.
+std::string with_points(const volume_file& file, std::span<const vec3> points);
+
+/// The files that make up a mesh with other coordinates, for write_files: one, for TetGen PATH.node and its companions
+/// PATH.ele, PATH.face. Both arguments must outlive the result.
+/// Throws parameter_error as with_points(); io_error where an output is an input, or the extension another format's.
+std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
+                                          std::span<const vec3> points);
+
+} // namespace taut::io::impl
+
+namespace taut::io
+{
+
+/// Writes them; they appear together or not at all. Throws io_error, parameter_error.
+void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);
+
+/// The file with cells subdivided, as its own format has it, written anew as text: `bytes` and all else as a reader of
+/// that finds it, `path` as it was, `rest` subdivided, too. Points come first as they were, and parts of a cell follow
+/// each other; they have its labels, and a new point those that all corners of what it splits have, or else 0.
+/// MEDIT (references, corners, required vertices), gmsh (as 2.2, nodes numbered from 1; names of physical groups, of
+/// several of a cell the first), VTK and VTU (integer arrays of one component), problems. What else was in the file is
+/// not in the result, which its notes say.
+/// Throws io_error for other formats, and for cells other than vertices, lines, triangles and tetrahedra;
+/// parameter_error for a subdivision of another number of points.
+volume_file subdivided(const volume_file& file, const taut::impl::subdivision& how);
+
+} // namespace taut::io
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/io/volume/subdivided.ipp>
+#include <taut/impl/io/volume/write_volume.ipp>
+#endif

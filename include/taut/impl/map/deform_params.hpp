@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <limits>
+#include <vector>
+
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/constrain/slide.hpp>
+#include <taut/impl/core/observer.hpp>
+#include <taut/impl/energy/any_energy.hpp>
+#include <taut/impl/mesh/cell_data.hpp>
+#include <taut/impl/mesh/wanted_shapes.hpp>
+#include <taut/impl/objective/precision.hpp>
+#include <taut/impl/solve/params.hpp>
+#include <taut/impl/untangle/params.hpp>
+
+namespace taut
+{
+
+/// How to deform a volume, or a mesh of the plane. Every field has a sensible default.
+template <class Element>
+struct deform_params
+{
+    static constexpr int D = Element::dimension;
+
+    /// What to minimise. A user's struct converts; so do sums and products of energies.
+    any_energy energy = impl::default_energy();
+
+    /// Whether elements count by rest measure, as is usual, or all the same.
+    energy::weighting weights = energy::weighting::measure;
+
+    /// What energies see of single elements beside their shape, in the order of the mesh.
+    cell_data data = {};
+
+    /// Numbers that the energy reads as e.parameter(k): other values take no other kernel.
+    std::vector<double> parameters = {};
+
+    /// Where vertices have to be, bit for bit, and where they should rather be.
+    taut::constraints<Element> constraints = {};
+
+    /// The shape at rest, one position a vertex, if it is not that of the mesh: what no energy is paid for. Its
+    /// elements are positive.
+    std::vector<vec3> rest = {};
+
+    /// What elements are wanted to look like: `regular` ones, of the mean size, have no rest shape.
+    wanted_shapes shapes = wanted_shapes::rest;
+
+    /// What single elements are wanted to look like: the edges of each from its corner 0, as columns; turns of them
+    /// mean nothing. Empty, or one an element, none of them inverted. With wanted_shapes::rest in the lengths of the
+    /// mesh, in the place of the elements at rest; with wanted_shapes::regular in place of regular ones, all scaled to
+    /// the size of the mesh.
+    std::vector<mat<D>> targets = {};
+
+    /// Where the cells are the corners of cells of other kinds, and overlap (mesh/cell_corners.hpp): those of each.
+    /// Certificates then say that all corners are positive.
+    std::vector<idx> owners = {};
+
+    /// Vertices that may move along a line or in a plane only, at most one each, none of them pinned in any coordinate.
+    std::vector<slide<D>> slides = {};
+
+    /// The shape to begin with, if it is not that of the mesh: of the last step, say.
+    std::vector<vec<D>> initial = {};
+
+    taut::precision precision = precision::automatic;
+
+    /// How a shape with inverted elements is untangled, and one whose handles do not come to their places by steps. Its
+    /// time limit and observer are overruled by those below.
+    untangle_params untangling = {};
+
+    /// Stopping, and of Newton's method, which `automatic` is here, what it takes. `solve.stopping.time_limit` is
+    /// overruled by time_limit below.
+    solve::params solve = {};
+
+    /// Wall-clock limit of the whole call. When it is reached the best shape so far is returned.
+    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+
+    /// Asked at every step and between phases whether to go on.
+    taut::observer observer = {};
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (!(time_limit.count() >= 0)) throw parameter_error("time_limit", "must not be negative");
+        if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
+            throw parameter_error("weights", "must be uniform or measure");
+        if (precision != precision::automatic && precision != precision::fp64 && precision != precision::mixed &&
+            precision != precision::fp32)
+            throw parameter_error("precision", "must be automatic, fp64, mixed or fp32");
+        if (solve.method != solve::method::automatic && solve.method != solve::method::newton)
+            throw parameter_error("solve.method", "must be automatic or newton");
+        untangling.validate();
+        solve.validate();
+        solve.require_newton_search();
+    }
+};
+
+} // namespace taut

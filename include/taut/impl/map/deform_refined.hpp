@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/untangle/untangle_refined.hpp>
+
+namespace taut
+{
+
+/// What a deformation came to, and on which mesh.
+template <class Element>
+struct refined_deformation
+{
+    session_result<Element> result; ///< of the refined mesh
+    mesh<Element> refined;          ///< the vertices of the mesh first, in their order
+    impl::subdivision how;                ///< of the mesh; empty: no element was split
+    std::vector<idx> cells;         ///< of each element of the refined mesh, the one that it is a part of
+    int rounds = 0;                 ///< of splits
+};
+
+/// deform(), on a mesh whose elements are split before where it is proved that its pins admit no map without inverted
+/// elements: edges inside between pinned vertices, say, where all corners of an element are pinned so that it turns
+/// over. The boundary is not split. `infeasible`: what is proved is not mended by splits inside; reason says what.
+/// Throws parameter_error for params with targets, data of elements or owners, which refined elements do not have, and
+/// as deform() does.
+template <class Element>
+refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, deform_params<Element> params,
+                                            const refine_params& refine = {})
+{
+    if (!params.targets.empty())
+        throw parameter_error("targets", "are of elements, which are to be split; leave it out");
+    if (!params.owners.empty()) throw parameter_error("owners", "cells that are not simplices cannot be split");
+    if (!params.data.empty()) throw parameter_error("data", "is of elements, which are to be split; leave it out");
+    using map = std::vector<vec<Element::dimension>>;
+    const auto& points = m.points();
+    map x = params.initial.empty() ? map(points.begin(), points.end()) : params.initial;
+    const auto pins = params.constraints.on(m);
+    pins.impose(x);
+    auto split = refine_infeasible(untangle_problem<Element>{m, std::move(x), pins.held()}, refine);
+    refined_deformation<Element> found{
+        {}, std::move(split.problem.rest), std::move(split.how), std::move(split.cells), split.rounds};
+    if (!split.obstacle.empty())
+    {
+        found.result.report.outcome = outcome::infeasible;
+        found.result.report.reason = std::move(split.obstacle);
+        return found;
+    }
+    params.constraints = params.constraints.on(found.refined);
+    if (!params.initial.empty())
+        params.initial = found.how.extended(std::span<const vec<Element::dimension>>(params.initial));
+    if (!params.rest.empty()) params.rest = found.how.extended(std::span<const vec3>(params.rest));
+    found.result = deform(q, found.refined, params);
+    return found;
+}
+
+} // namespace taut

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/core/made_ahead.hpp>
+#include <taut/impl/map/attempt_on_levels.hpp>
+#include <taut/impl/untangle/untangle_host.hpp>
+
+namespace taut::impl
+{
+
+/// A start that obeys pins, from coarse to fine. Springs draw pinned vertices to their places, stiffer on each finer
+/// level and then step by step on the mesh itself, until all of them can be put there without a flip. A boundary that
+/// is pinned as a whole is held from the beginning, and only what is inside is drawn. The energy is a barrier, so all
+/// maps on the way are injective, and what is around a pin is dragged along, which ends in better minima than
+/// untangling does.
+class drawn_start
+{
+public:
+    enum class from
+    {
+        constraints, ///< levels on which pins are drawn, within the outline if that is pinned as a whole
+        free_map     ///< the map of a run that nothing holds, moved near to the pins: where these are of such a map
+    };
+
+    /// run: one that draws pins; referred to.
+    explicit drawn_start(const map_run& run, from where = from::constraints)
+        : run_(run),
+          free_(where == from::free_map),
+          bound_(!free_ && run.held.outline_pinned(run.in.surface, run.in.sides)),
+          anchored_(anchors()),
+          places_(anchored_.size(), vec2(0)),
+          centre_(run.held.centre()),
+          levels_(run.in.surface, bound_ ? anchored_ : std::vector<bool>(),
+                  {.proceed = [&run] { return run.clock.proceed(); }}, run.params.data,
+                  free_ ? std::vector<bool>() : run.held.touched(anchored_.size())),
+          pull_(run.held.pull(anchored_))
+    {
+        run.held.impose(places_, run.in.unit);
+        run.clock.spent(&map_seconds::hierarchy);
+        run.clock.stages.add({.stage = "hierarchy", .vertices = run.vertices()});
+    }
+
+    /// The start; `useless` where there is none, with the free map as its map if that is near to the pins.
+    run_start make()
+    {
+        run_start start;
+        start.useless = true;
+        if (find_infeasibility(run_.held.problem(run_.in.surface, places_))) return start; // as untangling will say
+        nested_params descent = descent_of(run_);
+        std::size_t first = descent.first_level(levels_);
+        start_map map;
+        if (!free_)
+        {
+            if (levels_.vertices(first) > most_vertices) return start;
+            map = first_map(first);
+            // What cannot be untangled there often can on a finer level, if that is small enough for it.
+            if (bound_ && !map.flips && first > 1 && levels_.vertices(first - 1) <= most_untangled)
+                map = first_map(--first);
+            run_.clock.spent(&map_seconds::start);
+            if (!map.flips) return start;
+            descent.start_vertices = levels_.vertices(first);
+            descent.first_map = [&map](std::size_t) { return std::move(map); };
+            descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
+        }
+        using plan = typename level_solver<triangle>::plan;
+        const auto form = lane_form::for_device(run_.queue.device());
+        made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels_, first - k, form); });
+        const auto take = [&](std::size_t l) { return plans.take(first - l); };
+
+        std::optional<level_solver<triangle>> solver;
+        std::vector<vec2> arrival;
+        const bool built = build_within(run_.queue, run_.clock,
+                                        [&]
+                                        {
+                                            solver.emplace(run_.queue, levels_, run_.params.energy, run_.params.weights,
+                                                           types_of(run_.first_precision()));
+                                            solver->warm_up(true);
+                                        });
+        if (built)
+        {
+            run_.clock.spent(&map_seconds::device);
+            run_.clock.stages.add({.stage = "device", .vertices = run_.vertices()});
+            nested_iteration nested(levels_, *solver, descent);
+            arrival = nested.run([this](std::size_t l) { return observer_on(run_.clock, l); }, take);
+            start.levels = nested.reports();
+            run_.clock.stages.append(nested.stages());
+            run_.clock.spent(&map_seconds::start);
+        }
+        if (!arrival.empty())
+        {
+            point_constraints<2> slack;
+            if (!free_) slack.springs = springs(0, first_stiffness(0));
+            level finest(*solver, take(0), arrival, slack);
+            finest.relax();
+            run_.clock.stages.add({.stage = "prepare", .vertices = run_.vertices()});
+            if (!free_ || brought_near(finest)) draw(finest, start);
+        }
+        start.stopped = !run_.clock.proceed();
+        return start;
+    }
+
+private:
+    using level = typename level_solver<triangle>::level;
+
+    std::vector<bool> anchors() const
+    {
+        std::vector<bool> flags(run_.in.surface.points().size(), false);
+        if (bound_)
+            for (const auto& loop : boundary_loops(run_.in.surface, run_.in.sides))
+                for (const idx v : loop) flags[static_cast<std::size_t>(v)] = true;
+        return flags;
+    }
+
+    /// Of all springs together, in units of a mean energy a squared half of the map's size.
+    static double first_stiffness(std::size_t l) { return 256 / std::pow(growth, static_cast<double>(l)); }
+
+    /// In the numbers of a level, about the centre.
+    std::vector<directed_spring<2>> springs(std::size_t l, double stiffness) const
+    {
+        const auto there = levels_.places(l);
+        auto all = pull_;
+        for (auto& s : all)
+        {
+            s.target -= centre_;
+            s.stiffness *= stiffness / (static_cast<double>(pull_.size()) * reach_ * reach_);
+        }
+        const auto asked = run_.held.beyond_pins(centre_).springs;
+        all.insert(all.end(), asked.begin(), asked.end());
+        for (auto& s : all) s.vertex = there[static_cast<std::size_t>(s.vertex)];
+        std::erase_if(all, [](const auto& s) { return s.vertex < 0; });
+        return all;
+    }
+
+    /// A map of a level that obeys what is anchored, and is as near to the pins as a similarity brings it if nothing
+    /// is.
+    start_map first_map(std::size_t l)
+    {
+        const mesh<triangle> surface = levels_.level(l);
+        const auto there = levels_.places(l);
+        start_map map;
+        if (bound_)
+            map.uv = within_outline(surface, there);
+        else
+            map.uv = robust_start(surface, descent_of(run_).start).uv;
+        origins_.assign(there.size(), vec2(0));
+        for (std::size_t v = 0; v < there.size(); ++v)
+            if (there[v] >= 0) origins_[v] = map.uv[static_cast<std::size_t>(there[v])];
+        if (!bound_) run_.held.bring_near(origins_);
+        for (std::size_t v = 0; v < there.size(); ++v)
+            if (there[v] >= 0) map.uv[static_cast<std::size_t>(there[v])] = origins_[v] - centre_;
+        reach_ = bounding_square(map.uv).size / 2;
+        map.assess(surface, ideal_elements<triangle>(surface));
+        run_.clock.stages.add({.stage = "start", .level = l, .vertices = levels_.vertices(l)});
+        return map;
+    }
+
+    /// Minimises a map that nothing holds, and moves it near to the pins; whether a similarity brings it there.
+    bool brought_near(level& finest)
+    {
+        auto how = limited(run_, run_.params.solve.stopping.max_iterations);
+        how.stopping.gradient_tolerance = std::max(roughly, how.stopping.gradient_tolerance);
+        auto r = finest.minimize(how, observer_on(run_.clock, 1));
+        for (int& c : r.capping) c = levels_.order().cells.new_to_old[static_cast<std::size_t>(c)];
+        run_.clock.stages.add(minimised_on_mesh(run_, r));
+        run_.clock.spent(&map_seconds::start);
+        origins_ = levels_.order().vertices.undo(finest.download());
+        run_.held.bring_near(origins_);
+        if (!run_.clock.proceed() || run_.held.misfit(origins_) > near) return false;
+        const auto map = centred(origins_, centre_);
+        reach_ = bounding_square(map).size / 2;
+        finest.move_to(levels_.order().vertices.apply(map));
+        finest.constrain({.held = {}, .springs = springs(0, first_stiffness(0))});
+        return true;
+    }
+
+    std::vector<vec2> within_outline(const mesh<triangle>& surface, const std::vector<idx>& there) const
+    {
+        const std::size_t n = surface.points().size();
+        untangle_problem<triangle> problem{surface, std::vector<vec2>(n, vec2(0)), held_marks<2>(n)};
+        for (std::size_t v = 0; v < there.size(); ++v)
+        {
+            if (!anchored_[v]) continue;
+            problem.initial[static_cast<std::size_t>(there[v])] = places_[v];
+            problem.held[static_cast<std::size_t>(there[v])] = held_marks<2>::every;
+        }
+        return untangle(problem, {.stages = {"harmonic", "newton"}, .rounds = 1}).map;
+    }
+
+    /// Stiffens the springs, a step of Newton's method each time, until what they draw can be put to its place. Where a
+    /// step was short, what they draw has not followed yet: they wait.
+    void draw(level& finest, run_start& start)
+    {
+        const solve::params step{.method = solve::method::newton, .stopping = {.max_iterations = 1}};
+        solve::report steps; // of all springs, one after the other
+        bool moves = true;
+        int strides = 0;
+        double stiffness = first_stiffness(0);
+        for (int done = 0; start.useless; ++done)
+        {
+            auto uv = centred(levels_.order().vertices.undo(finest.download()), -centre_);
+            run_.held.impose(uv, run_.in.unit);
+            if (certify<2>(run_.in.surface.cells(), uv))
+            {
+                start.map.uv = std::move(uv);
+                start.useless = false;
+                break;
+            }
+            if (strides == most_strides || done == most_steps || !moves || !run_.clock.proceed()) break;
+            auto r = finest.minimize(step, observer_on(run_.clock, 1)); // no map of the run yet
+            moves = r.iterations > 0;
+            if (moves && !(r.history.back().step < followed))
+            {
+                ++strides;
+                finest.set_springs(springs(0, stiffness *= growth));
+            }
+            steps = done == 0 ? std::move(r) : joined(std::move(steps), std::move(r));
+        }
+        untangle_stage_report did{stage_of("draw", 0, run_.vertices(), steps)};
+        did.cut_by = corners_of(levels_.cells(0), steps.capping, levels_.users(0));
+        did.stop = start.useless ? moves ? "iterations" : "line search" : "injective";
+        run_.clock.stages.add(did);
+        const double before = run_.clock.seconds.untangle;
+        run_.clock.spent(&map_seconds::untangle);
+        if (start.useless)
+        {
+            if (free_) start.map.uv = origins_;
+            return;
+        }
+        start.map.assess(run_.in.surface, run_.in.ideal);
+        start.pin_origins = run_.held.pinned_points(origins_);
+        start.centre = bounding_square(start.map.uv).centre;
+        run_.clock.has_result(true);
+        did.seconds = run_.clock.seconds.untangle - before;
+        start.untangling.push_back(std::move(did));
+    }
+
+    static constexpr std::size_t most_vertices = 12000; // of the first map, which is made on the host
+    static constexpr std::size_t most_untangled = 6000; // the same where that takes more than a harmonic map
+    static constexpr double growth = 4;
+    static constexpr double followed = 0.25; // a step that is no shorter
+    static constexpr int most_strides = 24;
+    static constexpr int most_steps = 40;
+    static constexpr double roughly = 1e-3; // the gradient of a map that will be moved
+    static constexpr double near = 0.25;    // of held_coordinates::misfit()
+
+    const map_run& run_;
+    bool free_;
+    bool bound_; ///< all of the boundary is pinned
+    std::vector<bool> anchored_;
+    std::vector<vec2> places_; ///< where vertices are held
+    vec2 centre_;
+    mesh_levels<triangle> levels_;
+    std::vector<directed_spring<2>> pull_;
+    double reach_ = 1;          ///< half the size of the first map
+    std::vector<vec2> origins_; ///< of all vertices, as far as they are on the first level
+};
+
+} // namespace taut::impl

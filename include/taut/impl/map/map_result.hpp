@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <taut/impl/compute/queue_counters.hpp>
+#include <taut/impl/exact/crossings.hpp>
+#include <taut/impl/objective/level_report.hpp>
+#include <taut/impl/objective/precision.hpp>
+#include <taut/impl/objective/stage_report.hpp>
+#include <taut/impl/start/start_map.hpp>
+#include <taut/impl/untangle/result.hpp>
+
+namespace taut
+{
+
+/// What became of a map. Only `valid` comes with a certified map: no triangle is flipped, and there is no inner vertex
+/// that the map winds around other than once; in exact arithmetic.
+enum class outcome
+{
+    valid,          ///< the map is certified; map_report::solve says why the optimisation ended
+    no_valid_start, ///< no injective start was found; map_report::reason and ids say where
+    stopped,        ///< the time limit or the observer ended the run before there was a map; there are no coordinates
+    infeasible,     ///< no map obeys the pins without flips; reason and ids are the proof
+    gave_up         ///< untangling did not succeed; the map has the fewest defects that were seen, ids are theirs
+};
+
+/// Wall-clock seconds of the phases of one run.
+struct map_seconds
+{
+    double device = 0;    ///< kernel builds and their first launches
+    double setup = 0;     ///< validation, ordering, ideal elements, matrices and lists of the mesh itself, transfers
+    double hierarchy = 0; ///< coarser levels of the mesh
+    double start = 0;     ///< start map; of a coarse start all that happens on coarser levels
+    double untangle = 0;  ///< making the start injective under the constraints
+    double solve = 0;     ///< minimisation on the mesh itself
+    double overlap = 0;   ///< looking for crossings of the boundary, and minimisation without them
+};
+
+/// What became of crossings of the boundary: pairs of its edges that have a common point beyond a common end.
+struct overlap_report
+{
+    impl::crossing_count before;     ///< of the map as it would be without parameterize_params::no_overlap
+    double energy_before = 0;  ///< of that map, where it has any
+    int rounds = 0;            ///< of the minimisation without them; 0: none was needed, or there was no time
+    std::size_t crossings = 0; ///< of the map that is returned, exact: 0 in valid ones
+};
+
+/// What one run did and what its map is like.
+struct map_report
+{
+    taut::outcome outcome = outcome::no_valid_start;
+    std::string reason;                          ///< why there is no valid map; empty if there is one
+    std::vector<idx> ids;                        ///< what the reason is about, see outcome
+    std::vector<std::string> notes;              ///< what the library decided on its own
+    taut::precision precision = precision::fp64; ///< that the map was calculated in
+    impl::start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
+    std::vector<impl::level_report> levels; ///< coarser levels, in their order in time
+    std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
+    std::vector<stage_report> stages; ///< all that was done, also in vain, in its order in time
+    std::vector<impl::untangle_stage_report> untangling; ///< what it took to make the start injective
+    std::optional<overlap_report> overlap;         ///< of a run with parameterize_params::no_overlap that came to a map
+    double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
+    certificate flips;   ///< of the map that is returned, exact: flips and branch points
+    solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
+    map_seconds seconds;
+    queue_counters counters; ///< launches, host waits and bytes of this run
+};
+
+inline std::ostream& operator<<(std::ostream& out, const map_report& r)
+{
+    if (r.outcome != outcome::valid) return out << "no valid map: " << r.reason;
+    return out << r.solve << ", " << std::to_string(r.flips.flipped) << " of " << std::to_string(r.flips.elements)
+               << " flipped";
+}
+
+/// A map and its report; `auto [uv, report] = parameterize(...)`.
+struct map_result
+{
+    std::vector<vec2> uv; ///< one a vertex, in the user's order; units and place by parameterize_params::placement
+    map_report report;
+
+    /// True if the map is certified: no triangle is flipped, and there is no branch point.
+    explicit operator bool() const { return report.outcome == outcome::valid; }
+    const std::string& reason() const { return report.reason; }
+};
+
+} // namespace taut

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/compute/queue.hpp>
+#include <taut/impl/constrain/held_coordinates.hpp>
+#include <taut/impl/map/run_clock.hpp>
+#include <taut/impl/map/run_surface.hpp>
+#include <taut/impl/objective/mesh_levels.hpp>
+
+namespace taut::impl
+{
+
+/// The parameters with the energy that the data and parameters make of the user's. Throws parameter_error.
+inline parameterize_params validated(parameterize_params p)
+{
+    p.validate();
+    if (!p.parameters.empty()) p.energy = p.energy.with_parameters(p.parameters);
+    p.energy = p.energy.with_data(p.data.mean_attributes(), !p.data.directions.empty());
+    return p;
+}
+
+/// A run of parameterize() once it is prepared: what all its phases read.
+struct map_run
+{
+    taut::queue queue;
+    const parameterize_params& params; ///< validated
+    const run_surface& in;
+    run_clock& clock;
+    held_coordinates held;
+    std::optional<mesh_levels<triangle>>
+        levels; ///< none where the method needs none, or the limits leave no time for them
+
+    /// Refers to its arguments but the queue. Throws parameter_error for constraints of another mesh.
+    map_run(taut::queue q, const run_surface& surface, const parameterize_params& p, run_clock& limits)
+        : queue(std::move(q)),
+          params(p),
+          in(surface),
+          clock(limits),
+          held(p.constraints, in.surface.points().size(), in.fixed_boundary(p.boundary), in.unit)
+    {
+        held.require_used(in.unused);
+        clock.spent(&map_seconds::setup);
+        clock.stages.add({.stage = "setup", .vertices = vertices()});
+        if (!clock.proceed() || !params.uses_levels()) return;
+        levels.emplace(make_levels());
+        clock.proceed();
+    }
+    map_run(const map_run&) = delete;
+    map_run& operator=(const map_run&) = delete;
+
+    std::size_t vertices() const { return in.surface.points().size(); }
+
+    /// factor: of vertices, from a level to the next coarser one.
+    mesh_levels<triangle> make_levels(double factor = hierarchy_params{}.factor) const
+    {
+        mesh_levels<triangle> made(in.surface, held.marks().pinned(),
+                                   {.factor = factor, .proceed = [this] { return clock.proceed(); }}, params.data);
+        clock.spent(&map_seconds::hierarchy);
+        clock.stages.add({.stage = "hierarchy", .vertices = vertices()});
+        return made;
+    }
+
+    /// Whether nothing holds the map.
+    bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
+
+    /// Without iterations the start is returned as it is.
+    bool iterates() const { return params.solve.stopping.max_iterations > 0; }
+
+    /// The precision of the first attempt.
+    taut::precision first_precision() const
+    {
+        if (params.precision != precision::automatic) return params.precision;
+        if (!queue.device().has_fp64()) return precision::fp32;
+        return levels ? precision::mixed : precision::fp64;
+    }
+
+    /// Whether a start that is not given is made on coarser levels: of nothing that is held, as part of an attempt.
+    bool starts_coarse() const { return may_start_coarse() && !held.constrained(); }
+
+    /// The same where pins are to be drawn to their places there.
+    bool draws_pins() const
+    {
+        return may_start_coarse() && held.pinned() && params.boundary == boundary_mode::free && params.energy.barrier();
+    }
+
+private:
+    bool may_start_coarse() const
+    {
+        return levels && (params.start == start_method::coarse || params.start == start_method::automatic);
+    }
+};
+
+} // namespace taut::impl

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/map/attempt_in_turns.hpp>
+#include <taut/impl/map/attempt_on_mesh.hpp>
+#include <taut/impl/map/choose_start.hpp>
+#include <taut/impl/map/overlap/keep_apart.hpp>
+#include <taut/impl/map/returned_map.hpp>
+
+namespace taut::impl
+{
+
+/// What parameterize.hpp declares; include that one.
+///
+/// The start on the mesh itself that takes the place of one from coarser levels whose map could not be certified.
+inline run_start second_start(const map_run& run, const run_start& coarse, const attempt& failed)
+{
+    run_start start = made_start(run);
+    std::vector<std::string> notes = coarse.notes;
+    notes.insert(notes.end(), failed.notes.begin(), failed.notes.end());
+    notes.push_back("the coarse start failed (" + failed.descent->failure + "); a barycentric start was made");
+    start.notes.insert(start.notes.begin(), notes.begin(), notes.end());
+    start.levels = failed.descent->levels;
+    if (start.untangling.empty()) start.untangling = coarse.untangling;
+    return start;
+}
+
+/// The phases between a run that is prepared and a map that is placed: start, attempts to minimise it, certificate.
+/// The map is in the lengths of the run.
+inline map_result solved(const map_run& run)
+{
+    const run_start start = choose_start(run);
+    if (!start.ready()) return unsolved_result(run, start);
+    attempt first = attempt_in_turns(run, start);
+    if (first.certified || first.stopped || !start.coarse) return solved_result(run, start, std::move(first));
+
+    run.clock.has_result(false);
+    if (!run.clock.proceed()) return stopped_result(run, start, std::move(first));
+    const run_start second = second_start(run, start, first);
+    if (!second.ready()) return unsolved_result(run, second);
+    return solved_result(run, second, attempt_in_turns(run, second));
+}
+
+// Declared in choose_start.hpp.
+inline std::vector<vec2> free_draft(const map_run& run)
+{
+    auto params = run.params;
+    params.constraints = {};
+    params.solve.stopping.gradient_tolerance = std::max(1e-3, params.solve.stopping.gradient_tolerance);
+    run_clock clock(run.clock.left(),
+                    [&run](progress now)
+                    {
+                        now.level = std::max(now.level, 1); // it is not the map that was asked for
+                        now.coordinates = {};
+                        return run.clock.ask(now);
+                    });
+    const map_run free(run.queue, run.in, params, clock);
+    map_result draft = solved(free);
+    run.clock.stages.append(clock.stages.stages());
+    return draft ? std::move(draft.uv) : std::vector<vec2>();
+}
+
+/// All of parameterize() but the counters. params: validated.
+inline map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params,
+                         run_clock& clock)
+{
+    const map_run run(q, surface, params, clock);
+    map_result found = solved(run);
+    if (params.no_overlap) found = kept_apart(run, std::move(found));
+    map_result result = in_user_units(run, placed(run, std::move(found)));
+    if (params.no_overlap) result = certified_apart(run, std::move(result));
+    clock.stages.add({.stage = "certify", .vertices = run.vertices()});
+    result.report.stages = clock.stages.stages();
+    return result;
+}
+
+} // namespace taut::impl

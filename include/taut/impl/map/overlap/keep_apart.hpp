@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/map/overlap/scaffolded_map.hpp>
+#include <taut/impl/map/overlap/start_apart.hpp>
+#include <taut/impl/map/run_result.hpp>
+#include <taut/impl/map/session/shape_session.hpp>
+
+namespace taut::impl
+{
+
+/// Minimises the energy of a run once more, through maps whose boundary nowhere meets itself: rounds of Newton's steps
+/// of the map with a scaffold around it, which is made anew before each.
+class apart_rounds
+{
+public:
+    using map = std::vector<vec2>;
+
+    /// places: a map with held coordinates at their places. Refers to its arguments.
+    apart_rounds(const map_run& run, const std::vector<std::vector<idx>>& loops, const map& places)
+        : run_(run), scaffolded_(run, loops, places), left_(run.params.solve.stopping.max_iterations)
+    {
+    }
+
+    /// x: without crossings. Afterwards the same holds for the best map so far.
+    void run(map x)
+    {
+        x_ = std::move(x);
+        energy_ = energy_start_ = scaffolded_.energy(x_);
+        while (rounds_ < most_rounds && left_ > 0 && run_.clock.proceed() && round())
+        {
+        }
+        if (run_.clock.over()) stop_ = solve::stop_of(run_.clock);
+    }
+
+    const map& result() const { return x_; }
+    int rounds() const { return rounds_; }
+    int steps() const { return run_.params.solve.stopping.max_iterations - left_; }
+    double energy_start() const { return energy_start_; }
+    double energy() const { return energy_; }
+    double gradient() const { return gradient_; }
+    solve::stop stop() const { return stop_; }
+    bool places_held() const { return farthest_ < 0; }
+    idx farthest() const { return farthest_; }    ///< the vertex that is farthest from its place
+    double distance() const { return distance_; } ///< of that one, in lengths of the run
+
+private:
+    static constexpr int most_rounds = 100, most_steps = 20;
+    static constexpr double tolerance = 1e-4; ///< of the energy, by it
+
+    /// Whether it made a difference.
+    bool round()
+    {
+        auto [plane, how] = scaffolded_.around(x_);
+        how.solve.stopping.max_iterations = std::min(most_steps, left_);
+        how.time_limit = run_.clock.left();
+        how.observer = observer();
+        session_result<triangle> moved;
+        try
+        {
+            moved = shape_session<triangle>(run_.queue, plane, how).solve({});
+        }
+        catch (const mesh_error&)
+        {
+            // Triangles of the map are flat to the precision of numbers.
+        }
+        const session_report& r = moved.report;
+        if (!moved)
+        {
+            stop_ = solve::stop::line_search;
+            return false;
+        }
+        if (r.stopped) run_.clock.proceed(); // if it was a limit, what is gained is no measure of convergence
+        ++rounds_;
+        left_ -= std::min(left_, r.steps);
+        moved.x.resize(x_.size());
+        const double before = energy_, gap_before = distance_;
+        const bool held_before = farthest_ < 0 && rounds_ > 1;
+        const double now = scaffolded_.energy(moved.x);
+        if (held_before && !(now < before))
+        {
+            stop_ = solve::stop::decrease;
+            return false;
+        }
+        x_ = std::move(moved.x);
+        energy_ = now;
+        gradient_ = r.gradient;
+        farthest_ = r.farthest;
+        distance_ = r.distance;
+        const bool small = std::abs(before - now) <= tolerance * std::abs(now);
+        if (!small || !(farthest_ < 0 || distance_ > 0.99 * gap_before)) return true;
+        stop_ = solve::stop::decrease;
+        return false;
+    }
+
+    /// The user's, who sees the vertices of the surface alone.
+    taut::observer observer() const
+    {
+        return [this](progress p)
+        {
+            if (p.coordinates)
+                p.coordinates = [this, all = std::move(p.coordinates)]
+                {
+                    map uv = all();
+                    uv.resize(x_.size());
+                    for (vec2& point : uv) point /= run_.in.unit;
+                    return uv;
+                };
+            return run_.clock.ask(p);
+        };
+    }
+
+    const map_run& run_;
+    scaffolded_map scaffolded_;
+    map x_;
+    int left_, rounds_ = 0; ///< steps, rounds
+    double energy_ = 0, energy_start_ = 0, gradient_ = 0;
+    solve::stop stop_ = solve::stop::iterations;
+    idx farthest_ = -1;
+    double distance_ = std::numeric_limits<double>::infinity();
+};
+
+/// The ends of two edges of the boundary that meet, of those whose vertices all are held; none if no two do.
+inline std::vector<idx> held_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
+                                    const std::vector<vec2>& x)
+{
+    const auto& marks = run.held.marks();
+    std::vector<idx> ends;
+    if (marks.empty()) return ends;
+    auto edges = edges_of(loops);
+    const auto moves = [&](const std::array<idx, 2>& e)
+    { return !marks.all(static_cast<std::size_t>(e[0])) || !marks.all(static_cast<std::size_t>(e[1])); };
+    edges.erase(std::remove_if(edges.begin(), edges.end(), moves), edges.end());
+    for_each_meeting(edges, x,
+                     [&](std::size_t i, std::size_t j)
+                     {
+                         ends = {edges[i][0], edges[i][1], edges[j][0], edges[j][1]};
+                         return false;
+                     });
+    return ends;
+}
+
+/// A solved map without crossings of its boundary: as it is where it has none, else minimised once more from a map that
+/// has none.
+inline map_result kept_apart(const map_run& run, map_result r)
+{
+    if (!r) return r;
+    const auto loops = boundary_loops(run.in.surface, run.in.sides);
+    overlap_report& told = r.report.overlap.emplace();
+    told.before = count_boundary_crossings(loops, r.uv);
+    run.clock.spent(&map_seconds::overlap);
+    r.report.seconds = run.clock.seconds;
+    if (told.before.pairs == 0) return r;
+    told.energy_before = r.report.solve.value;
+    if (auto ends = held_across(run, loops, r.uv); !ends.empty())
+        return refused(std::move(r), {outcome::infeasible,
+                                      "edges " + std::to_string(ends[0]) + '-' + std::to_string(ends[1]) + " and " +
+                                          std::to_string(ends[2]) + '-' + std::to_string(ends[3]) +
+                                          " of the boundary are held across each other",
+                                      ends});
+    start_map start = start_apart(run, loops);
+    run.clock.stages.add({.stage = "start", .vertices = run.vertices()});
+    if (start.uv.empty())
+        return refused(std::move(r), {outcome::gave_up, "no map was found whose boundary does not cross itself", {}});
+
+    apart_rounds rounds(run, loops, r.uv);
+    rounds.run(start.uv);
+    told.rounds = rounds.rounds();
+    run.clock.stages.add({.stage = "keep apart",
+                          .vertices = run.vertices(),
+                          .iterations = rounds.steps(),
+                          .energy_before = rounds.energy_start(),
+                          .energy_after = rounds.energy(),
+                          .stop = std::string(to_string(rounds.stop()))});
+    run.clock.spent(&map_seconds::overlap);
+    r.report.seconds = run.clock.seconds;
+    auto& solved = r.report.solve;
+    solved.iterations += rounds.steps();
+    solved.stop = rounds.stop();
+    if (rounds.rounds() == 0 && !run.held.marks().empty())
+        return refused(
+            std::move(r),
+            {outcome::gave_up, "no way was found from a map whose boundary does not cross itself to what is held", {}});
+    if (!rounds.places_held())
+        return refused(std::move(r), {outcome::gave_up,
+                                      "without crossings of the boundary vertex " + std::to_string(rounds.farthest()) +
+                                          " came no "
+                                          "nearer to its place than " +
+                                          std::to_string(rounds.distance() / run.in.unit),
+                                      {rounds.farthest()}});
+    r.uv = restored(run, rounds.result(), vec2(0), r.uv);
+    solved.value = rounds.energy();
+    solved.value_start = rounds.energy_start();
+    solved.gradient_norm = rounds.gradient();
+    solved.history.clear();
+    solved.capping.clear();
+    r.report.start = std::move(start);
+    r.report.flips = certify<2>(run.in.surface.cells(), r.uv, run.in.ideal.measure);
+    return r;
+}
+
+/// Counts the crossings of a map that was to have none, at its place and in the user's lengths.
+inline map_result certified_apart(const map_run& run, map_result r)
+{
+    if (!r) return r;
+    r.report.overlap->crossings = boundary_crossings(boundary_loops(run.in.surface, run.in.sides), r.uv);
+    if (r.report.overlap->crossings == 0) return r;
+    return refused(std::move(r), {outcome::gave_up, "rounding lets the boundary of the map cross itself", {}});
+}
+
+} // namespace taut::impl

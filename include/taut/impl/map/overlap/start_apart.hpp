@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/exact/crossings.hpp>
+#include <taut/impl/map/given_map.hpp>
+#include <taut/impl/map/map_run.hpp>
+#include <taut/impl/start/robust.hpp>
+
+namespace taut::impl
+{
+
+/// A map of the run's surface whose boundary nowhere meets itself: the user's, if it is one, else one on a convex
+/// polygon, brought near to what is held. Empty where none was found.
+inline start_map start_apart(const map_run& run, const std::vector<std::vector<idx>>& loops)
+{
+    const auto& in = run.in;
+    const auto usable = [&](const start_map& map) { return map.flips && boundary_crossings(loops, map.uv) == 0; };
+    if (!run.params.initial.empty())
+    {
+        std::vector<std::string> notes; // they were told before
+        start_map given = given_map(in.surface, in.ideal, run.params, in.unit, notes);
+        if (usable(given)) return given;
+    }
+    constexpr double extreme = 1e8; // isometric energy: beyond, triangles are flat to the precision of numbers
+    auto how = run.params.barycentric;
+    how.proceed = [&run] { return run.clock.proceed(); };
+    start_map map = barycentric_map(in.surface, in.sides, how);
+    if ((!usable(map) || map.distortion.measure > extreme) && run.vertices() <= largest_direct)
+    {
+        start_map other =
+            robust_start(in.surface, {.boundary = how.boundary, .fixed_boundary = true, .proceed = how.proceed});
+        if (usable(other) && (!usable(map) || better(other, map))) map = std::move(other);
+    }
+    run.held.bring_near(map.uv);
+    map.assess(in.surface, in.ideal);
+    return usable(map) ? map : start_map();
+}
+
+} // namespace taut::impl

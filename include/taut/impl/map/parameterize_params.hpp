@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <limits>
+#include <vector>
+
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/constrain/placement.hpp>
+#include <taut/impl/core/observer.hpp>
+#include <taut/impl/energy/any_energy.hpp>
+#include <taut/impl/mesh/cell_data.hpp>
+#include <taut/impl/objective/precision.hpp>
+#include <taut/impl/solve/params.hpp>
+#include <taut/impl/start/barycentric_params.hpp>
+#include <taut/impl/untangle/params.hpp>
+
+namespace taut
+{
+
+/// What becomes of the boundary during the optimisation.
+enum class boundary_mode
+{
+    free, ///< it moves like everything else
+    fixed ///< it stays where the start map has it
+};
+
+/// Where the first map comes from.
+enum class start_method
+{
+    automatic,   ///< `initial` if there is one; else coarse for Newton's method and barycentric for the others
+    coarse,      ///< made and minimised on coarser levels of the mesh (start/nested.hpp)
+    barycentric, ///< on a convex polygon (start/barycentric_map.hpp)
+    conformal    ///< spectral conformal, or coarse_start() where that has flips (start/conformal.hpp)
+};
+
+/// How to parameterize. Every field has a sensible default.
+struct parameterize_params
+{
+    /// What to minimise. A user's struct converts; so do sums and products of energies.
+    any_energy energy = impl::default_energy();
+
+    /// Whether elements count by rest area, as is usual, or all the same, as in the paper.
+    energy::weighting weights = energy::weighting::measure;
+
+    /// What energies see of single triangles beside their shape, in the order of the mesh: weights, attributes,
+    /// directions.
+    cell_data data = {};
+
+    /// Numbers that the energy reads as e.parameter(k): other values take no other kernel.
+    std::vector<double> parameters = {};
+
+    boundary_mode boundary = boundary_mode::free;
+
+    /// Pins, which hold bit for bit, and springs. The start is brought near them and untangled.
+    taut::constraints<triangle> constraints = {};
+
+    /// Start: these coordinates, one a vertex, if there are any (a warm start: the map of the last run, after the pins
+    /// have moved, say); with a free boundary and no constraints their
+    /// place and scale do not matter. A start that is mirrored as a whole is turned over, others with flips untangled.
+    std::vector<vec2> initial = {};
+
+    /// Otherwise the start is made so. A coarse start takes its boundary from `barycentric` and goes over to a
+    /// barycentric one where it fails.
+    start_method start = start_method::automatic;
+    barycentric_params barycentric = {.stretch_rounds = 10};
+
+    /// Where the map comes to lie if nothing holds it: a free boundary without pins and springs.
+    taut::placement placement = placement::upright;
+
+    /// Whether a surface with holes (more than one boundary loop) is taken. Its map is locally injective.
+    bool holes = false;
+
+    /// Whether the boundary of the map must not cross or touch itself, so that no two triangles overlap. Where it
+    /// would, the energy is minimised once more, through maps in which it does not (docs/howto/overlap.md); others stay
+    /// as they are.
+    bool no_overlap = false;
+
+    taut::precision precision = precision::automatic;
+
+    /// Whether lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.
+    /// Newton's method always is.
+    bool multigrid = false;
+
+    /// How a start with flips is untangled. Its time limit and observer are overruled by those below.
+    untangle_params untangling = {};
+
+    /// Method, line search (not of Newton's method, which `automatic` is here), stopping. `solve.stopping.time_limit`
+    /// is overruled by time_limit below. Stopping parameters that are given as a whole (`.stopping = {...}`) do not
+    /// end a run that has only settled.
+    solve::params solve = {.stopping = {.settled_tolerance = 1e-4}};
+
+    /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned, or none (`stopped`).
+    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+
+    /// Asked at every iterate and trial step, between phases and between the steps of long ones, whether to go on.
+    /// progress::usable: whether there is a map that would be returned.
+    taut::observer observer = {};
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (!(time_limit.count() >= 0)) throw parameter_error("time_limit", "must not be negative");
+        if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
+            throw parameter_error("weights", "must be uniform or measure");
+        if (boundary != boundary_mode::free && boundary != boundary_mode::fixed)
+            throw parameter_error("boundary", "must be free or fixed");
+        if (start != start_method::automatic && start != start_method::coarse && start != start_method::barycentric &&
+            start != start_method::conformal)
+            throw parameter_error("start", "must be automatic, coarse, barycentric or conformal");
+        if (precision != precision::automatic && precision != precision::fp64 && precision != precision::mixed &&
+            precision != precision::fp32)
+            throw parameter_error("precision", "must be automatic, fp64, mixed or fp32");
+        if (placement != placement::upright && placement != placement::unit_square && placement != placement::as_solved)
+            throw parameter_error("placement", "must be upright, unit_square or as_solved");
+        untangling.validate();
+        solve.validate();
+        if (solve.method == solve::method::automatic) solve.require_newton_search();
+    }
+
+    /// Whether the method works on a hierarchy of levels.
+    bool uses_levels() const
+    {
+        return multigrid || solve.method == solve::method::automatic || solve.method == solve::method::newton;
+    }
+};
+
+} // namespace taut

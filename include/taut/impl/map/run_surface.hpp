@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/map/parameterize_params.hpp>
+#include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/mesh/unused_vertices.hpp>
+#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/start/outline.hpp>
+
+namespace taut::impl
+{
+
+/// The surface of a run of parameterize(), checked, with what all phases ask of it. Lengths are those of the user times
+/// a power of two (unit_scale), so that nothing overflows; undoing that is exact.
+struct run_surface
+{
+    std::vector<idx> unused; ///< vertices without a triangle; they lie where another vertex does
+    double unit;
+    mesh<triangle> surface;
+    facet_table sides;
+    ideal_elements<triangle> ideal;
+
+    /// Throws mesh_error, and parameter_error for data of another mesh.
+    run_surface(const mesh<triangle>& m, const parameterize_params& params)
+        : unused(unused_vertices(m.points().size(), m.cells())),
+          unit(unit_scale(placed(m, unused))),
+          surface(scaled(placed(m, unused), unit)),
+          sides(checked(surface, !params.holes)),
+          ideal(surface)
+    {
+        params.data.validate(m.cells().size());
+    }
+
+    /// The vertices that stay where the start has them.
+    std::vector<idx> fixed_boundary(boundary_mode mode) const
+    {
+        if (mode == boundary_mode::free) return {};
+        auto loops = boundary_loops(surface, sides);
+        return std::move(loops[longest_loop(surface.points(), loops)]);
+    }
+
+    /// Brings unused vertices of a map to the place of another one, so that they count nowhere.
+    void set_unused_aside(std::vector<vec2>& uv) const { set_aside(std::span(unused), surface.cells(), uv); }
+
+private:
+    static mesh<triangle> placed(const mesh<triangle>& m, std::span<const idx> unused)
+    {
+        auto points = m.points();
+        set_aside(unused, m.cells(), points);
+        return {std::move(points), m.cells()};
+    }
+
+    static facet_table checked(const mesh<triangle>& m, bool one_boundary)
+    {
+        auto sides = facets(m);
+        validate(m, sides, {.referenced = false, .one_boundary = one_boundary});
+        return sides;
+    }
+};
+
+} // namespace taut::impl

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/constrain/point_constraints.hpp>
+#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/map/session/held_places.hpp>
+#include <taut/impl/map/session/session_body.hpp>
+#include <taut/impl/untangle/device/live_map.hpp>
+
+namespace taut::impl
+{
+
+/// The map of a session on the device, in the lengths of the run, and what is held of it.
+template <class Element>
+class held_map : public session_body<Element>
+{
+public:
+    static constexpr int D = Element::dimension;
+    using typename session_body<Element>::map;
+
+protected:
+    using session_body<Element>::last, session_body<Element>::wanted;
+
+    explicit held_map(queue q) : queue_(std::move(q)) {}
+
+    /// The mesh at rest, in the lengths of the run, and its ideal elements' measures.
+    virtual const mesh<Element>& rest() const = 0;
+    virtual std::span<const double> rest_measure() const = 0;
+
+    /// What an untangling wants elements to look like, and what they are corners of, as in an untangle_problem.
+    virtual std::vector<mat<D>> wanted_elements() const { return {}; }
+    virtual std::vector<idx> owners() const { return {}; }
+
+    /// Tells the map on the device who is held, if that has changed, and where.
+    void constrain()
+    {
+        auto springs = point_constraints<D>{{}, directed(wanted.springs())}.scaled(lengths_).springs;
+        const bool other_marks = held_.take(wanted);
+        if (other_marks || !springs.empty() || !springs_.empty())
+        {
+            springs_ = std::move(springs);
+            live_->constrain(held_.marks(), springs_, held_.slides());
+        }
+        live_->aim(scaled(held_.places()));
+        on_way_ = held_.gap(last.x).vertex >= 0;
+    }
+
+    /// Takes another map in the place of the one on the device.
+    void load(const map& run_lengths)
+    {
+        live_->load(run_lengths);
+        live_->constrain(held_.marks(), springs_, held_.slides());
+        live_->aim(scaled(held_.places()));
+    }
+
+    /// A map with held coordinates at their places, whatever flips. draft: it is injective as it is.
+    untangle_problem<Element> problem(const map& x, bool draft) const
+    {
+        map there = x;
+        held_.impose(there);
+        auto held = marks();
+        std::vector<idx> sliding;
+        for (const auto& s : held_.slides())
+        {
+            held[static_cast<std::size_t>(s.vertex)] = held.every; // while it untangles
+            sliding.push_back(s.vertex);
+        }
+        return {rest(),   scaled(std::move(there)), std::move(held), draft ? scaled(x) : map(), wanted_elements(),
+                owners(), std::move(sliding)};
+    }
+
+    /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.
+    virtual certificate certified(const map& x) const
+    {
+        auto flips = certify<D>(rest().cells(), std::span<const vec<D>>(x), rest_measure(), 16, owners());
+        for (double* det : {&flips.min_det, &flips.max_det}) *det *= std::pow(lengths_, D);
+        return flips;
+    }
+
+    /// What an observer sees of the map.
+    progress seen() const
+    {
+        if constexpr (D == 2)
+            return {.coordinates = [this] { return user_coordinates(); }};
+        else
+            return {.positions = [this] { return user_coordinates(); }};
+    }
+
+    /// One a vertex, also where nothing is held.
+    held_marks<D> marks() const { return held_.marks().empty() ? held_marks<D>(last.x.size()) : held_.marks(); }
+
+    map user_coordinates() const { return unscaled(live_->coordinates()); }
+
+    /// The same with what is at its place there to the last bit.
+    map placed() const
+    {
+        auto x = user_coordinates();
+        held_.impose(x, unscaled(live_->as_held(scaled(held_.places()))));
+        return x;
+    }
+
+    /// In the lengths of the map.
+    map unscaled(map x) const
+    {
+        for (vec<D>& p : x) p /= lengths_;
+        return x;
+    }
+
+    /// In the lengths of the run.
+    map scaled(map x) const
+    {
+        for (vec<D>& p : x) p *= lengths_;
+        return x;
+    }
+
+    queue queue_;
+    double lengths_ = 1; ///< of the run by those of the map
+    std::optional<live_map<Element>> live_;
+    held_places<Element> held_;
+    bool on_way_ = false; ///< held coordinates of the map on the device are not at their places
+
+private:
+    std::vector<directed_spring<D>> springs_; ///< in the lengths of the run
+};
+
+} // namespace taut::impl

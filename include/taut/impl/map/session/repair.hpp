@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/mesh/incidence.hpp>
+#include <taut/impl/untangle/local_problem.hpp>
+#include <taut/impl/untangle/untangle_declared.hpp>
+
+namespace taut::impl
+{
+
+/// The vertices around those held ones that are not at their places yet: as far as they have to go, and three edges,
+/// `width` times that. A flag a vertex.
+template <class Element>
+std::vector<char> around_moved(const untangle_problem<Element>& p, double width)
+{
+    const auto at = [](idx v) { return static_cast<std::size_t>(v); };
+    const csr neighbours = vertex_neighbours(p.rest);
+    std::vector<char> near(p.held.size(), 0);
+    std::vector<idx> reached_from(p.held.size(), -1), queue;
+    for (idx v = 0; v < p.rest.vertex_count(); ++v)
+    {
+        if (p.initial[at(v)] == p.draft[at(v)]) continue;
+        double edges = 0;
+        const auto ring = neighbours.row(v);
+        for (const idx w : ring) edges += glm::distance(p.draft[at(v)], p.draft[at(w)]);
+        const double edge = edges / static_cast<double>(std::max<std::size_t>(ring.size(), 1)),
+                     reach = width * (glm::distance(p.draft[at(v)], p.initial[at(v)]) + 3 * edge);
+        queue.assign(1, v);
+        reached_from[at(v)] = v;
+        for (std::size_t k = 0; k < queue.size(); ++k)
+        {
+            near[at(queue[k])] = 1;
+            for (const idx w : neighbours.row(queue[k]))
+                if (reached_from[at(w)] != v && glm::distance(p.draft[at(w)], p.draft[at(v)]) <= reach)
+                {
+                    reached_from[at(w)] = v;
+                    queue.push_back(w);
+                }
+        }
+    }
+    return near;
+}
+
+/// How an untangling in a session is bounded.
+struct repair_limits
+{
+    bool whole = false; ///< the whole mesh may be untangled, too
+    std::chrono::duration<double> time;
+    observer ask;
+};
+
+/// A map whose held vertices could not be brought to their places by steps, with them there; none where that fails. It
+/// differs from the one at hand around these vertices alone, if that will do. problem: the held vertices at their
+/// places in `initial`, the injective map at hand as `draft`.
+template <class Element>
+std::optional<std::vector<vec<Element::dimension>>> repaired(const queue& q, const untangle_problem<Element>& problem,
+                                                             untangle_params how, const repair_limits& limits)
+{
+    constexpr int D = Element::dimension;
+    const budget clock(limits.time);
+    how.observer = limits.ask;
+    for (const double width : {1.0, 2.0})
+    {
+        const auto part = part_of(problem, around_moved(problem, width));
+        if (!part || !clock.in_time()) break;
+        auto pull = how;
+        if (D == 2) pull.stages = {"pull"}; // makes no branch points, and ends soon
+        pull.rounds = 1;
+        pull.time_limit = clock.left();
+        const auto found = untangle(q, part->problem, pull);
+        if (!found) continue;
+        auto map = problem.draft;
+        for (std::size_t k = 0; k < part->vertices.size(); ++k)
+            map[static_cast<std::size_t>(part->vertices[k])] = found.map[k];
+        // The rim is of the whole: the map may wind around it twice.
+        if (certify<D>(problem.rest.cells(), std::span<const vec<D>>(map), {}, 0, problem.owners)) return map;
+    }
+    if (!limits.whole || !clock.in_time()) return std::nullopt;
+    how.rounds = 1;
+    how.time_limit = clock.left();
+    auto found = untangle(q, problem, how);
+    if (!found) return std::nullopt;
+    return std::move(found.map);
+}
+
+} // namespace taut::impl

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/constrain/constraint_error.hpp>
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/map/session_result.hpp>
+
+namespace taut::impl
+{
+
+/// What a session knows without a device: what is asked, and the last map. How it goes on is for a derived class, which
+/// only files that make a session compile.
+template <class Element>
+class session_body
+{
+public:
+    using map = std::vector<vec<Element::dimension>>;
+
+    session_body() = default;
+    session_body(const session_body&) = delete;
+    session_body& operator=(const session_body&) = delete;
+    virtual ~session_body() = default;
+
+    virtual session_result<Element> solve(const session_budget& budget) = 0;
+
+    /// Puts other constraints and another map in the place of the last ones. Throws parameter_error, constraint_error,
+    /// and nothing has changed.
+    virtual void restore(const constraints<Element>& asked, const map& x) = 0;
+
+    /// Where the last map has vertices. Throws constraint_error.
+    map places_of(std::span<const idx> vertices) const
+    {
+        if (last.x.empty())
+            throw constraint_error(constraint_fault::no_position, {}, "there is no map yet; call solve() first");
+        std::vector<idx> bad;
+        map places;
+        for (const idx v : vertices)
+            if (v < 0 || static_cast<std::size_t>(v) >= last.x.size())
+                bad.push_back(v);
+            else
+                places.push_back(last.x[static_cast<std::size_t>(v)]);
+        refuse_vertices(constraint_fault::out_of_range, std::move(bad),
+                        "that the mesh does not have; it has " + std::to_string(last.x.size()) + ", counted from 0");
+        return places;
+    }
+
+    constraints<Element> wanted;
+    bool changed = false; ///< wanted, since the last call of solve()
+    session_result<Element> last;
+};
+
+} // namespace taut::impl

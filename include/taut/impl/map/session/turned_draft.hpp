@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/compute/queue.hpp>
+#include <taut/impl/constrain/held_paths.hpp>
+#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/map/deform_params.hpp>
+#include <taut/impl/map/gradient_fit.hpp>
+#include <taut/impl/map/session/coarse_draft.hpp>
+#include <taut/impl/map/shape_path.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/impl/mesh/incidence.hpp>
+#include <taut/impl/untangle/local_problem.hpp>
+#include <taut/impl/untangle/device/live_map.hpp>
+#include <taut/impl/untangle/untangle_declared.hpp>
+
+namespace taut::impl
+{
+
+/// A shape whose held coordinates are at their places, where bodies of held vertices turn on the way: turns, axis times
+/// angle, are harmonic between those of the bodies, and gradients nearest to the turns of the elements (Zayer et al.
+/// 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns change fast.
+/// from: the shape at hand, no element inverted; to: the places, of which held coordinates are read.
+inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
+                                      const held_paths<3>& paths, const held_marks<3>& marks,
+                                      const std::vector<vec3>& from, const std::vector<vec3>& to)
+{
+    std::vector<vec3> held, places;
+    for (std::size_t v = 0; v < from.size(); ++v)
+        if (marks.all(v))
+        {
+            held.push_back(from[v]);
+            places.push_back(to[v]);
+        }
+    const auto whole = fit_rigid_motion(std::span<const vec3>(held), std::span<const vec3>(places));
+    std::vector<vec3> turns(from.size(), whole.angle * whole.axis), x;
+    held_marks<3> told(from.size());
+    for (std::size_t v = 0; v < from.size(); ++v)
+    {
+        x.push_back(whole(from[v]));
+        for (int k = 0; k < 3; ++k)
+            if (marks.test(v, k)) x[v][k] = to[v][k];
+        if (const auto turn = paths.turn(v))
+        {
+            turns[v] = *turn;
+            told[v] = told.every;
+        }
+    }
+    constexpr double enough = 1e-2; // a draft
+    poisson.fit([](std::size_t) { return mat3(0.0); }, told, enough, turns);
+    const auto wanted = [&](std::size_t c)
+    {
+        vec3 mean(0.0);
+        for (const idx v : m.cells()[c]) mean += turns[static_cast<std::size_t>(v)] / 4.0;
+        return rotation<3>(mean);
+    };
+    poisson.fit(wanted, marks, enough, x);
+    return x;
+}
+
+/// A shape with held coordinates at their places, and what it took.
+struct mended_draft
+{
+    std::vector<vec3> x;                       ///< certified; empty: none was found
+    int steps = 0;                             ///< of Newton's method on coarser volumes and on parts
+    std::size_t vertices = 0;                  ///< of the part of the mesh itself
+    std::vector<untangle_stage_report> stages; ///< of untanglings
+};
+
+/// Whether a gradient inverts, or shrinks to less than `least` in some direction.
+inline bool shrinks(const mat3& F, double least)
+{
+    return !(glm::determinant(F) > 0 && norm2(glm::inverse(F)) < 2 + 1 / (least * least));
+}
+
+/// One flag a vertex: it is at most four edges from an element that is inverted, or has shrunk to less than 0.3 in some
+/// direction; nothing where there is no such element.
+inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
+                                       const std::vector<vec3>& x)
+{
+    constexpr double least = 0.3;
+    const auto at = [](idx v) { return static_cast<std::size_t>(v); };
+    std::vector<char> inside(x.size(), 0);
+    bool any = false;
+    for (std::size_t c = 0; c < m.cells().size(); ++c)
+    {
+        if (!shrinks(poisson.gradient(c, x), least)) continue;
+        any = true;
+        for (const idx v : m.cells()[c]) inside[at(v)] = 1;
+    }
+    if (!any) return {};
+    const csr neighbours = vertex_neighbours(m);
+    for (int ring = 0; ring < 4; ++ring)
+    {
+        const auto before = inside;
+        for (idx v = 0; v < m.vertex_count(); ++v)
+            if (before[at(v)])
+                for (const idx w : neighbours.row(v)) inside[at(w)] = 1;
+    }
+    return inside;
+}
+
+/// A draft of one problem, and what all levels of that have in common.
+class draft_maker
+{
+public:
+    using problem = untangle_problem<tetrahedron>;
+
+    draft_maker(const queue& q, const untangle_params& how, precision arithmetic)
+        : queue_(q), how_(how), clock_(how.time_limit), arithmetic_(arithmetic)
+    {
+        how_.rounds = 1;
+        how_.stages = {"lead"}; // others leave elements next to flat, which cut the steps that follow
+    }
+
+    /// The shape at hand, which is injective (`draft` of the problem), with held vertices at their places (`initial`),
+    /// to which they move: that of a coarser volume, where there is one, or else a turned_draft, where bodies of them
+    /// turn. What has shrunk there, with its neighbours, is untangled and minimised by itself, with the shape at hand
+    /// as that at rest: else such elements, though few, would cut the steps of all.
+    mended_draft draft(const problem& p) const
+    {
+        const mesh<tetrahedron> here(p.draft, p.rest.cells());
+        const gradient_fit<tetrahedron> poisson(here, p.draft);
+        mended_draft found = from_coarser(p, here, poisson);
+        if (!found.x.empty() && mend(p, here, poisson, found)) return found;
+        const held_paths<3> paths(p.rest.cells(), p.held, p.draft, p.initial);
+        if (paths.parts() == 1 || !clock_.in_time()) return without_shape(found);
+        found.x = turned_draft(poisson, here, paths, p.held, p.draft, p.initial);
+        return mend(p, here, poisson, found) ? found : without_shape(found);
+    }
+
+private:
+    static mended_draft without_shape(mended_draft found)
+    {
+        found.x.clear();
+        return found;
+    }
+
+    static bool certified(const problem& p, const std::vector<vec3>& x)
+    {
+        return bool(certify<3>(p.rest.cells(), std::span<const vec3>(x), {}, 0, p.owners));
+    }
+
+    /// The minimum on a coarser volume, carried up: there limbs decide which way they buckle, which takes many steps,
+    /// whatever the size.
+    mended_draft from_coarser(const problem& p, const mesh<tetrahedron>& here,
+                              const gradient_fit<tetrahedron>& poisson) const
+    {
+        const auto smaller = coarser(p, clock_);
+        if (!smaller) return {};
+        const problem& small = smaller->problem;
+        mended_draft found = draft(small);
+        if (found.x.empty() && clock_.in_time()) found.x = untangled(small, found);
+        if (found.x.empty() || !clock_.in_time()) return without_shape(found);
+        constexpr double nearly = 1e-6; // before that limbs may still buckle
+        minimise(small, nearly, 60, found);
+        found.vertices = 0;
+        found.x = carried_up(poisson, here, smaller->thinned, found.x, p.held, p.initial);
+        return found;
+    }
+
+    /// Untangles and minimises what has shrunk; whether the shape is a good one then.
+    bool mend(const problem& p, const mesh<tetrahedron>& here, const gradient_fit<tetrahedron>& poisson,
+              mended_draft& found) const
+    {
+        if (const auto inside = around_shrunk(poisson, here, found.x); !inside.empty())
+        {
+            const auto part = part_of<tetrahedron>({here, found.x, p.held, {}, {}, p.owners}, inside);
+            if (!part) return false;
+            found.vertices = part->vertices.size();
+            mended_draft mended;
+            mended.x = part->problem.initial;
+            if (!certified(part->problem, mended.x)) mended.x = untangled(part->problem, found);
+            if (mended.x.empty() || !clock_.in_time()) return false;
+            minimise(part->problem, 1e-3, 30, mended);
+            found.steps += mended.steps;
+            for (std::size_t k = 0; k < mended.x.size(); ++k)
+                for (int i = 0; i < 3; ++i)
+                    if (!part->problem.held.test(k, i))
+                        found.x[static_cast<std::size_t>(part->vertices[k])][i] = mended.x[k][i];
+        }
+        constexpr double flat = 0.03; // such elements would cut the steps of all for long
+        for (std::size_t c = 0; c < here.cells().size(); ++c)
+            if (shrinks(poisson.gradient(c, found.x), flat)) return false;
+        return certified(p, found.x);
+    }
+
+    /// An injective map, or none.
+    std::vector<vec3> untangled(const problem& p, mended_draft& booked) const
+    {
+        auto how = how_;
+        how.time_limit = clock_.left();
+        auto result = untangle(queue_, p, how);
+        booked.stages.insert(booked.stages.end(), result.stages.begin(), result.stages.end());
+        return result ? std::move(result.map) : std::vector<vec3>();
+    }
+
+    /// From the shape found on, to a relative gradient, with so many steps at most.
+    void minimise(const problem& p, double gradient, int steps, mended_draft& found) const
+    {
+        live_map<tetrahedron> live(queue_, p.rest, deform_params<tetrahedron>{}, arithmetic_, found.x);
+        live.constrain(p.held, {}, {});
+        const solve::stopping_params enough{
+            .gradient_tolerance = gradient, .max_iterations = steps, .time_limit = clock_.left()};
+        found.steps += live.minimize({.stopping = enough}, how_.observer).iterations;
+        found.x = live.coordinates();
+    }
+
+    queue queue_;
+    untangle_params how_;
+    budget clock_;
+    precision arithmetic_;
+};
+
+} // namespace taut::impl

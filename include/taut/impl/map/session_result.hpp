@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <taut/impl/map/map_result.hpp>
+
+namespace taut
+{
+
+/// How much one call of session::solve may do. What ends first ends it; one step is made in any case, if there is
+/// something to do, but by the first call, which may end with the shape that it began with.
+struct session_budget
+{
+    /// Wall-clock limit. A step that would take longer than what is left, as the last one did, is not begun.
+    std::chrono::duration<double> time = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+
+    /// Newton's steps. Range >= 1.
+    int steps = std::numeric_limits<int>::max();
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (!(time.count() >= 0)) throw parameter_error("time", "must not be negative");
+        if (steps < 1) throw parameter_error("steps", "must be at least 1");
+    }
+};
+
+/// Wall-clock seconds of the phases of one call.
+struct session_seconds
+{
+    double start = 0;       ///< the first map or shape, and what is made once for all calls
+    double constrain = 0;   ///< lists of who is held, where that has changed, and where
+    double follow = 0;      ///< steps that bring pins to their places
+    double repair = 0;      ///< untangling, where such steps stuck
+    double solve = 0;       ///< minimisation with the pins at their places
+    double certificate = 0; ///< the map back from the device, and the count of its defects
+    double total() const { return start + constrain + follow + repair + solve + certificate; }
+};
+
+/// What one call of session::solve did, and what the map is like.
+struct session_report
+{
+    /// `valid`: there is a certified map. Otherwise there are no coordinates, and reason and ids are as in map_report.
+    taut::outcome outcome = outcome::no_valid_start;
+    std::string reason;             ///< why there is no valid map, or why the pins cannot be reached; else empty
+    std::vector<idx> ids;           ///< what the reason is about
+    std::vector<std::string> notes; ///< what the library decided on its own
+    bool converged = false;         ///< pins hold, and there is nothing left to gain
+    bool stopped = false;           ///< the budget, a limit or the observer ended the call
+    bool pins_held = false;         ///< all held coordinates are where they should be, bit for bit
+    idx farthest = -1;              ///< the vertex that is farthest from its pin; -1: pins hold
+    double distance = 0;            ///< of that vertex from its pin
+    double energy = 0;              ///< mean over the elements, springs included
+    double gradient = 0;            ///< its relative norm, where pins hold
+    int steps = 0;                  ///< of Newton's method, in this call
+    certificate flips;              ///< of the map that is returned, exact
+    session_seconds seconds;
+    std::vector<stage_report> stages; ///< of this call, in their order in time
+    queue_counters counters;          ///< of this call
+};
+
+/// Positions and a report; `auto [uv, report] = s.solve(...)`.
+template <class Element>
+struct session_result
+{
+    std::vector<vec<Element::dimension>> x; ///< one a vertex, in the user's order and lengths
+    session_report report;
+
+    /// True if there is a map: it is certified.
+    explicit operator bool() const { return report.outcome == outcome::valid; }
+};
+
+} // namespace taut

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/core/observer.hpp>
+#include <taut/impl/mesh/thin_shell.hpp>
+#include <taut/impl/objective/precision.hpp>
+#include <taut/impl/solve/params.hpp>
+
+namespace taut
+{
+
+/// How to deform a surface in space. Every field has a sensible default.
+struct shell_params
+{
+    /// Where vertices have to be, bit for bit, and where they should rather be: of thin_shell::hinges().
+    taut::constraints<hinge> constraints = {};
+
+    /// In the lengths of the surface; none: the mean edge. How much bending costs against stretching, as for a plate so
+    /// thick: thin shells crease and wrinkle where thick ones arch. Range > 0.
+    std::optional<double> thickness = {};
+
+    /// The shape to begin with, if it is not that at rest: of the last step, say. One position a vertex.
+    std::vector<vec3> initial = {};
+
+    taut::precision precision = precision::automatic;
+
+    /// As in deform_params.
+    solve::params solve = {};
+    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+    taut::observer observer = {};
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (thickness && (!(*thickness > 0) || !std::isfinite(*thickness)))
+            throw parameter_error("thickness", "must be positive and finite");
+    }
+};
+
+} // namespace taut

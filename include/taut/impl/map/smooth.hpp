@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/constrain/boundary_slides.hpp>
+#include <taut/impl/energy/shape_power.hpp>
+#include <taut/impl/map/deform.hpp>
+#include <taut/impl/measure/shape_quality.hpp>
+
+namespace taut
+{
+
+/// What the boundary of a mesh may do while it is smoothed.
+enum class smooth_boundary
+{
+    fixed,   ///< nothing
+    sliding, ///< move in its own flat parts and along the straight creases between them; what is curved stays
+    free     ///< all; the shape changes
+};
+
+/// How to smooth a mesh. Every field has a sensible default.
+template <class Element>
+struct smooth_params
+{
+    smooth_boundary boundary = smooth_boundary::sliding;
+
+    /// What elements are wanted to look like: regular, or as in `rest`.
+    wanted_shapes shapes = wanted_shapes::regular;
+
+    /// The shape at rest for wanted_shapes::rest, one position a vertex; none: that of the mesh.
+    std::vector<vec3> rest = {};
+
+    /// What single elements are wanted to look like, and what they are corners of, as in deform_params: those of
+    /// corner_simplices::regular where they are corners of regular cells.
+    std::vector<mat<Element::dimension>> targets = {};
+    std::vector<idx> owners = {};
+
+    /// The energy, shape distortion by itself, is taken to this power: larger ones put the worst elements first, 1 the
+    /// mean. Range 1 to 8.
+    int worst_exponent = 2;
+
+    /// Vertices that stay where they are whatever the boundary does.
+    std::vector<idx> fixed = {};
+
+    /// Facets, inside or on the boundary, of surfaces that keep their shape whatever the boundary does: interfaces
+    /// between materials, named pieces of the boundary (io::impl::kept_facets() finds them). Flat pieces slide in their
+    /// planes, straight lines where pieces meet or end along themselves; what is curved stays.
+    std::vector<impl::kept_facet> kept = {};
+
+    /// Sine of the angle up to which a boundary is flat or straight.
+    double flat = 1e-4;
+
+    taut::precision precision = precision::automatic;
+    untangle_params untangling = {};
+    solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
+    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+    taut::observer observer = {};
+
+    /// Throws parameter_error that names the field; deform_params says the rest.
+    void validate() const
+    {
+        if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
+        if (!(flat >= 0 && flat < 1)) throw parameter_error("flat", "must be in [0, 1)");
+    }
+};
+
+/// A smoothed mesh, its report, and the shapes of its elements; `auto [x, report, before, after] = smooth(...)`.
+template <class Element>
+struct smooth_result
+{
+    std::vector<vec<Element::dimension>> x; ///< one a vertex, in the user's order and lengths
+    session_report report;
+    shape_quality before, after; ///< after: only with coordinates
+
+    /// True if the mesh is certified: no element is inverted.
+    explicit operator bool() const { return report.outcome == outcome::valid; }
+};
+
+/// Moves the vertices of a volume, or a mesh of the plane (z = 0), to where its elements are best shaped, without
+/// inverting one; what is inverted is untangled first. Connectivity stays.
+/// Throws mesh_error, parameter_error, constraint_error for wrong ids, device_error.
+template <class Element>
+smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth_params<Element>& params = {})
+{
+    params.validate();
+    if (!params.owners.empty() && params.targets.size() != given.cells().size())
+        throw parameter_error("targets", "one matrix a cell where there are owners");
+    using point = vec<Element::dimension>;
+    // Shapes have no size, so a mesh of any size is one of about 1, by a power of two.
+    double most = 0;
+    for (const vec3& p : given.points())
+        for (int k = 0; k < 3; ++k) most = std::max(most, std::abs(p[k]));
+    const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
+    const auto scaled = [](std::vector<vec3> points, int by)
+    {
+        for (vec3& p : points)
+            for (int k = 0; k < 3; ++k) p[k] = std::ldexp(p[k], by);
+        return points;
+    };
+    const mesh<Element> m(scaled(given.points(), -exponent), given.cells());
+    const auto restored = [exponent](std::vector<point> x)
+    {
+        for (point& p : x)
+            for (int k = 0; k < Element::dimension; ++k) p[k] = std::ldexp(p[k], exponent);
+        return x;
+    };
+    deform_params<Element> how;
+    how.energy = energy::shape_power{params.worst_exponent};
+    how.weights = energy::weighting::uniform;
+    how.shapes = params.shapes;
+    how.rest = scaled(params.rest, -exponent);
+    how.targets = params.targets;
+    if (params.shapes == wanted_shapes::rest)
+        for (auto& edges : how.targets)
+            for (int k = 0; k < Element::dimension; ++k)
+                for (int r = 0; r < Element::dimension; ++r) edges[k][r] = std::ldexp(edges[k][r], -exponent);
+    how.owners = params.owners;
+    how.precision = params.precision;
+    how.untangling = params.untangling;
+    how.solve = params.solve;
+    how.time_limit = params.time_limit;
+    if (params.observer)
+        how.observer = [&ask = params.observer, restored](progress p)
+        {
+            const auto restore = [&](auto& seen)
+            {
+                if (seen) seen = [inner = seen, restored] { return restored(inner()); };
+            };
+            if constexpr (Element::dimension == 2)
+                restore(p.coordinates);
+            else
+                restore(p.positions);
+            return ask(p);
+        };
+    impl::kept_directions<Element> directions(m, params.flat);
+    if (params.boundary == smooth_boundary::sliding) directions.add(boundary_facets(m, params.owners));
+    directions.add(params.kept);
+    auto motion = directions.motion();
+    std::vector<char> still(m.points().size(), 0);
+    for (const idx v : params.fixed)
+        if (v >= 0 && v < m.vertex_count())
+            still[static_cast<std::size_t>(v)] = 1;
+        else
+            throw constraint_error(constraint_fault::out_of_range, {v},
+                                   "fixed vertex " + std::to_string(v) + " of a mesh that has " +
+                                       std::to_string(m.vertex_count()) + ", counted from 0");
+    if (params.boundary == smooth_boundary::fixed)
+        for (const auto& facet : boundary_facets(m, params.owners))
+            for (const idx v : facet) still[static_cast<std::size_t>(v)] = 1;
+    for (std::size_t v = 0; v < still.size(); ++v)
+        if (still[v]) motion.pins.repin(static_cast<idx>(v), point(m.points()[v]));
+    std::erase_if(motion.slides, [&](const auto& s) { return still[static_cast<std::size_t>(s.vertex)] != 0; });
+    how.constraints = std::move(motion.pins);
+    how.slides = std::move(motion.slides);
+
+    const std::vector<point> start(m.points().begin(), m.points().end());
+    smooth_result<Element> result;
+    const auto measured = [&](std::span<const point> x)
+    {
+        return params.owners.empty() ? measure_shapes<Element>(m.cells(), x)
+                                     : measure_shapes<Element>(m.cells(), x, params.owners, params.targets);
+    };
+    result.before = measured(start);
+    auto found = deform(q, m, how);
+    if (!found.x.empty()) result.after = measured(found.x);
+    auto& report = found.report;
+    if (report.outcome == outcome::valid)
+    {
+        // Where rounding ends steps, what they came to may be worse than what was given.
+        const bool worse = result.after.worst.mean_ratio < result.before.worst.mean_ratio &&
+                           result.after.mean_ratio < result.before.mean_ratio;
+        if (worse && !report.converged)
+        {
+            auto flips = certify<Element::dimension>(m.cells(), std::span<const point>(start), {}, 16, params.owners);
+            if (flips)
+            {
+                found.x = start;
+                result.after = result.before;
+                report.flips = std::move(flips);
+                report.notes.push_back("steps made the mesh worse; it stays as it was");
+            }
+        }
+        if (!report.converged && !report.stopped)
+            report.notes.push_back("steps ended before they converged; what is written is as far as they came");
+    }
+    result.x = restored(std::move(found.x));
+    result.report = std::move(found.report);
+    result.report.distance = std::ldexp(result.report.distance, exponent);
+    return result;
+}
+
+} // namespace taut

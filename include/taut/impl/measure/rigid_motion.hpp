@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+#include <taut/impl/core/types.hpp>
+
+namespace taut
+{
+
+/// A motion of the plane or of space that keeps shapes: it turns by an angle about an axis through `from`, which goes
+/// to `to`.
+template <int D>
+struct rigid_motion
+{
+    vec<D> from{0.0}, to{0.0};
+    vec3 axis{0, 0, 1}; ///< of length 1; in the plane the normal
+    double angle = 0;   ///< radians; of a fit -pi to pi in the plane, 0 to pi in space
+
+    /// Where a point is when a share t of the motion is done, 0 to 1.
+    vec<D> operator()(const vec<D>& p, double t = 1) const
+    {
+        return from + t * (to - from) + turned(p - from, t * angle);
+    }
+
+    /// v turned about the axis, as Rodrigues' formula has it.
+    vec<D> turned(const vec<D>& v, double by) const
+    {
+        const double c = std::cos(by), s = std::sin(by);
+        if constexpr (D == 2)
+            return vec2(c * v.x - s * v.y, s * v.x + c * v.y);
+        else
+            return c * v + s * glm::cross(axis, v) + (1 - c) * glm::dot(axis, v) * axis;
+    }
+};
+
+/// The rigid motion that brings points closest to their images, in the sum of squares. Points on a line leave the turn
+/// about it open: of all that are as close it is the one that turns least. The two are of one length, at least 1.
+inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<const vec2> images)
+{
+    rigid_motion<2> m;
+    const auto n = static_cast<double>(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) m.from += points[i] / n, m.to += images[i] / n;
+    double along = 0, across = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+        const vec2 p = points[i] - m.from, q = images[i] - m.to;
+        along += glm::dot(p, q);
+        across += p.x * q.y - p.y * q.x;
+    }
+    m.angle = std::atan2(across, along);
+    return m;
+}
+
+/// In space by Horn, "Closed-form solution of absolute orientation using unit quaternions" (1987): the eigenvector of
+/// the largest eigenvalue of a symmetric 4 x 4 matrix, found by squaring it again and again.
+inline rigid_motion<3> fit_rigid_motion(std::span<const vec3> points, std::span<const vec3> images)
+{
+    rigid_motion<3> m;
+    const auto n = static_cast<double>(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) m.from += points[i] / n, m.to += images[i] / n;
+    glm::dmat3 S(0.0); // S[j][i] = sum of p_i q_j
+    for (std::size_t i = 0; i < points.size(); ++i) S += glm::outerProduct(points[i] - m.from, images[i] - m.to);
+    glm::dmat4 N(0.0); // of quaternions (w, x, y, z)
+    N[0] = {S[0][0] + S[1][1] + S[2][2], S[2][1] - S[1][2], S[0][2] - S[2][0], S[1][0] - S[0][1]};
+    N[1] = {N[0][1], S[0][0] - S[1][1] - S[2][2], S[1][0] + S[0][1], S[0][2] + S[2][0]};
+    N[2] = {N[0][2], N[1][2], S[1][1] - S[0][0] - S[2][2], S[2][1] + S[1][2]};
+    N[3] = {N[0][3], N[1][3], N[2][3], S[2][2] - S[0][0] - S[1][1]};
+    const auto size = [](const glm::dmat4& a)
+    {
+        double largest = 0;
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j) largest = std::max(largest, std::abs(a[i][j]));
+        return largest;
+    };
+    double scale = size(N);
+    if (!(scale > 0)) return m;
+    for (int i = 0; i < 4; ++i) N[i][i] += 4 * scale; // no eigenvalue is negative
+    // So often that eigenvalues that are equal but for roundings stay so.
+    for (int step = 0; step < 30; ++step)
+    {
+        N *= 1 / size(N);
+        N = N * N;
+    }
+    // The projection on the eigenvectors of that eigenvalue; its first column is that of no turn, unless all of them
+    // turn by pi.
+    constexpr double least = 1e-8;
+    int column = 0;
+    if (!(N[0][0] > least * size(N)))
+        for (int j = 1; j < 4; ++j)
+            if (N[j][j] > N[column][column]) column = j;
+    glm::dvec4 q = glm::normalize(N[column]);
+    if (q[0] < 0) q = -q;
+    const vec3 axis(q[1], q[2], q[3]);
+    const double length = glm::length(axis);
+    if (!(length > 0)) return m;
+    m.axis = axis / length;
+    m.angle = 2 * std::atan2(length, q[0]);
+    return m;
+}
+
+} // namespace taut

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/mesh/mesh.hpp>
+
+namespace taut
+{
+
+/// Rows of K numbers in the memory of a program: row i begins `stride` bytes after row i - 1, wherever that is (a
+/// packed array, an interleaved vertex buffer, every second row), and its numbers are `step` bytes apart (a matrix by
+/// columns, coordinates in arrays of their own). It refers to the memory; T is const where it is only read.
+template <class T, int K>
+    requires std::is_arithmetic_v<std::remove_const_t<T>>
+class array_view
+{
+    using byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
+
+public:
+    using value_type = std::remove_const_t<T>;
+    using row_type = std::array<value_type, static_cast<std::size_t>(K)>;
+
+    array_view() = default;
+    array_view(T* first, std::size_t rows, std::size_t stride = K * sizeof(T), std::size_t step = sizeof(T))
+        : first_(reinterpret_cast<byte*>(first)), rows_(rows), stride_(stride), step_(step)
+    {
+    }
+    /// Packed numbers. Throws parameter_error unless their count is a multiple of K.
+    explicit array_view(std::span<T> packed) : array_view(packed.data(), packed.size() / K)
+    {
+        if (packed.size() % K != 0)
+            throw parameter_error("array_view",
+                                  std::to_string(packed.size()) + " numbers are not rows of " + std::to_string(K));
+    }
+
+    std::size_t rows() const noexcept { return rows_; }
+
+    /// A copy of row i, which need not be aligned.
+    row_type operator[](std::size_t i) const
+    {
+        row_type row;
+        for (std::size_t k = 0; k < row.size(); ++k) std::memcpy(&row[k], at(i, k), sizeof row[k]);
+        return row;
+    }
+    void set(std::size_t i, const row_type& row) const requires(!std::is_const_v<T>)
+    {
+        for (std::size_t k = 0; k < row.size(); ++k) std::memcpy(at(i, k), &row[k], sizeof row[k]);
+    }
+
+private:
+    byte* at(std::size_t i, std::size_t k) const { return first_ + i * stride_ + k * step_; }
+
+    byte* first_ = nullptr;
+    std::size_t rows_ = 0, stride_ = 0, step_ = 0;
+};
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// A number of the user's as ours; what 32 bits do not hold becomes a number that no mesh has.
+template <std::integral I>
+idx to_idx(I i)
+{
+    return std::in_range<idx>(i) ? static_cast<idx>(i) : std::numeric_limits<idx>::max();
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// A mesh of arrays as other programs have them, copied once: points of 3 numbers, or of 2 in the plane z = 0; cells of
+/// 32- or 64-bit, signed or unsigned vertex numbers that count from 0.
+///
+///     auto m = taut::mesh_of<taut::triangle>(taut::array_view<const float, 3>(vertices, n, sizeof(my_vertex)),
+///                                            taut::array_view<const std::uint32_t, 3>(indices, faces));
+///
+/// Throws mesh_error as the constructor of mesh does.
+template <class Element, class Real, int Coordinates, class Index>
+    requires(std::floating_point<std::remove_const_t<Real>>&& std::integral<std::remove_const_t<Index>> &&
+             (Coordinates == 2 || Coordinates == 3))
+mesh<Element> mesh_of(const array_view<Real, Coordinates>& points, const array_view<Index, Element::corners>& cells)
+{
+    std::vector<vec3> x(points.rows(), vec3(0.0));
+    for (std::size_t v = 0; v < x.size(); ++v)
+    {
+        const auto row = points[v];
+        for (int k = 0; k < Coordinates; ++k) x[v][k] = static_cast<double>(row[static_cast<std::size_t>(k)]);
+    }
+    std::vector<typename mesh<Element>::cell> c(cells.rows());
+    for (std::size_t f = 0; f < c.size(); ++f)
+    {
+        const auto row = cells[f];
+        for (std::size_t k = 0; k < row.size(); ++k) c[f][k] = impl::to_idx(row[k]);
+    }
+    return mesh<Element>(std::move(x), std::move(c));
+}
+
+/// Points in rows of the user's, rounded to their type; a map that is certified in double may fold where it is rounded
+/// to float, so certify<D>(cells, points_of(rows)) tells whether what was stored did. Throws parameter_error for
+/// another number of rows.
+template <int D, class Real>
+    requires std::floating_point<Real>
+void store(std::span<const vec<D>> x, const array_view<Real, D>& rows)
+{
+    if (rows.rows() != x.size())
+        throw parameter_error("rows", std::to_string(rows.rows()) + " rows for " + std::to_string(x.size()) +
+                                          " points; give one a point");
+    for (std::size_t v = 0; v < x.size(); ++v)
+    {
+        std::array<Real, static_cast<std::size_t>(D)> row;
+        for (int k = 0; k < D; ++k) row[static_cast<std::size_t>(k)] = static_cast<Real>(x[v][k]);
+        rows.set(v, row);
+    }
+}
+
+/// Points out of rows of the user's.
+template <int D, class Real>
+    requires std::floating_point<std::remove_const_t<Real>> std::vector<vec<D>>
+    points_of(const array_view<Real, D>& rows)
+    {
+        std::vector<vec<D>> x(rows.rows());
+        for (std::size_t v = 0; v < x.size(); ++v)
+        {
+            const auto row = rows[v];
+            for (int k = 0; k < D; ++k) x[v][k] = static_cast<double>(row[static_cast<std::size_t>(k)]);
+        }
+        return x;
+    }
+
+/// Points as the numbers that they are, packed: D doubles a point, without a copy.
+template <int D>
+std::span<const double> numbers_of(std::span<const vec<D>> x)
+{
+    static_assert(sizeof(vec<D>) == D * sizeof(double), "GLM's aligned types have gaps");
+    return {x.empty() ? nullptr : &x[0].x, static_cast<std::size_t>(D) * x.size()};
+}
+
+} // namespace taut

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/mesh/facets.hpp>
+
+namespace taut
+{
+
+/// The facets with one cell, oriented as the boundary of the mesh: edges with the surface to their left, or triangles
+/// whose normals point out of the volume.
+template <class Element>
+std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Element>& m, const facet_table& f)
+{
+    std::vector<std::array<idx, Element::dimension>> result;
+    for (std::size_t s = 0; s < f.twin.size(); ++s)
+        if (f.twin[s] == facet_table::boundary) result.push_back(impl::side_vertices(m, static_cast<idx>(s)));
+    return result;
+}
+
+template <class Element>
+std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Element>& m)
+{
+    return boundary_facets(m, facets(m));
+}
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// The boundary side that starts where a boundary side of triangles ends: turns about that vertex until an edge has no
+/// twin. `f` has no clash.
+inline idx next_boundary_side(const facet_table& f, idx side)
+{
+    const auto after = [](idx s) { return s % 3 == 2 ? s - 2 : s + 1; };
+    side = after(side);
+    while (f.twin[static_cast<std::size_t>(side)] != facet_table::boundary)
+        side = after(f.twin[static_cast<std::size_t>(side)]);
+    return side;
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// The boundary loops as vertex cycles, each with the surface to its left, starting at its smallest vertex; in the
+/// order of those. Empty for a closed surface. Around a vertex where two parts of the surface touch, each part has its
+/// own loop.
+/// Throws mesh_error (non_manifold_facet, inconsistent_orientation) where left has no meaning.
+inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const facet_table& f)
+{
+    if (!f.manifold())
+        throw mesh_error(
+            mesh_fault::non_manifold_facet, {f.crowds[0].begin(), f.crowds[0].end()},
+            "boundary_loops: an edge has three or more triangles; part them, `taut check` and validate() list all");
+    if (!f.oriented())
+        throw mesh_error(
+            mesh_fault::inconsistent_orientation, {f.clash[0][0] / 3, f.clash[0][1] / 3},
+            "boundary_loops: neighbours are oriented differently; turn one over, `taut check` and validate() list all");
+
+    std::vector<char> seen(f.twin.size(), 0);
+    std::vector<std::vector<idx>> loops;
+    for (std::size_t start = 0; start < f.twin.size(); ++start)
+    {
+        if (f.twin[start] != facet_table::boundary || seen[start]) continue;
+        std::vector<idx> loop;
+        auto side = static_cast<idx>(start);
+        do {
+            seen[static_cast<std::size_t>(side)] = 1;
+            loop.push_back(impl::side_vertices(m, side)[0]);
+            side = impl::next_boundary_side(f, side);
+        } while (side != static_cast<idx>(start));
+        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+        loops.push_back(std::move(loop));
+    }
+    std::sort(loops.begin(), loops.end());
+    return loops;
+}
+
+inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m)
+{
+    return boundary_loops(m, facets(m));
+}
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// Flags of the vertices on these loops.
+inline std::vector<char> boundary_flags(std::size_t vertices, std::span<const std::vector<idx>> loops)
+{
+    std::vector<char> flags(vertices, 0);
+    for (const auto& loop : loops)
+        for (const idx v : loop) flags[static_cast<std::size_t>(v)] = 1;
+    return flags;
+}
+
+} // namespace taut::impl

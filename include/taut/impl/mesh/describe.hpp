@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/mesh/mesh_error.hpp>
+
+namespace taut::impl
+{
+
+/// "1 triangle", "7 triangles"
+inline std::string counted(std::size_t n, const std::string& thing, const std::string& things)
+{
+    return std::to_string(n) + ' ' + (n == 1 ? thing : things);
+}
+
+/// "7 triangles (3, 14, 15, 92, 65, ...)" of n, whose first ids are known.
+inline std::string list_first_ids(const char* thing, const char* things, std::size_t n, const std::vector<idx>& ids,
+                                  std::size_t group = 1)
+{
+    constexpr std::size_t most = 5;
+    const std::size_t shown = std::min(ids.size() / group, most);
+    std::string s = counted(n, thing, things) + " (";
+    for (std::size_t g = 0; g < shown; ++g)
+    {
+        if (g > 0) s += ", ";
+        for (std::size_t k = 0; k < group; ++k)
+        {
+            if (k > 0) s += '-';
+            s += std::to_string(ids[g * group + k]);
+        }
+    }
+    return s + (n > shown ? ", ...)" : ")");
+}
+
+/// The same of all that are in a list; ids in groups of `group` are written "3-14".
+inline std::string list_ids(const char* thing, const char* things, const std::vector<idx>& ids, std::size_t group = 1)
+{
+    return list_first_ids(thing, things, ids.size() / group, ids, group);
+}
+
+/// The first elements of n; where these are the corners of cells, "9 corners of cells (3, 14, ...)".
+template <class Element>
+std::string list_first_elements(std::size_t n, const std::vector<idx>& ids, std::span<const idx> owners)
+{
+    if (owners.empty()) return list_first_ids(Element::name, Element::names, n, ids);
+    std::vector<idx> cells;
+    for (const idx c : ids) cells.push_back(owners[static_cast<std::size_t>(c)]);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    const std::size_t unseen = n - ids.size();
+    const std::string text = list_first_ids("", "", cells.size() + unseen, cells);
+    return counted(n, "corner", "corners") + (cells.size() == 1 && unseen == 0 ? " of cell " : " of cells ") +
+           text.substr(text.find('('));
+}
+
+/// What is said of vertices that no triangle names, where these are no obstacle.
+inline std::string describe_unused(const std::vector<idx>& ids)
+{
+    return list_ids("vertex", "vertices", ids) + " without a triangle: ignored";
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// The sentence for a fault of a mesh of `Element`s: how many, the first ids, what is wrong, and the remedy. owners:
+/// where these are the corners of cells, the cell of each.
+template <class Element>
+mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<const idx> owners = {})
+{
+    const std::string cells = Element::names, facets = Element::facet_names;
+    const auto of_cells = [&](std::size_t group = 1)
+    { return impl::list_ids(Element::name, Element::names, ids, group); };
+    const auto pairs = [&] { return impl::list_ids("pair", "pairs", ids, 2) + " of " + cells; };
+    const auto vertices = [&] { return impl::list_ids("vertex", "vertices", ids); };
+    const auto say = [&]() -> std::string
+    {
+        switch (fault)
+        {
+        case mesh_fault::empty:
+            return "the mesh has no " + cells + "; give it at least one";
+        case mesh_fault::too_large:
+            return "the mesh exceeds 32-bit numbering; split it";
+        case mesh_fault::index_out_of_range:
+            return of_cells(2) + " naming a vertex that does not exist; repair the file";
+        case mesh_fault::non_finite:
+            return vertices() + " with a coordinate that is not a finite number; repair the file";
+        case mesh_fault::repeated_vertex:
+            return of_cells() + " naming a vertex twice; remove them";
+        case mesh_fault::degenerate_cell:
+            return impl::list_first_elements<Element>(ids.size(), ids, owners) +
+                   " flat at rest; collapse an edge or move a vertex of each";
+        case mesh_fault::inverted_cell:
+            return impl::list_first_elements<Element>(ids.size(), ids, owners) +
+                   " of negative rest volume; untangle the mesh, give a shape at rest, or swap two corners of each";
+        case mesh_fault::duplicate_cell:
+            return pairs() + " with the same corners; remove one of each";
+        case mesh_fault::inconsistent_orientation:
+            return pairs() + " oriented differently; turn one of each over, so that all agree";
+        case mesh_fault::not_orientable:
+            return pairs() + " oriented differently, and no orientation agrees everywhere (one-sided, as a Moebius "
+                             "strip); cut the mesh open along a seam";
+        case mesh_fault::non_manifold_facet:
+            return impl::list_ids(Element::facet_name, Element::facet_names, ids,
+                                    static_cast<std::size_t>(Element::dimension)) +
+                   " with three or more " + cells + "; remove the extra ones or separate them";
+        case mesh_fault::non_manifold_vertex:
+            return vertices() + " where parts touch that share no " + Element::facet_name + "; duplicate each vertex";
+        case mesh_fault::unreferenced_vertex:
+            return vertices() + " without a " + Element::name + "; remove them";
+        case mesh_fault::several_components:
+            return impl::list_ids("component", "components, one vertex of each:", ids) + "; map them one at a time";
+        case mesh_fault::closed_surface:
+            return "the surface has no boundary; cut it open along a seam";
+        case mesh_fault::several_boundaries:
+            return impl::list_ids("boundary loop", "boundary loops, one vertex of each:", ids) +
+                   "; fill all but one, or cut from one to the next";
+        case mesh_fault::handles:
+            return "the surface has handles and is not a disk; cut it open along a loop through each";
+        }
+        return "unknown fault";
+    };
+    std::string message = say();
+    return {fault, std::move(ids), std::move(message)};
+}
+
+} // namespace taut

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/mesh/describe.hpp>
+#include <taut/impl/mesh/tetrahedron.hpp>
+#include <taut/impl/mesh/triangle.hpp>
+
+namespace taut
+{
+
+/// A mesh at rest: points in space and cells (triangles or tetrahedra) that name them. A planar mesh has z = 0.
+/// It cannot be changed, and what it holds can always be indexed and computed with: there is at least one cell, every
+/// index is in range, no cell names a vertex twice and every coordinate is finite. What a map needs beyond that (a
+/// disk, ...) is the matter of validate().
+template <class Element>
+class mesh
+{
+public:
+    using element = Element;
+    static constexpr int dimension = Element::dimension;
+    static constexpr int corners = Element::corners;
+    using cell = std::array<idx, static_cast<std::size_t>(corners)>;
+
+    /// Throws mesh_error: empty, too_large, index_out_of_range, repeated_vertex, non_finite.
+    mesh(std::vector<vec3> points, std::vector<cell> cells) : points_(std::move(points)), cells_(std::move(cells))
+    {
+        require_sizes();
+        if (!any_fault()) return;
+        require_cells();
+        require_finite();
+    }
+
+    // Both arrays are packed: &points()[0].x is 3 doubles a vertex, cells()[0].data() `corners` 32-bit integers a cell
+    // (with GLM as it comes; its aligned types have gaps).
+    const std::vector<vec3>& points() const noexcept { return points_; } ///< rest positions, one a vertex
+    const std::vector<cell>& cells() const noexcept { return cells_; }   ///< vertices of each cell, oriented
+    idx vertex_count() const noexcept { return static_cast<idx>(points_.size()); }
+    idx cell_count() const noexcept { return static_cast<idx>(cells_.size()); }
+
+    /// The rest positions of the corners of cell c.
+    typename Element::rest_corners rest(idx c) const
+    {
+        const cell& t = cells_[static_cast<std::size_t>(c)];
+        typename Element::rest_corners x;
+        for (std::size_t k = 0; k < t.size(); ++k) x[k] = points_[static_cast<std::size_t>(t[k])];
+        return x;
+    }
+
+private:
+    void require_sizes() const
+    {
+        if (cells_.empty()) throw mesh_error(describe<Element>(mesh_fault::empty, {}));
+        // Corners and facets are numbered cell * corners + k in 32 bits.
+        constexpr std::size_t limit = std::numeric_limits<idx>::max();
+        if (points_.size() > limit || cells_.size() > limit / static_cast<std::size_t>(corners))
+            throw mesh_error(mesh_fault::too_large, {},
+                             std::to_string(points_.size()) + " vertices and " + std::to_string(cells_.size()) + ' ' +
+                                 Element::names + " exceed 32-bit numbering; split the mesh");
+    }
+
+    /// False for a cell that names a vertex twice. Throws mesh_error for one that names no vertex.
+    bool is_proper(std::size_t c) const
+    {
+        const idx n = vertex_count();
+        const cell& t = cells_[c];
+        bool twice = false;
+        for (std::size_t k = 0; k < t.size(); ++k)
+        {
+            if (t[k] < 0 || t[k] >= n)
+                throw mesh_error(mesh_fault::index_out_of_range, {static_cast<idx>(c), t[k]},
+                                 std::string(Element::name) + ' ' + std::to_string(c) + ": vertex " +
+                                     std::to_string(t[k]) + (t[k] < 0 ? " < 0" : " >= " + std::to_string(n)));
+            for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
+        }
+        return !twice;
+    }
+
+    /// Whether a vertex or a cell cannot be computed with; which ones is found out where there are any.
+    bool any_fault() const
+    {
+        const auto n = static_cast<std::uint32_t>(vertex_count());
+        std::atomic<bool> fault{false};
+        impl::parallel_for(cells_.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         bool bad = false;
+                         for (std::size_t c = begin; c < end; ++c)
+                             for (std::size_t k = 0; k < cells_[c].size(); ++k)
+                             {
+                                 bad |= static_cast<std::uint32_t>(cells_[c][k]) >= n; // negative ones are large
+                                 for (std::size_t j = 0; j < k; ++j) bad |= cells_[c][j] == cells_[c][k];
+                             }
+                         if (bad) fault = true;
+                     });
+        impl::parallel_for(points_.size(),
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                         bool good = true;
+                         for (std::size_t v = begin; v < end; ++v) good &= is_finite(points_[v]);
+                         if (!good) fault = true;
+                     });
+        return fault;
+    }
+
+    static bool is_finite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+    void require_cells() const
+    {
+        std::vector<idx> repeated;
+        for (std::size_t c = 0; c < cells_.size(); ++c)
+            if (!is_proper(c)) repeated.push_back(static_cast<idx>(c));
+        if (!repeated.empty()) throw mesh_error(describe<Element>(mesh_fault::repeated_vertex, std::move(repeated)));
+    }
+
+    void require_finite() const
+    {
+        std::vector<idx> bad;
+        for (std::size_t v = 0; v < points_.size(); ++v)
+            if (!is_finite(points_[v])) bad.push_back(static_cast<idx>(v));
+        if (!bad.empty()) throw mesh_error(describe<Element>(mesh_fault::non_finite, std::move(bad)));
+    }
+
+    std::vector<vec3> points_;
+    std::vector<cell> cells_;
+};
+
+} // namespace taut

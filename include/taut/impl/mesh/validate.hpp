@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/mesh/manifold.hpp>
+#include <taut/impl/mesh/ideal.hpp>
+
+namespace taut
+{
+
+/// What a mesh must be beyond a well-oriented manifold with cells that are not flat. The default for triangles is a
+/// disk: connected, one boundary loop, no handles.
+struct mesh_requirements
+{
+    bool referenced = true;   ///< every vertex belongs to a cell
+    bool connected = true;    ///< one component
+    bool open = true;         ///< triangles: there is a boundary
+    bool one_boundary = true; ///< triangles: and it is one loop (a component)
+    bool no_handles = true;   ///< triangles: and a seam from it to itself cuts the surface apart
+};
+
+/// Every fault of the mesh, one finding a kind, the most basic first. Empty: the mesh is as required. Boundary and
+/// handles are looked at where the mesh is an oriented manifold. `f` are the facets of m.
+template <class Element>
+std::vector<mesh_finding> check(const mesh<Element>& m, const facet_table& f, const mesh_requirements& need = {})
+{
+    std::vector<mesh_finding> found;
+    const auto report = [&](mesh_fault fault, std::vector<idx> ids)
+    { found.push_back(describe<Element>(fault, std::move(ids))); };
+    const auto report_any = [&](mesh_fault fault, std::vector<idx> ids)
+    {
+        if (!ids.empty()) report(fault, std::move(ids));
+    };
+
+    auto [flat, inverted] = impl::bad_rest_cells(m);
+    report_any(mesh_fault::degenerate_cell, std::move(flat));
+    report_any(mesh_fault::inverted_cell, std::move(inverted));
+
+    auto duplicates = impl::duplicate_cells(m, f);
+    const bool no_duplicates = duplicates.empty();
+    report_any(mesh_fault::duplicate_cell, std::move(duplicates));
+    report_any(impl::orientable(f, Element::corners) ? mesh_fault::inconsistent_orientation
+                                                       : mesh_fault::not_orientable,
+               impl::clashing_cells(m, f));
+    report_any(mesh_fault::non_manifold_facet, impl::crowded_facets(m, f));
+    auto pinched = impl::pinched_vertices(m, f);
+    const bool manifold = pinched.empty() && no_duplicates && f.oriented();
+    report_any(mesh_fault::non_manifold_vertex, std::move(pinched));
+
+    const auto parts = impl::components(m);
+    if (need.referenced) report_any(mesh_fault::unreferenced_vertex, parts.unreferenced);
+    if (need.connected && parts.first.size() > 1) report(mesh_fault::several_components, parts.first);
+
+    if constexpr (Element::dimension == 2)
+    {
+        if (!manifold) return found;
+        const auto loops = boundary_loops(m, f);
+        if (need.open && loops.empty()) report(mesh_fault::closed_surface, {});
+        if (need.one_boundary && loops.size() > parts.first.size())
+        {
+            std::vector<idx> first;
+            for (const auto& loop : loops) first.push_back(loop[0]);
+            report(mesh_fault::several_boundaries, std::move(first));
+        }
+        // Euler: V - E + F = 2 components - loops - 2 handles. An edge has two sides, or one on the boundary.
+        long long rim = 0;
+        for (const auto& loop : loops) rim += static_cast<long long>(loop.size());
+        const long long edges = (3LL * m.cell_count() + rim) / 2;
+        const long long vertices = m.vertex_count() - static_cast<long long>(parts.unreferenced.size());
+        const long long sphere = 2 * static_cast<long long>(parts.first.size()) - static_cast<long long>(loops.size());
+        if (need.no_handles && vertices - edges + m.cell_count() != sphere) report(mesh_fault::handles, {});
+    }
+    return found;
+}
+
+template <class Element>
+std::vector<mesh_finding> check(const mesh<Element>& m, const mesh_requirements& need = {})
+{
+    return check(m, facets(m), need);
+}
+
+/// Throws the first finding of check() as a mesh_error.
+template <class Element>
+void validate(const mesh<Element>& m, const facet_table& f, const mesh_requirements& need = {})
+{
+    auto found = check(m, f, need);
+    if (!found.empty()) throw mesh_error(std::move(found.front()));
+}
+
+template <class Element>
+void validate(const mesh<Element>& m, const mesh_requirements& need = {})
+{
+    validate(m, facets(m), need);
+}
+
+} // namespace taut

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/compute/vector_space.hpp>
+#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/mesh/first_flip.hpp>
+#include <taut/impl/mesh/triangle.hpp>
+#include <taut/impl/objective/patch_cells.hpp>
+#include <taut/impl/sparse/front_cholesky.hpp>
+
+namespace taut::impl
+{
+
+/// Minimises the map of a surface where Newton's method finds it hardest, in patches, each by itself with all around it
+/// held: nonlinear elimination (Lanzkron, Rose, Wilkes 1996; Cai, Keyes 2002). Creases that come and go and what turns
+/// between pins are far from quadratic, but small; one step length for all of a map lets the hardest of them decide.
+///
+/// A step is Newton's with a direct solver on the host: along the Hessian where it is positive definite, else along its
+/// stand-in, to the best of four lengths, none beyond 0.9 of the way to the first flip. Formulas are those of the
+/// kernels of the mesh. The energy falls, no element flips, and what patches do not move stays bit for bit.
+///
+/// Costs two or three waits a step, and some tenths of a microsecond a triangle of the patches.
+class nonlinear_elimination
+{
+    static constexpr int D = triangle::dimension;
+
+public:
+    /// Refers to the kernels. arrays: of the mesh, whose parameters of the energy are read at each call. still: one
+    /// flag a vertex in the user's numbers, or none; these are not moved, as more is asked of them than the energy
+    /// knows.
+    nonlinear_elimination(const queue& q, std::shared_ptr<const layout<triangle>> mesh_layout,
+                          std::shared_ptr<const element_arrays<triangle>> arrays,
+                          const element_kernels<triangle>& first, const element_hessian_kernel<triangle>& second,
+                          const real_types& types, energy::weighting weights, const any_energy& energy,
+                          const std::vector<bool>& still = {})
+        : queue_(q),
+          layout_(std::move(mesh_layout)),
+          arrays_(std::move(arrays)),
+          first_(first),
+          second_(second),
+          types_(types),
+          weights_(weights),
+          energy_(energy)
+    {
+        keep_still(still);
+    }
+
+    /// Other vertices that are not moved, as where it was made.
+    void keep_still(const std::vector<bool>& still)
+    {
+        barred_.assign(at(layout_->vertex_count), 0);
+        for (std::size_t v = 0; v < still.size(); ++v)
+            if (still[v]) barred_[at(layout_->order.vertices.old_to_new[v])] = 1;
+    }
+
+    /// Minimises x around the vertices where the vectors of `unexpected` are longest: what a step has left of the
+    /// gradient, or brought, against the model. proceed() is asked between steps. Whether x moved.
+    bool operator()(device_vector& x, const device_vector& unexpected, const std::function<bool()>& proceed)
+    {
+        const auto patches = find(unexpected.download());
+        if (patches.empty()) return false;
+        auto places = x.download();
+        patch_cells cells(queue_, *layout_, patches, first_, second_, types_, weights_, energy_, arrays_->parameters);
+        std::vector<minimisation> all;
+        all.reserve(patches.size());
+        std::size_t first_cell = 0;
+        for (const auto& p : patches)
+        {
+            all.emplace_back(p, first_cell, coordinates(places, p.vertices));
+            first_cell += p.cells.size();
+        }
+        if (!proceed()) return false;
+        parallel_for(
+            all.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end; ++i) all[i].prepare();
+            },
+            0, 1);
+        for (int step = 0; step < most_steps && proceed(); ++step)
+            if (!advance(all, cells)) break;
+
+        bool moved = false;
+        for (const minimisation& m : all) moved |= m.put(places, layout_->vertex_stride);
+        if (moved) x.upload(places);
+        return moved;
+    }
+
+private:
+    using patch = impl::patch<triangle>;
+    using patch_cells = impl::patch_cells<triangle>;
+    using solver = impl::front_cholesky;
+    static constexpr int most_steps = 15;
+    static constexpr std::size_t trials = patch_cells::trials;
+
+    static std::size_t at(idx i) { return static_cast<std::size_t>(i); }
+
+    std::vector<patch> find(const std::vector<double>& vectors) const
+    {
+        std::vector<double> squares(at(layout_->free_count), 0.0);
+        for (std::size_t v = 0; v < squares.size(); ++v)
+            for (std::size_t k = 0; k < D; ++k)
+            {
+                const double entry = vectors[k * layout_->vertex_stride + v];
+                squares[v] += entry * entry;
+            }
+        return impl::patch_finder<triangle>(*layout_, squares, barred_).patches();
+    }
+
+    std::vector<vec<D>> coordinates(const std::vector<double>& places, const std::vector<idx>& vertices) const
+    {
+        std::vector<vec<D>> x;
+        for (const idx v : vertices) x.push_back({places[at(v)], places[layout_->vertex_stride + at(v)]});
+        return x;
+    }
+
+    /// One patch on its way.
+    class minimisation
+    {
+    public:
+        minimisation(const patch& p, std::size_t first_cell, std::vector<vec<D>> x)
+            : patch_(&p), first_cell_(first_cell), x_(std::move(x)), d_(x_.size(), vec<D>(0.0))
+        {
+        }
+
+        /// Before all others.
+        void prepare() { solver_.emplace(patch_->cells, patch_->fixed); }
+
+        std::size_t first_cell() const { return first_cell_; }
+        bool done() const { return done_; }
+        /// Whether its next step is to be along the Hessian itself.
+        bool exact() const { return !done_ && pause_ <= 0; }
+        const std::vector<vec<D>>& x() const { return x_; }
+        /// The longest step to be tried, as a vector a vertex; 0 where it is done.
+        const std::vector<vec<D>>& d() const { return d_; }
+
+        solver& factors() { return *solver_; }
+
+        /// Makes d() by the factors, of the Hessian itself if `exact`.
+        void direct(const std::vector<double>& gradients, std::size_t stride, bool exact)
+        {
+            const auto force = forces(gradients, stride);
+            d_ = solver_->solve(force);
+            slope_ = 0;
+            for (std::size_t v = 0; v < d_.size(); ++v) slope_ -= glm::dot(force[v], d_[v]);
+            pause_ = exact ? 0 : pause_ > 0 ? pause_ - 1 : patience;
+            exact_ = exact;
+            if (!(slope_ < 0)) return finish();
+            const double longest = reach();
+            for (auto& v : d_) v *= longest;
+            slope_ *= longest;
+        }
+
+        /// Goes to the best of x + steps[k] d by the energies there and at x.
+        void choose(const std::vector<double>& energies, std::size_t stride, const std::array<double, trials>& steps)
+        {
+            if (done_) return;
+            const auto sum = [&](std::size_t trial)
+            {
+                const auto begin = energies.begin() + static_cast<std::ptrdiff_t>(trial * stride + first_cell_);
+                return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(patch_->cells.size()), 0.0);
+            };
+            constexpr double sufficient = 1e-4, little = 0.2;
+            const double here = sum(trials - 1); // its step is 0
+            double best = 0, least = here;
+            for (std::size_t t = 0; t + 1 < trials; ++t)
+                if (const double there = sum(t); there < least && there <= here + sufficient * steps[t] * slope_)
+                {
+                    least = there;
+                    best = steps[t];
+                }
+            if (best == 0 && exact_)
+                pause_ = patience; // the stand-in may still bring something
+            else if (best == 0 || here - least < little * most_)
+                done_ = true;
+            most_ = std::max(most_, here - least);
+            for (std::size_t v = 0; v < x_.size(); ++v) x_[v] += best * d_[v];
+            moved_ |= best > 0;
+            if (done_) finish();
+        }
+
+        /// Writes where its vertices have come to; whether any has moved.
+        bool put(std::vector<double>& places, std::size_t stride) const
+        {
+            if (!moved_) return false;
+            for (std::size_t v = 0; v < x_.size(); ++v)
+                for (std::size_t k = 0; k < D && !patch_->fixed[v]; ++k)
+                    places[k * stride + at(patch_->vertices[v])] = x_[v][static_cast<int>(k)];
+            return true;
+        }
+
+    private:
+        static constexpr int patience = 2; // steps along the stand-in before the Hessian is tried again
+
+        void finish()
+        {
+            done_ = true;
+            std::fill(d_.begin(), d_.end(), vec<D>(0.0));
+        }
+
+        std::vector<vec<D>> forces(const std::vector<double>& gradients, std::size_t stride) const
+        {
+            std::vector<vec<D>> force(x_.size(), vec<D>(0.0));
+            for (std::size_t c = 0; c < patch_->cells.size(); ++c)
+                for (std::size_t k = 0; k < triangle::corners; ++k)
+                    for (std::size_t i = 0; i < D; ++i)
+                        force[at(patch_->cells[c][k])][static_cast<int>(i)] -=
+                            gradients[(k * D + i) * stride + first_cell_ + c];
+            for (std::size_t v = 0; v < force.size(); ++v)
+                if (patch_->fixed[v]) force[v] = vec<D>(0.0);
+            return force;
+        }
+
+        /// How far along d_ steps are tried: the stand-in is too stiff.
+        double reach() const
+        {
+            constexpr double fraction = 0.9;
+            double longest = (exact_ ? 1 : 4) / fraction;
+            const auto edges = [](const auto& cell, const std::vector<vec<D>>& p)
+            { return mat<D>(p[at(cell[1])] - p[at(cell[0])], p[at(cell[2])] - p[at(cell[0])]); };
+            for (const auto& cell : patch_->cells)
+                longest = std::min(longest, first_flip(edges(cell, x_), edges(cell, d_)));
+            return fraction * longest;
+        }
+
+        const patch* patch_;
+        std::size_t first_cell_; // among those of all patches
+        std::vector<vec<D>> x_, d_;
+        std::optional<solver> solver_;
+        double slope_ = 0, most_ = 0; // along d_; the largest decrease so far
+        int pause_ = 0;               // steps until the Hessian itself is tried
+        bool exact_ = false, done_ = false, moved_ = false;
+    };
+
+    /// A step of every patch that is not done; false if there is none.
+    bool advance(std::vector<minimisation>& all, patch_cells& cells)
+    {
+        std::vector<minimisation*> exact, others;
+        for (auto& m : all)
+            if (!m.done()) (m.exact() ? exact : others).push_back(&m);
+        if (exact.empty() && others.empty()) return false;
+
+        cells.place(joined(all, &minimisation::x));
+        if (!exact.empty())
+        {
+            cells.differentiate(definiteness::indefinite);
+            direct(exact, cells, true);
+            for (minimisation* m : exact)
+                if (!m->factors().definite()) others.push_back(m);
+            std::sort(others.begin(), others.end()); // as in all: the largest first
+        }
+        if (!others.empty())
+        {
+            cells.differentiate(definite(energy_.eigenvalues()));
+            direct(others, cells, false);
+        }
+        constexpr std::array<double, trials> steps{1, 0.5, 0.2, 0};
+        const auto& energies = cells.energies(joined(all, &minimisation::d), steps);
+        for (auto& m : all) m.choose(energies, cells.stride(), steps);
+        return true;
+    }
+
+    /// Makes the directions of some; where the Hessian itself is not positive definite there is none.
+    static void direct(const std::vector<minimisation*>& some, const patch_cells& cells, bool exact)
+    {
+        constexpr auto slots = []
+        {
+            std::array<std::array<std::size_t, 6>, 6> at{};
+            for (int i = 0; i < 6; ++i)
+                for (int j = 0; j < 6; ++j)
+                    at[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
+                        static_cast<std::size_t>(hessian_slots<D>::at(i / D, i % D, j / D, j % D));
+            return at;
+        }();
+        std::vector<solver*> solvers;
+        for (minimisation* m : some) solvers.push_back(&m->factors());
+        const std::size_t stride = cells.stride();
+        cells.hessians().visit(
+            [&](const auto& hessians)
+            {
+                solver::factorize_together(
+                    solvers, 1e-12, exact,
+                    [&](std::size_t i, std::size_t c, std::size_t row, std::size_t column)
+                    { return static_cast<double>(hessians[slots[row][column] * stride + some[i]->first_cell() + c]); },
+                    [&](std::size_t i)
+                    {
+                        if (!exact || solvers[i]->definite()) some[i]->direct(cells.gradients(), stride, exact);
+                    });
+            });
+    }
+
+    static std::vector<vec<D>> joined(const std::vector<minimisation>& all,
+                                      const std::vector<vec<D>>& (minimisation::*part)() const)
+    {
+        std::vector<vec<D>> values;
+        for (const auto& m : all) values.insert(values.end(), (m.*part)().begin(), (m.*part)().end());
+        return values;
+    }
+
+    queue queue_;
+    std::shared_ptr<const layout<triangle>> layout_;
+    std::shared_ptr<const element_arrays<triangle>> arrays_;
+    const element_kernels<triangle>& first_;
+    const element_hessian_kernel<triangle>& second_;
+    real_types types_;
+    energy::weighting weights_;
+    any_energy energy_;
+    std::vector<char> barred_; // by vertex
+};
+
+} // namespace taut::impl

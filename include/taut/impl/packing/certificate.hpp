@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/core/types.hpp>
+#include <taut/impl/exact/crossings.hpp>
+#include <taut/impl/packing/chart_overlaps.hpp>
+#include <taut/impl/packing/outlines.hpp>
+
+namespace taut
+{
+
+/// What a packing is worth in the coordinates that it was asked about.
+struct packing_certificate
+{
+    chart_overlaps overlaps; ///< exact
+    /// Least distance of two charts in tiles, by borders, and which ones; infinite for a single chart, 0 where borders
+    /// cross. To a few ulps of the coordinates.
+    double gap = std::numeric_limits<double>::infinity();
+    std::array<idx, 2> nearest{-1, -1};
+    /// Least distance of a chart to the border of its tile, negative where it crosses it, and which one.
+    double border = std::numeric_limits<double>::infinity();
+    idx outermost = -1;
+
+    /// padding, resolution: as in pack_params
+    bool holds(double padding, int resolution) const
+    {
+        const double least = padding / resolution * (1 - 1e-9);
+        return overlaps.pairs == 0 && overlaps.all && gap >= least && border >= least;
+    }
+};
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+inline double distance(const vec2& p, const vec2& a, const vec2& b)
+{
+    const vec2 d = b - a;
+    const double square = glm::dot(d, d), t = square > 0 ? std::clamp(glm::dot(p - a, d) / square, 0.0, 1.0) : 0;
+    return glm::length(a + t * d - p);
+}
+
+/// Of two segments.
+inline double distance(const vec2& a, const vec2& b, const vec2& c, const vec2& d)
+{
+    if (segments_meet(a, b, c, d)) return 0;
+    return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
+}
+
+/// certify_packing() of charts whose borders, in these coordinates, are known.
+inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
+                                            const chart_outlines& outlines, std::span<const char> pinned)
+{
+    const auto at = [uv](idx v) { return uv[static_cast<std::size_t>(v)]; };
+    const auto is_pinned = [pinned](idx c) { return !pinned.empty() && pinned[static_cast<std::size_t>(c)] != 0; };
+    packing_certificate sealed;
+    overlap_search search(uv, cells, outlines, 100'000);
+    const auto chart = search.chart_of_edge();
+    const edge_tree tree(outlines.edges, uv, outlines.first);
+    const auto find_gap = [&]
+    {
+        tree.for_each_pair_within(sealed.gap,
+                                  [&](std::size_t i, std::size_t j)
+                                  {
+                                      if (is_pinned(chart[i]) && is_pinned(chart[j])) return true;
+                                      const auto &e = outlines.edges[i], &f = outlines.edges[j];
+                                      const double d = distance(at(e[0]), at(e[1]), at(f[0]), at(f[1]));
+                                      if (d >= sealed.gap) return true;
+                                      sealed.gap = d;
+                                      sealed.nearest = {std::min(chart[i], chart[j]), std::max(chart[i], chart[j])};
+                                      return d > 0;
+                                  });
+    };
+    const auto find_border = [&]
+    {
+        for (std::size_t c = 0; c + 1 < outlines.first.size(); ++c)
+        {
+            if (is_pinned(static_cast<idx>(c))) continue;
+            vec2 low(std::numeric_limits<double>::infinity()), high = -low;
+            for (idx e = outlines.first[c]; e < outlines.first[c + 1]; ++e)
+                for (const idx v : outlines.edges[static_cast<std::size_t>(e)])
+                {
+                    low = glm::min(low, at(v));
+                    high = glm::max(high, at(v));
+                }
+            const vec2 tile = glm::floor(low / 2.0 + high / 2.0);
+            const vec2 inside = glm::min(low - tile, tile + 1.0 - high);
+            if (std::min(inside.x, inside.y) >= sealed.border) continue;
+            sealed.border = std::min(inside.x, inside.y);
+            sealed.outermost = static_cast<idx>(c);
+        }
+    };
+    parallel_for(
+        3,
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t task = begin; task < end; ++task)
+                if (task == 0)
+                    find_gap();
+                else if (task == 1)
+                    search.nested(tree);
+                else
+                    find_border();
+        },
+        0, 1);
+    // Borders that meet have no distance.
+    if (!(sealed.gap > 0) || !pinned.empty()) search.crossing(tree);
+    sealed.overlaps = search.found();
+    return sealed;
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// Certifies charts in unit squares, whoever laid them there: the square of a chart is the one of the middle of its
+/// box, so that tiles may lie side by side or in UDIM's rows of ten. Give it the coordinates as they were written:
+/// rounded to floats or decimals, and read back. O(n log n) for n edges of borders.
+///
+/// uv, cells, first_cell, first_vertex: as for pack()
+/// pinned: charts that others were laid around, one flag each: distances of two of them, and of one and the border, do
+/// not count; or empty
+/// Throws packing_error.
+inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
+                                           std::span<const idx> first_cell, std::span<const idx> first_vertex,
+                                           std::span<const char> pinned = {})
+{
+    impl::check_charts(uv, cells, first_cell, first_vertex);
+    return impl::certify_outlined(uv, cells, impl::find_outlines(uv, cells, first_cell, first_vertex), pinned);
+}
+
+} // namespace taut

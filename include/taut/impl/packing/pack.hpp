@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <taut/impl/core/types.hpp>
+#include <taut/impl/packing/pack_params.hpp>
+#include <taut/impl/packing/packing_error.hpp>
+
+namespace taut
+{
+
+/// Where a chart lies: x -> scale R x + shift, R = (cosine, -sine; sine, cosine), inside the unit square of its tile.
+struct chart_place
+{
+    double cosine = 1, sine = 0;
+    double scale = 1;
+    vec2 shift{0, 0};
+    idx tile = 0;
+
+    vec2 operator()(const vec2& x) const
+    {
+        return scale * vec2(cosine * x.x - sine * x.y, sine * x.x + cosine * x.y) + shift;
+    }
+};
+
+/// Charts laid side by side.
+struct packing
+{
+    std::vector<chart_place> places; ///< one a chart
+    double scale = 0;                ///< of all charts, before their densities
+    double utilization = 0;          ///< area of the triangles by the area of the tiles
+    int layouts = 0;                 ///< that were tried
+    bool complete = true;            ///< false: it was ended by the clock or the observer, and could be denser
+
+    /// The points of all charts in their tiles, with the number of its tile added to the first coordinate of each.
+    /// first_vertex: #charts + 1
+    std::vector<vec2> apply(std::span<const vec2> uv, std::span<const idx> first_vertex) const
+    {
+        std::vector<vec2> x(uv.size());
+        for (std::size_t c = 0; c < places.size(); ++c)
+            for (auto v = static_cast<std::size_t>(first_vertex[c]); v < static_cast<std::size_t>(first_vertex[c + 1]);
+                 ++v)
+                x[v] = places[c](uv[v]) + vec2(places[c].tile, 0);
+        return x;
+    }
+};
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+struct chart_outlines;
+
+/// pack() of charts whose borders, in these coordinates, are known.
+packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params);
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// Packs charts into squares: all at one scale, as large as is found, turned and shifted, never mirrored, in the gaps,
+/// bays and holes of each other. The same input gives the same layout whatever the number of threads.
+///
+/// uv:           #V points in any one unit, finite
+/// cells:        their triangles; a chart that is folded, or covers itself, keeps all of that free of others
+/// first_cell:   #charts + 1: the triangles of a chart are in one piece
+/// first_vertex: #charts + 1: so are its vertices
+///
+/// certify_packing() (packing/certificate.hpp) says what the result is worth, whoever made it.
+/// Throws packing_error, parameter_error.
+packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells, std::span<const idx> first_cell,
+             std::span<const idx> first_vertex, const pack_params& params = {});
+
+} // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/packing/pack.ipp>
+#endif

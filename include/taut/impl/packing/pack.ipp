@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/packing/layout.hpp>
+#include <taut/impl/packing/outlines.hpp>
+#include <taut/impl/packing/pieces.hpp>
+#include <taut/impl/packing/shelves.hpp>
+#include <taut/impl/packing/pack.hpp>
+
+namespace taut::impl
+{
+
+/// One run of the packer: layouts are tried one after the other, and the one with the largest scale is kept.
+class packer
+{
+public:
+    packer(std::span<const piece> pieces, const pack_params& params)
+        : pieces_(pieces), params_(params), limits_(params.time_limit, params.observer)
+    {
+        for (const piece& p : pieces_)
+        {
+            area_ += p.area;
+            length_ += p.length;
+        }
+        // Two points may come nearer by the rounding of both, and a place is off by its own.
+        gap_ = params.padding / params.resolution + 2 * std::numbers::sqrt2 * params.rounding + 1e-12;
+        border_ = params.padding / params.resolution + params.rounding + 1e-12;
+        packed_.places.resize(pieces_.size());
+    }
+
+    packing run()
+    {
+        on_shelves();
+        packed_.complete = limits_.proceed();
+        if (!packed_.complete) return std::move(packed_);
+        if (!params_.walls.empty())
+        {
+            search_around_walls();
+            packed_.complete = !limits_.over();
+            return std::move(packed_);
+        }
+        // Of many pieces quarter turns are enough; few, or one that is longer than a tile could be, need more.
+        double longest = 0;
+        for (const piece& p : pieces_) longest = std::max({longest, p.box.x, p.box.y});
+        const double side = estimated_side();
+        search(std::max(side, longest), !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
+        if (params_.rotate && (pieces_.size() <= 16 || longest > 0.8 * side))
+            search(std::max(side, longest / std::numbers::sqrt2), 16);
+        packed_.complete = !limits_.over();
+        return std::move(packed_);
+    }
+
+private:
+    double gap_in_cells(double side) const { return gap_ * side / (1 - 2 * border_) + doubt_; }
+
+    void on_shelves()
+    {
+        const bool walled = !params_.walls.empty();
+        const auto [corner, side, tile] = walled ? free_square() : tile_square{};
+        const auto shelves = lay_on_shelves(pieces_, walled ? 1 : params_.tiles, walled ? 0 : border_, gap_ / side);
+        const double scale = side * shelves.scale;
+        for (std::size_t c = 0; c < pieces_.size(); ++c)
+        {
+            const vec2 low = box_in(pieces_[c].hull, pieces_[c].axis)[0];
+            place(c, pieces_[c].axis, scale, corner + side * shelves.corners[c] - scale * low, tile + shelves.tiles[c]);
+        }
+        scaled(scale);
+    }
+
+    /// A square of a tile.
+    struct tile_square
+    {
+        vec2 corner{0, 0};
+        double side = 1;
+        idx tile = 0;
+    };
+
+    /// The largest one, about, that is as far from the walls and the border as pieces are to be.
+    tile_square free_square() const
+    {
+        constexpr idx cells = 512;
+        const double cell = (1 - 2 * border_) / cells;
+        tile_square best{vec2(0.0), 0, 0};
+        const auto walls = walls_in(cells);
+        for (idx tile = 0; tile < params_.tiles; ++tile)
+        {
+            std::vector<char> taken(static_cast<std::size_t>(cells) * cells, 0);
+            const auto at = [](idx x, idx y)
+            { return static_cast<std::size_t>(y) * cells + static_cast<std::size_t>(x); };
+            for (const taken_cells& wall : walls)
+                for (idx r = 0; wall.tile == tile && r < wall.cells.rows(); ++r)
+                    for (const cell_run& run : wall.cells.row(r))
+                        for (idx x = std::max<idx>(0, run.begin), y = r + wall.cells.low;
+                             y >= 0 && y < cells && x < std::min(cells, run.end); ++x)
+                            taken[at(x, y)] = 1;
+            // The side of the largest free square that ends in a cell follows from those that end before it.
+            std::vector<idx> sides(taken.size(), 0);
+            for (idx y = 0; y < cells; ++y)
+                for (idx x = 0; x < cells; ++x)
+                {
+                    if (taken[at(x, y)]) continue;
+                    idx& side = sides[at(x, y)];
+                    side = x > 0 && y > 0
+                               ? 1 + std::min({sides[at(x - 1, y)], sides[at(x, y - 1)], sides[at(x - 1, y - 1)]})
+                               : 1;
+                    if (side * cell > best.side)
+                        best = {vec2(border_) + cell * vec2(x + 1 - side, y + 1 - side), side * cell, tile};
+                }
+        }
+        if (best.side > 0) return best;
+        throw packing_error(packing_fault::no_room, {},
+                            "what is pinned leaves no room for other charts; pin fewer, or ask for more tiles");
+    }
+
+    /// The cells of the walls, and of what is as near to them as pieces may not be, in tiles of so many cells a side.
+    std::vector<taken_cells> walls_in(idx side) const
+    {
+        std::vector<std::vector<std::array<vec2, 2>>> edges(static_cast<std::size_t>(params_.tiles));
+        const double cells = side / (1 - 2 * border_);
+        const auto in_cells = [&](const vec2& x) { return cells * (x - vec2(border_)); };
+        for (const tile_wall& wall : params_.walls)
+            edges[static_cast<std::size_t>(wall.tile)].push_back({in_cells(wall.edge[0]), in_cells(wall.edge[1])});
+        std::vector<taken_cells> taken;
+        for (std::size_t tile = 0; tile < edges.size(); ++tile)
+            if (!edges[tile].empty())
+                taken.push_back({static_cast<idx>(tile), rasterize(edges[tile], gap_in_cells(side))});
+        return taken;
+    }
+
+    /// Halves what is between a side of the tiles at which pieces find no room beside the walls, and one at which they
+    /// do: walls grow with the tiles.
+    void search_around_walls()
+    {
+        const bool quick = pieces_.size() > 1500;
+        const double side_of_all = estimated_side();
+        const idx cells = std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(pieces_.size()))), 512, 2048);
+        draw(cells / side_of_all, !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
+        idx fails = 0, fits = 0;
+        tile_layout best;
+        for (idx side = cells; side <= 4 * cells && !limits_.over();)
+        {
+            tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(side), cells_per_length_,
+                               quick, limits_, walls_in(side));
+            ++packed_.layouts;
+            if (l.complete && std::max(l.width, l.height) <= side)
+            {
+                fits = side;
+                best = std::move(l);
+            }
+            else
+                fails = side;
+            if (fits > 0 && fits - fails <= std::max<idx>(1, fits / 100)) break;
+            side = fits == 0 ? side + side / 3 : fails == 0 ? side - side / 4 : (fits + fails) / 2;
+        }
+        if (best.complete) keep(best, fits);
+    }
+
+    /// Of a tile, in lengths of the pieces: side^2 = (area + gaps around) / density, where a gap is a share of the
+    /// side.
+    double estimated_side() const
+    {
+        const double density = 0.75 * params_.tiles, share = gap_ / (1 - 2 * border_);
+        const double half = share * length_ / (4 * density);
+        return half + std::sqrt(half * half + area_ / density);
+    }
+
+    /// Tries some layouts, each in tiles of the side that the one before makes likely. What has more pieces has finer
+    /// cells; of very many each gets less time.
+    void search(double length, int turns)
+    {
+        const std::size_t n = pieces_.size();
+        const bool quick = n > 1500;
+        const idx cells =
+            quick ? 1024 : std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(n))), 512, 2048);
+        draw(cells / length, turns);
+        idx side = cells;
+        tile_layout best;
+        double least = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < (quick ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
+        {
+            const double most = 1.02 * side + 1; // has its padding, too, if the layout is a little larger
+            tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(most), cells_per_length_,
+                               quick, limits_);
+            ++packed_.layouts;
+            if (!l.complete)
+            {
+                side += side / 4;
+                continue;
+            }
+            const double used = std::max(l.width, l.height), filled = (l.tiles - 1 + l.height / side) / params_.tiles;
+            if (used <= most && used < least)
+            {
+                least = used;
+                best = std::move(l);
+            }
+            side = std::max<idx>(8, static_cast<idx>(std::lround(side * std::sqrt(filled))));
+        }
+        if (!best.complete) return;
+        reorder(best, least);
+        keep(best, least);
+    }
+
+    /// Tries other orders near the one that was best, as many as take about as long whatever there is to lay.
+    void reorder(tile_layout& best, double& least)
+    {
+        const std::size_t n = pieces_.size();
+        std::minstd_rand lot(1);
+        double last = least;
+        for (std::size_t k = 0; n > 1 && k < std::min<std::size_t>(100, 3000 / n) && !limits_.over(); ++k)
+        {
+            auto order = order_;
+            for (std::size_t swaps = 1 + lot() % 2; swaps > 0; --swaps)
+            {
+                const std::size_t i = lot() % n, j = i + 1 + lot() % std::max<std::size_t>(2, n / 3);
+                if (j < n) std::swap(order[i], order[j]);
+            }
+            const auto side = static_cast<idx>(least) - 1;
+            tile_layout l = lay_out(pieces_, poses_, order, side, params_.tiles, gap_in_cells(1.02 * side + 1),
+                               cells_per_length_, n > 1500, limits_);
+            ++packed_.layouts;
+            const double used = std::max(l.width, l.height);
+            if (!l.complete || used > 1.002 * last || used > 1.02 * side + 1) continue;
+            last = used;
+            order_ = std::move(order);
+            if (used >= least) continue;
+            least = used;
+            best = std::move(l);
+        }
+    }
+
+    /// Draws all pieces in their poses; large ones will be laid first.
+    void draw(double cells_per_length, int turns)
+    {
+        cells_per_length_ = cells_per_length;
+        const std::size_t n = pieces_.size();
+        doubt_ = 0;
+        for (const piece& p : pieces_) doubt_ = std::max(doubt_, p.doubt * cells_per_length_);
+        poses_.assign(n, {});
+        parallel_for(
+            n,
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t c = begin; c < end; ++c)
+                    for (int k = 0; k < turns; ++k)
+                        poses_[c].push_back(make_pose(pieces_[c], 2 * std::numbers::pi * k / turns, cells_per_length_));
+            },
+            0, 1);
+        order_.resize(n);
+        std::iota(order_.begin(), order_.end(), idx{0});
+        const auto size = [&](idx c)
+        {
+            const piece& p = pieces_[static_cast<std::size_t>(c)];
+            return p.box.x * p.box.y;
+        };
+        std::stable_sort(order_.begin(), order_.end(), [&](idx a, idx b) { return size(a) > size(b); });
+    }
+
+    /// Takes a layout in tiles of this side, if it is better.
+    void keep(const tile_layout& l, double side)
+    {
+        const double cell = (1 - 2 * border_) / side, scale = cell * cells_per_length_;
+        if (scale <= packed_.scale) return;
+        for (std::size_t c = 0; c < pieces_.size(); ++c)
+        {
+            const spot& s = l.spots[c];
+            const pose& p = poses_[c][static_cast<std::size_t>(s.pose)];
+            const vec2 corner(s.x + inset, s.y + inset);
+            place(c, p.axis, scale, vec2(border_) + cell * (corner - p.corner), s.tile);
+        }
+        scaled(scale);
+    }
+
+    /// shift: of the piece, whose centre is at 0
+    void place(std::size_t c, const vec2& axis, double scale, const vec2& shift, idx tile)
+    {
+        const piece& p = pieces_[c];
+        chart_place at{axis.x, -axis.y, scale * p.density, shift, tile};
+        at.shift -= at(p.centre) - at.shift;
+        packed_.places[c] = at;
+    }
+
+    void scaled(double scale)
+    {
+        packed_.scale = scale;
+        packed_.utilization = area_ * scale * scale / params_.tiles;
+    }
+
+    std::span<const piece> pieces_;
+    const pack_params& params_;
+    budget limits_;
+    double area_ = 0, length_ = 0;
+    double gap_ = 0, border_ = 0; // in tiles
+    double cells_per_length_ = 0, doubt_ = 0;
+    std::vector<std::vector<pose>> poses_;
+    std::vector<idx> order_;
+    packing packed_;
+};
+
+packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params)
+{
+    params.validate(outlines.charts());
+    double area = 0;
+    for (const double a : outlines.areas) area += a;
+    if (!(area > 0)) throw packing_error(packing_fault::no_area, {}, "the charts have no area; flatten them again");
+    const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
+    return packer(pieces, params).run();
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells, std::span<const idx> first_cell,
+             std::span<const idx> first_vertex, const pack_params& params)
+{
+    params.validate(static_cast<idx>(first_cell.size()) - 1);
+    if (first_cell.size() < 2) return {};
+    impl::check_charts(uv, cells, first_cell, first_vertex);
+    return impl::pack_outlined(uv, impl::find_outlines(uv, cells, first_cell, first_vertex), params);
+}
+
+} // namespace taut

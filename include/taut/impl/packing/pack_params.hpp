@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/core/error.hpp>
+#include <taut/impl/core/types.hpp>
+
+namespace taut::impl
+{
+
+/// An edge of a closed outline in a tile, [0, 1]², with what is enclosed to its left.
+struct tile_wall
+{
+    idx tile = 0;
+    std::array<vec2, 2> edge;
+};
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// How charts are laid side by side.
+struct pack_params
+{
+    /// Texels along a side of a tile, 1 to 65536. It gives `padding` its length and nothing else.
+    int resolution = 1024;
+
+    /// Least distance in texels between two charts, and between a chart and the border of its tile; at least 0.
+    double padding = 2;
+
+    /// Squares to fill, 1 to 1000, as evenly as charts allow. All charts keep one scale.
+    int tiles = 1;
+
+    /// Charts may be turned. Otherwise they are only shifted and scaled, as those who paint or comb them may want.
+    bool rotate = true;
+
+    /// Lengths of a chart are first multiplied by its number: more texels for a face, fewer for a sole. One positive
+    /// number a chart; empty: 1 each.
+    std::vector<double> densities;
+
+    /// What is in the tiles already and stays. Charts keep the padding from it.
+    std::vector<impl::tile_wall> walls;
+
+    /// By how much a coordinate in [0, tiles) may be off in the file it is written to; the padding holds there, too.
+    /// Default: floats, tiles up to the eighth. 0 to 0.001.
+    double rounding = 1e-6;
+
+    /// When it is over the best layout so far is returned; one of shelves costs next to nothing and is made first.
+    impl::budget::seconds time_limit = impl::budget::unlimited;
+    taut::observer observer; ///< asked every 8 charts of a layout
+
+    /// Throws parameter_error.
+    void validate(idx charts) const
+    {
+        const auto require = [](bool holds, const char* name, const char* range)
+        {
+            if (!holds) throw parameter_error(name, std::string("must be ") + range);
+        };
+        require(resolution >= 1 && resolution <= 65536, "resolution", "1 to 65536");
+        require(padding >= 0 && padding <= std::numeric_limits<double>::max(), "padding", "at least 0 and finite");
+        require(2 * padding < resolution, "padding", "less than half the resolution");
+        require(tiles >= 1 && tiles <= 1000, "tiles", "1 to 1000");
+        require(rounding >= 0 && rounding <= 1e-3, "rounding", "0 to 0.001");
+        require(time_limit.count() > 0, "time_limit", "positive");
+        require(densities.empty() || densities.size() == static_cast<std::size_t>(charts), "densities",
+                "empty or one number a chart");
+        for (const impl::tile_wall& wall : walls)
+            for (const vec2& p : wall.edge)
+                require(wall.tile >= 0 && wall.tile < tiles && p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1, "walls",
+                        "within the tiles");
+        for (const double d : densities)
+            require(d > 0 && d <= std::numeric_limits<double>::max(), "densities", "positive and finite");
+    }
+};
+
+} // namespace taut

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/core/error.hpp>
+#include <taut/impl/core/types.hpp>
+
+namespace taut
+{
+
+/// What repair_surface() mends. Where mesh_fault has the same, the word is the same. The comment says what is done, and
+/// what repair_finding::ids holds.
+enum class repair_kind
+{
+    index_out_of_range,       ///< left out: triangles that name a vertex which does not exist
+    non_finite,               ///< left out with their triangles: vertices with a NaN or infinite coordinate
+    repeated_vertex,          ///< left out: triangles that name a vertex twice
+    degenerate_cell,          ///< left out: flat triangles
+    duplicate_cell,           ///< all but one left out: pairs of triangles, the one that stays first
+    unreferenced_vertex,      ///< left out: vertices without a triangle
+    coincident_vertex,        ///< welded: pairs of vertices, the one that stays first
+    inconsistent_orientation, ///< turned over: triangles
+    not_orientable,           ///< cut open: edges, two vertices each
+    non_manifold_facet,       ///< parted: edges with three or more triangles, two vertices each
+    non_manifold_vertex,      ///< one made for each fan: vertices whose triangles form several fans
+    contradicting_normal      ///< nothing, they are named: triangles that all three normals at their corners oppose
+};
+
+/// A word for programs.
+constexpr const char* to_string(repair_kind kind)
+{
+    switch (kind)
+    {
+    case repair_kind::index_out_of_range:
+        return "index_out_of_range";
+    case repair_kind::non_finite:
+        return "non_finite";
+    case repair_kind::repeated_vertex:
+        return "repeated_vertex";
+    case repair_kind::degenerate_cell:
+        return "degenerate_cell";
+    case repair_kind::duplicate_cell:
+        return "duplicate_cell";
+    case repair_kind::unreferenced_vertex:
+        return "unreferenced_vertex";
+    case repair_kind::coincident_vertex:
+        return "coincident_vertex";
+    case repair_kind::inconsistent_orientation:
+        return "inconsistent_orientation";
+    case repair_kind::not_orientable:
+        return "not_orientable";
+    case repair_kind::non_manifold_facet:
+        return "non_manifold_facet";
+    case repair_kind::non_manifold_vertex:
+        return "non_manifold_vertex";
+    case repair_kind::contradicting_normal:
+        return "contradicting_normal";
+    }
+    return "unknown";
+}
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// How many ids a thing of a kind has: 2 for edges and pairs.
+constexpr int ids_each(repair_kind kind)
+{
+    return kind == repair_kind::duplicate_cell || kind == repair_kind::coincident_vertex ||
+                   kind == repair_kind::not_orientable || kind == repair_kind::non_manifold_facet
+               ? 2
+               : 1;
+}
+
+/// Whether a mesh with this is none that charts can be made of. What is else mended makes it better.
+constexpr bool is_fault(repair_kind kind)
+{
+    return kind != repair_kind::unreferenced_vertex && kind != repair_kind::coincident_vertex &&
+           kind != repair_kind::contradicting_normal;
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// One kind with everything it concerns.
+struct repair_finding
+{
+    repair_kind kind;
+    std::vector<idx> ids; ///< in the numbering of the input, from 0; which kind: see repair_kind
+    std::string problem;  ///< "3 triangles (4, 7, 9) flat at rest"
+    std::string action;   ///< "left out"
+
+    std::string message() const { return problem + "; " + action; }
+};
+
+/// Triangles of which none is left.
+class repair_error : public error
+{
+public:
+    repair_error(const std::string& what, std::vector<repair_finding> findings)
+        : error(what), findings_(std::move(findings))
+    {
+    }
+
+    const std::vector<repair_finding>& findings() const noexcept { return findings_; } ///< what all went out for
+
+private:
+    std::vector<repair_finding> findings_;
+};
+
+} // namespace taut

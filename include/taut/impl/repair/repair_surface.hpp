@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <taut/impl/mesh/mesh.hpp>
+#include <taut/impl/repair/repair_finding.hpp>
+
+namespace taut
+{
+
+struct repair_params
+{
+    /// Ends of open edges at most so far apart are one place, which is that of the first of them; in units of the
+    /// surface, 0 or more. 0: only equal coordinates. Raise it where edges that should meet do so in few digits only:
+    /// usual_weld_tolerance() is such a length. Nothing moves by half of an edge that it ends, so that no edge
+    /// vanishes.
+    double weld_tolerance = 0;
+
+    /// Normals of the file, or none. They are compared with the triangles, nothing else.
+    std::span<const vec3> normals = {};
+    /// The normals of the corners of each triangle, -1: none; empty: there is one normal a vertex.
+    std::span<const std::array<idx, 3>> normal_cells = {};
+
+    /// The body that each vertex is of, or none: vertices of two bodies are at two places, whatever their coordinates,
+    /// so that nothing of one body is sewn to another one or a copy of it.
+    std::span<const idx> bodies = {};
+
+    /// The polygon that each triangle is of, or none: triangles of one polygon stay together wherever edges are parted.
+    std::span<const idx> polygons = {};
+
+    /// Throws parameter_error. points, triangles: how many the input has
+    void validate(std::size_t points, std::size_t triangles) const;
+};
+
+/// How far apart corners may be that rounding has parted: 1e-7 of the size of the surface, or eight units of the last
+/// digit that coordinates have in the file, single precision or 6 to 12 decimal digits, if these are more; 0 if there
+/// is no finite size. At most 1e-3 of the size.
+double usual_weld_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
+
+/// How many open edges repair_surface() would sew with this tolerance. bodies: as repair_params has them
+std::size_t count_near_edges(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
+                             double weld_tolerance, std::span<const idx> bodies = {});
+
+/// A surface made of raw triangles.
+struct repaired_surface
+{
+    mesh<triangle> surface;               ///< an oriented manifold of one or more parts, no triangle flat
+    std::vector<idx> vertex_origins;      ///< the vertex of the input, one a vertex; of welded ones the smallest
+    std::vector<idx> cell_origins;        ///< the triangle of the input, one a triangle, increasing
+    std::vector<char> turned;             ///< one a triangle: 1 where corners 1 and 2 have changed places
+    std::vector<repair_finding> findings; ///< one a kind, in their order
+
+    /// The corner of triangle cell_origins[c] of the input that corner k of triangle c is.
+    std::size_t corner_origin(std::size_t c, std::size_t k) const { return turned[c] != 0 && k > 0 ? 3 - k : k; }
+};
+
+/// Makes a surface of triangles as a file has them: indices out of range, coordinates that are no numbers, repeated
+/// vertices, flat triangles, copies, cracks between equal vertices, any winding, edges with many triangles. Triangles
+/// keep their order and their places; vertices do (apart from a tolerance), and come in the order of their origins.
+/// What is wrong with a part is mended there: all else stays as it was. O(n log n), the same on any number of threads.
+///
+/// - Two triangles at an edge of the input stay neighbours. Open edges are sewn to open ones at the same place.
+/// - Of copies the first stays: of triangles at the same place that face the same way, and of those with the same
+///   vertices that face either way.
+/// - Neighbours are turned to agree. A closed part whose triangles disagree ends with its normals outward, another as
+///   the larger part of its area was. A one-sided part is cut open.
+/// - Where three or more triangles meet in an edge, those of one polygon stay together, then pairs that face the same
+/// way and bend least stay together, the rest
+///   part.
+///
+/// Throws parameter_error; mesh_error (empty, too_large); repair_error if no triangle is left.
+repaired_surface repair_surface(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
+                                const repair_params& params = {});
+
+} // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/repair/repair_surface.ipp>
+#endif

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/solve/descent.hpp>
+
+namespace taut::solve
+{
+
+/// Minimises f from x by steepest descent, d = -gamma g with gamma = s'y / y'y of the last step (Nocedal & Wright,
+/// section 3.3); with the objective's preconditioner d = -gamma H0 g. For comparison, and for preconditioners so good
+/// that nothing else is needed. x ends at the best iterate. Throws parameter_error.
+template <objective Objective>
+report gradient_descent(Objective& f, typename Objective::point& x, const descent_params& common = {},
+                        const observer& ask = {})
+{
+    common.validate();
+    const memory_params none{.pairs = 0};
+    auto h = inverse_hessian(f, none);
+    return descent(f, x, h, no_momentum{}, common, ask).run();
+}
+
+} // namespace taut::solve

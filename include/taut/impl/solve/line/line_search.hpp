@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/solve/line/hybrid.hpp>
+
+namespace taut::solve
+{
+
+/// The line searches; the first is the default.
+enum class line_search_method : int
+{
+    hybrid,       ///< the paper's: full step under strong Wolfe, else bracket and Brent
+    strong_wolfe, ///< Nocedal & Wright 3.5, 3.6: a gradient at every trial
+    backtracking  ///< Armijo only
+};
+
+/// The chosen search, from a first trial step. careful: the length of the direction is not to be trusted.
+template <line_function Line>
+search_result search(Line& phi, double first, const line_search_params& p, bool careful)
+{
+    switch (p.method)
+    {
+    case line_search_method::strong_wolfe:
+        return strong_wolfe(phi, first, p.wolfe, p.max_evaluations);
+    case line_search_method::backtracking:
+        return backtracking(phi, first, p.wolfe, p.shrink, p.max_evaluations);
+    case line_search_method::hybrid:
+        break;
+    }
+    return hybrid(phi, first, p.wolfe, p.exact, careful);
+}
+
+} // namespace taut::solve

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/core/error.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace taut::solve
+{
+
+/// Constants of the Wolfe conditions (Nocedal & Wright, Numerical Optimization, 2nd ed., section 3.1).
+struct wolfe_params
+{
+    /// c1: the least decrease, as a part of what the slope promises. Range (0, 0.5). Hardly ever worth a change.
+    double sufficient_decrease = 1e-4;
+
+    /// c2: the slope that may remain, as a part of the slope at the start. Range (c1, 1). 0.9 for quasi-Newton
+    /// directions; 0.1 makes searches nearly exact, which plain conjugate gradients like.
+    double curvature = 0.9;
+
+    friend bool operator==(const wolfe_params&, const wolfe_params&) = default;
+
+    void validate() const
+    {
+        if (!(sufficient_decrease > 0 && sufficient_decrease < 0.5))
+            throw parameter_error("wolfe.sufficient_decrease", "must be in (0, 0.5)");
+        if (!(curvature > sufficient_decrease && curvature < 1))
+            throw parameter_error("wolfe.curvature", "must be between sufficient_decrease and 1");
+    }
+};
+
+/// The exact part of the paper's line search.
+struct exact_params
+{
+    /// Relative tolerance of Brent's method on the step. Range (0, 1); below 1.5e-8 it means 1.5e-8.
+    double tolerance = 1e-6;
+
+    /// Evaluations of Brent's method. Range >= 0; more only where values are much cheaper than gradients.
+    int evaluations = 8;
+
+    /// The same two for the first iteration and after a restart, where the length of the direction means little.
+    double first_tolerance = 1e-16;
+    int first_evaluations = 30;
+
+    /// Factor between trial steps while a minimum is bracketed. Range > 1.
+    double growth = 4;
+
+    /// Passes of bracketing, each one evaluation, or one batch of them. Range >= 1.
+    int bracket_passes = 30;
+
+    friend bool operator==(const exact_params&, const exact_params&) = default;
+
+    void validate() const
+    {
+        if (!(tolerance > 0 && tolerance < 1)) throw parameter_error("exact.tolerance", "must be in (0, 1)");
+        if (!(first_tolerance > 0 && first_tolerance < 1))
+            throw parameter_error("exact.first_tolerance", "must be in (0, 1)");
+        if (evaluations < 0) throw parameter_error("exact.evaluations", "must not be negative");
+        if (first_evaluations < 0) throw parameter_error("exact.first_evaluations", "must not be negative");
+        if (!(growth > 1)) throw parameter_error("exact.growth", "must be above 1");
+        if (bracket_passes < 1) throw parameter_error("exact.bracket_passes", "must be at least 1");
+    }
+};
+
+enum class line_search_method : int; // solve/line/line_search.hpp has their names, and includes them
+
+/// Of the descent methods. Newton's method has a search of its own, which takes wolfe.sufficient_decrease,
+/// barrier_fraction and rounding alone (newton_search_params).
+struct line_search_params
+{
+    /// hybrid, the default, where values are cheaper than gradients; strong_wolfe where they come together anyway.
+    line_search_method method{};
+
+    wolfe_params wolfe = {};
+    exact_params exact = {};
+
+    /// No trial step is longer than this part of the step to the barrier (objectives with max_step). Range (0, 1);
+    /// 0.9 to 0.99 are sensible: nearer to 1 the energy at the end of the step explodes.
+    double barrier_fraction = 0.9;
+
+    static constexpr int most_batch = 16;
+
+    /// Trial steps in one pass where the objective has `values`. Range 1..most_batch.
+    int batch = 6;
+
+    /// Gradients that strong_wolfe, or values that backtracking may take. Range >= 1.
+    int max_evaluations = 30;
+
+    /// Factor between the steps of backtracking. Range (0, 1).
+    double shrink = 0.5;
+
+    /// Relative rounding error of a value. A rise by less is no rise, and such small decreases are judged by slopes.
+    /// Range [0, 1e-3). An objective that computes in float says so by its own rounding(), and the larger one holds.
+    double rounding = 1e-14;
+
+    friend bool operator==(const line_search_params&, const line_search_params&) = default;
+
+    void validate() const
+    {
+        wolfe.validate();
+        exact.validate();
+        if (!(barrier_fraction > 0 && barrier_fraction < 1))
+            throw parameter_error("line_search.barrier_fraction", "must be in (0, 1)");
+        if (batch < 1 || batch > most_batch) throw parameter_error("line_search.batch", "must be in 1..16");
+        if (max_evaluations < 1) throw parameter_error("line_search.max_evaluations", "must be at least 1");
+        if (!(shrink > 0 && shrink < 1)) throw parameter_error("line_search.shrink", "must be in (0, 1)");
+        if (!(rounding >= 0 && rounding < 1e-3)) throw parameter_error("line_search.rounding", "must be in [0, 1e-3)");
+    }
+};
+
+/// When to stop. A tolerance of 0 switches its test off.
+struct stopping_params
+{
+    /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
+    /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
+    ///
+    /// A gradient is long where f is steep, not where much is left to gain. Newton's method stops, too, where the
+    /// Hessian promises, `decrease_count` times in a row, a decrease of at most 1e-2 gradient_tolerance * |f - base|:
+    /// Newton's decrement, which is the same in all units and scalings (Boyd & Vandenberghe 2004, 9.5).
+    double gradient_tolerance = 1e-6;
+
+    /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f - base|. A decrease along a
+    /// step that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only where the
+    /// gradient has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop
+    /// where the value, not the point, matters.
+    double decrease_tolerance = 1e-14;
+
+    /// Newton's method: stop where five steps in a row, each of which ended at a relative gradient of at most 1e-2,
+    /// have together gained at most settled_tolerance * |f - base|, unless the last one was a full step along a
+    /// definite Hessian, after which the end is near anyway. Meant for long ways through valleys at the end of which
+    /// next to nothing is gained: 1e-4 left 0.07 % at most of what lies above the energy at rest on 67 maps, most of
+    /// them hard (docs/explanation/numerics.md, "Stopping criteria"). Range [0, 1); off here, on in maps of surfaces
+    /// that say nothing else.
+    double settled_tolerance = 0;
+
+    /// A value that f cannot fall below, or 0. What is left above it, not the value itself, then tells what a decrease
+    /// is worth.
+    double base = 0;
+
+    /// Range >= 1. One small decrease is often an accident of the line search.
+    int decrease_count = 2;
+
+    /// Stop after `decrease_count` uncapped steps in a row of at most step_tolerance * the longest step of the run.
+    /// Range [0, 1); off by default.
+    double step_tolerance = 0;
+
+    /// Stop with stop::barrier after so many steps in a row that a barrier cut and that gained less than
+    /// decrease_tolerance. Range >= 1.
+    int barrier_count = 10;
+
+    /// Range >= 0.
+    int max_iterations = 10000;
+
+    /// Range > 0; infinite by default. The current evaluation is always finished.
+    std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()};
+
+    void validate() const
+    {
+        const auto fraction = [](double t, const char* field)
+        {
+            if (!(t >= 0 && t < 1)) throw parameter_error(field, "must be in [0, 1)");
+        };
+        fraction(gradient_tolerance, "stopping.gradient_tolerance");
+        fraction(decrease_tolerance, "stopping.decrease_tolerance");
+        fraction(settled_tolerance, "stopping.settled_tolerance");
+        fraction(step_tolerance, "stopping.step_tolerance");
+        if (decrease_count < 1) throw parameter_error("stopping.decrease_count", "must be at least 1");
+        if (barrier_count < 1) throw parameter_error("stopping.barrier_count", "must be at least 1");
+        if (max_iterations < 0) throw parameter_error("stopping.max_iterations", "must not be negative");
+        if (!(time_limit.count() > 0)) throw parameter_error("stopping.time_limit", "must be positive");
+    }
+};
+
+/// What all descent methods share.
+struct descent_params
+{
+    solve::line_search_params line_search = {};
+    stopping_params stopping = {};
+
+    /// Length of the first direction, a guess of the distance to go; a wrong one costs trial steps in the first
+    /// iteration only. Range > 0. Unused with a preconditioner, whose scale is trusted.
+    double first_length = 1;
+
+    /// An objective with a Hessian makes its preconditioner anew, and the method forgets its pairs, once the value has
+    /// fallen by more than this part since the last time. Range > 0.
+    double linearize_after = 0.03;
+
+    void validate() const
+    {
+        line_search.validate();
+        stopping.validate();
+        if (!(first_length > 0) || !std::isfinite(first_length))
+            throw parameter_error("first_length", "must be positive and finite");
+        if (!(linearize_after > 0)) throw parameter_error("linearize_after", "must be positive");
+    }
+};
+
+/// The factor gamma of H0 = gamma I (or gamma times the objective's own H0).
+enum class scaling
+{
+    newest, ///< s'y / y'H0 y of the newest pair (Nocedal & Wright, 7.20)
+    largest ///< the larger of those of the oldest and the newest pair: the paper's [24] as its authors use it
+};
+
+struct memory_params
+{
+    /// m: pairs (s, y) kept. Range 0..64; 0 leaves H0. 5 to 20 are usual: more memory, fewer iterations.
+    int pairs = 8;
+
+    solve::scaling scaling = solve::scaling::newest;
+
+    /// A pair with s'y <= cautious |s| |y| is left out (Li & Fukushima 2001), which keeps H positive definite.
+    /// Range [0, 1). Raise it where gradients are noisy.
+    double cautious = 1e-8;
+
+    void validate() const
+    {
+        if (pairs < 0 || pairs > 64) throw parameter_error("memory.pairs", "must be in 0..64");
+        if (!(cautious >= 0 && cautious < 1)) throw parameter_error("memory.cautious", "must be in [0, 1)");
+    }
+};
+
+/// The limited-memory BFGS method.
+struct lbfgs_params
+{
+    memory_params memory = {};
+
+    void validate() const { memory.validate(); }
+};
+
+/// beta of the conjugate directions, in the inner product of the preconditioner H = H_{k+1}. Negative ones, which
+/// inexact searches that stop short produce, become 0 (Nocedal & Wright, 5.45, for either formula).
+enum class conjugacy
+{
+    hestenes_stiefel, ///< y'H g_{k+1} / y'd_k: the paper's
+    polak_ribiere     ///< y'H g_{k+1} / g_k'H g_k: "PR+"
+};
+
+/// The paper's preconditioned nonlinear conjugate gradient.
+struct conjugate_gradient_params
+{
+    conjugacy beta = conjugacy::hestenes_stiefel;
+
+    /// The preconditioner: m pairs of L-BFGS (the paper compares several m, Figure 7; its released code takes 1). 0 is
+    /// the plain method.
+    memory_params memory = {.pairs = 5, .scaling = scaling::largest};
+
+    /// Forget the step before every so many iterations. Range >= 0; 0: only where the direction does not descend or
+    /// the line search fails. The number of unknowns is the classic choice for the plain method on small problems.
+    int restart_interval = 0;
+
+    void validate() const
+    {
+        memory.validate();
+        if (restart_interval < 0) throw parameter_error("conjugate_gradient.restart_interval", "must not be negative");
+    }
+};
+
+/// How exactly a Newton system is solved.
+struct pcg_params
+{
+    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000. Newton's method doubles it, up to
+    /// eightfold, after each full step along the Hessian itself whose system took them all.
+    int max_steps = 40;
+
+    /// Steps between two looks at the result, at most; each look is a host wait. The first system is looked at after
+    /// two, each further one after as many as the one before was found to need. Range 1..8.
+    int block = 6;
+
+    /// Go on while the last step brought more than this part of what the steps brought on average (Nash & Sofer 1990,
+    /// "Assessing a search direction within a truncated-Newton method"); of later blocks, their mean step. Range (0,
+    /// 1). Lower it for more exact directions.
+    double gain = 0.25;
+
+    void validate() const
+    {
+        if (max_steps < 1 || max_steps > 1000) throw parameter_error("pcg.max_steps", "must be in 1..1000");
+        if (block < 1 || block > 8) throw parameter_error("pcg.block", "must be in 1..8");
+        if (!(gain > 0 && gain < 1)) throw parameter_error("pcg.gain", "must be in (0, 1)");
+    }
+};
+
+/// Newton's method with inexact directions.
+struct newton_params
+{
+    pcg_params pcg = {};
+
+    /// The Hessian itself takes the place of its positive semi-definite stand-in once an iteration lowers the value by
+    /// less than this part: near a minimum it halves the iterations, far from one it misleads. Range [0, 1).
+    double exact_below = 1e-5;
+
+    /// After a step shorter than this the objective is asked to relax what cut it short. Range [0, 1].
+    double relax_below = 0.5;
+
+    /// From this iteration on, and once one lowers the value by less than that part, the objective is asked to minimise
+    /// by itself where a step has brought a gradient that the model did not expect; earlier, the whole is too far from
+    /// where its parts belong. Ranges >= 1 and >= 0; 0: never.
+    int eliminate_from = 10;
+    double eliminate_below = 1e-3;
+    /// And only if what was not expected is longer than this part of the gradient before. Range > 0.
+    double eliminate_above = 0.3;
+
+    void validate() const
+    {
+        pcg.validate();
+        if (!(exact_below >= 0 && exact_below < 1)) throw parameter_error("newton.exact_below", "must be in [0, 1)");
+        if (!(relax_below >= 0 && relax_below <= 1)) throw parameter_error("newton.relax_below", "must be in [0, 1]");
+        if (!(eliminate_from >= 1)) throw parameter_error("newton.eliminate_from", "must be at least 1");
+        if (!(eliminate_below >= 0)) throw parameter_error("newton.eliminate_below", "must be at least 0");
+        if (!(eliminate_above > 0)) throw parameter_error("newton.eliminate_above", "must be above 0");
+    }
+};
+
+/// How far Newton's method goes along a direction: the best of the full step and fractions of it. As in
+/// line_search_params.
+struct newton_search_params
+{
+    double sufficient_decrease = wolfe_params{}.sufficient_decrease;
+    double barrier_fraction = line_search_params{}.barrier_fraction;
+    double rounding = line_search_params{}.rounding;
+};
+
+/// What Newton's method has in common with the others.
+struct newton_common_params
+{
+    newton_search_params search = {};
+    stopping_params stopping = {};
+
+    void validate() const
+    {
+        line_search().validate();
+        stopping.validate();
+    }
+
+    /// A line search with the same numbers.
+    line_search_params line_search() const
+    {
+        return {.wolfe = {.sufficient_decrease = search.sufficient_decrease},
+                .barrier_fraction = search.barrier_fraction,
+                .rounding = search.rounding};
+    }
+};
+
+enum class method
+{
+    automatic,          ///< newton where the objective has a Hessian, else lbfgs
+    newton,             ///< truncated Newton: objectives with a Hessian only
+    lbfgs,              ///< limited-memory BFGS, preconditioned where the objective can
+    conjugate_gradient, ///< the paper's preconditioned nonlinear conjugate gradient
+    gradient_descent    ///< steepest descent, for comparison
+};
+
+/// Everything that can be set, by algorithm. Nested aggregates with defaults:
+///
+///     minimize(f, x, {.method = method::conjugate_gradient, .stopping = {.gradient_tolerance = 1e-8}});
+struct params
+{
+    solve::method method = solve::method::automatic;
+    newton_params newton = {};
+    lbfgs_params lbfgs = {};
+    conjugate_gradient_params conjugate_gradient = {};
+    line_search_params line_search = {};
+    stopping_params stopping = {};
+
+    double first_length = 1;       ///< as in descent_params
+    double linearize_after = 0.03; ///< as in descent_params
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        newton.validate();
+        lbfgs.validate();
+        conjugate_gradient.validate();
+        common().validate();
+        if (method == solve::method::newton) require_newton_search();
+    }
+
+    /// Throws parameter_error where something is set that Newton's method has no use for.
+    void require_newton_search() const
+    {
+        const descent_params unset;
+        if (line_search == newton_common().line_search() && first_length == unset.first_length &&
+            linearize_after == unset.linearize_after)
+            return;
+        throw parameter_error("line_search", "Newton's method takes wolfe.sufficient_decrease, barrier_fraction and "
+                                             "rounding alone; leave the rest, first_length and linearize_after as "
+                                             "they are, or choose another method");
+    }
+
+    newton_common_params newton_common() const
+    {
+        return {.search = {.sufficient_decrease = line_search.wolfe.sufficient_decrease,
+                           .barrier_fraction = line_search.barrier_fraction,
+                           .rounding = line_search.rounding},
+                .stopping = stopping};
+    }
+
+    descent_params common() const
+    {
+        return {.line_search = line_search,
+                .stopping = stopping,
+                .first_length = first_length,
+                .linearize_after = linearize_after};
+    }
+};
+
+} // namespace taut::solve

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/measure/similarity.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/start/target_shapes.hpp>
+
+namespace taut::impl
+{
+
+/// An injective map of the surface itself, without regard to what is held: the surface if it is plane, else a
+/// barycentric map. Nothing if the surface has none.
+inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
+{
+    const auto& points = m.points();
+    if (std::all_of(points.begin(), points.end(), [](const vec3& p) { return p.z == 0; }))
+    {
+        std::vector<vec2> x;
+        for (const vec3& p : points) x.emplace_back(p.x, p.y);
+        return x;
+    }
+    try
+    {
+        return barycentric_map(m, {.stretch_rounds = 3}).uv;
+    }
+    catch (const error&) // closed, not a disk, degenerate: what a surface needs for a map is no matter here
+    {
+        return std::nullopt;
+    }
+}
+
+/// The draft if there is one, else that map, moved by the similarity that brings pinned vertices nearest to their
+/// places in x (least squares). With fewer than two it gets the measure expected. Held coordinates are not put to their
+/// places.
+inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem,
+                                                   const std::vector<vec2>& x, const std::vector<vec2>& draft)
+{
+    if (!draft.empty()) return draft;
+    auto laid = unheld_map(problem.rest);
+    if (!laid) return std::nullopt;
+    std::vector<anchor> anchors;
+    for (std::size_t v = 0; v < x.size(); ++v)
+        if (problem.held.all(v)) anchors.push_back({(*laid)[v], x[v]});
+    similarity map = anchors.empty() ? similarity{.turn = 0} : fit_similarity(anchors).map;
+    if (!(std::abs(map.turn) > 0))
+    {
+        double area = 0;
+        for (const auto& t : problem.rest.cells())
+        {
+            const auto at = [&](std::size_t k) { return (*laid)[static_cast<std::size_t>(t[k])]; };
+            area += triangle::measure_factor * triangle::determinant({at(0), at(1), at(2)});
+        }
+        if (!(area > 0)) return std::nullopt;
+        map.turn = std::sqrt(expected_measure(problem, x) / area);
+    }
+    for (vec2& p : *laid) p = map(p);
+    return laid;
+}
+
+} // namespace taut::impl

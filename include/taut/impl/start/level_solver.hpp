@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/objective/mesh_levels.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
+
+namespace taut::impl
+{
+
+/// A map without flips, for want of a better one.
+inline std::vector<vec2> some_map(const mesh<triangle>& m)
+{
+    return barycentric_map(m, facets(m), {}).uv;
+}
+inline std::vector<vec3> some_map(const mesh<tetrahedron>& m)
+{
+    return m.points();
+}
+
+/// Minimises an energy on one level of a hierarchy after another. The kernels are traced and compiled once; buffers and
+/// matrices live as long as the level that they serve is at work.
+template <class Element>
+class level_solver
+{
+public:
+    static constexpr int D = Element::dimension;
+    using kernels = newton_kernels<Element>;
+    using plan = newton_plan<Element>;
+
+    /// Refers to the levels.
+    level_solver(const queue& q, const mesh_levels<Element>& levels, const any_energy& energy,
+                 energy::weighting weights, const real_types& types)
+        : queue_(q),
+          levels_(levels),
+          energy_(energy),
+          weights_(weights),
+          kernels_(std::make_shared<const kernels>(q, energy, types))
+    {
+    }
+
+    /// Launches every kernel once, on the coarsest level, so that what drivers compile at the first launch is compiled.
+    /// springs: those of springs, too.
+    void warm_up(bool springs = false)
+    {
+        const std::size_t coarsest = levels_.size() - 1;
+        plan host(levels_, coarsest, lane_form::for_device(queue_.device()));
+        point_constraints<D> slack;
+        if (springs) slack.springs.push_back({0, vec<D>(0), vec<D>(0)});
+        level(*this, std::move(host), impl::some_map(levels_.level(coarsest)), slack).warm_up();
+    }
+
+    double energy_at_rest() const { return energy::rest_value<D>(energy_); }
+
+    /// One level at work.
+    class level
+    {
+    public:
+        /// host: that of the level. x: the map to start from, coordinates of the level's vertices. constraints: in the
+        /// level's numbers.
+        level(level_solver& owner, plan host, const std::vector<vec<D>>& x,
+              const point_constraints<D>& constraints = {})
+            : objective_(owner.queue_, std::move(host), owner.energy_, owner.weights_, owner.kernels_, constraints),
+              x_(objective_.make_point())
+        {
+            objective_.upload(x, x_);
+        }
+
+        std::vector<vec<D>> download() const { return objective_.download(x_); }
+
+        /// Another map of the level.
+        void move_to(const std::vector<vec<D>>& x) { objective_.upload(x, x_); }
+
+        /// Other constraints, in the level's numbers.
+        void constrain(const point_constraints<D>& constraints) { objective_.constrain(constraints); }
+
+        /// The same springs with other targets or stiffnesses.
+        void set_springs(std::span<const directed_spring<D>> springs) { objective_.set_springs(springs); }
+
+        /// Spreads out what caps the first step: meant for maps that come from a coarser level.
+        void relax() { objective_.relax(x_); }
+
+        solve::report minimize(const solve::params& how, const observer& ask = {})
+        {
+            return solve::minimize(objective_, x_, how, ask);
+        }
+
+        void warm_up() { objective_.warm_up(x_); }
+
+    private:
+        newton_objective<Element> objective_;
+        typename newton_objective<Element>::point x_;
+    };
+
+private:
+    queue queue_;
+    const mesh_levels<Element>& levels_;
+    any_energy energy_;
+    energy::weighting weights_;
+    std::shared_ptr<const kernels> kernels_;
+};
+
+} // namespace taut::impl

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/mesh/describe.hpp>
+
+namespace taut
+{
+
+/// Why pins admit no map of positive elements. The comment says what the ids of a finding are.
+enum class infeasibility_kind
+{
+    inverted_element, ///< elements with all vertices pinned, of negative or no measure
+    flat_element,     ///< elements that held coordinates make flat, whatever the others are
+    empty_star,       ///< a free vertex and three triangles around it that contradict each other; four ids each
+    wound_star,       ///< pinned inner vertices whose neighbours are pinned and run around them more than once
+    outline_measure,  ///< vertices of a pinned outline of negative or no area (in order) or volume (three a face)
+    outline_turning,  ///< vertices of a pinned outline that turns less often than that of any surface, in order
+    outline_winding,  ///< vertices of a pinned outline that runs clockwise around some point, in order
+    outside_boundary, ///< pinned inner vertices that their pinned boundary does not wind about
+    crossing_edges, ///< pairs of edges between pinned vertices that meet within a simple pinned boundary; four ids each
+    crowded_edge,   ///< an edge without a direction, two vertices, then the tetrahedra that say so
+    /// A warning: pairs of edges between pinned vertices that meet, four ids each. Elements can all be positive, but
+    /// the map is not one-to-one.
+    not_globally_injective
+};
+
+/// A word for programs.
+constexpr const char* to_string(infeasibility_kind kind)
+{
+    switch (kind)
+    {
+    case infeasibility_kind::inverted_element:
+        return "inverted_element";
+    case infeasibility_kind::flat_element:
+        return "flat_element";
+    case infeasibility_kind::empty_star:
+        return "empty_star";
+    case infeasibility_kind::wound_star:
+        return "wound_star";
+    case infeasibility_kind::outline_measure:
+        return "outline_measure";
+    case infeasibility_kind::outline_turning:
+        return "outline_turning";
+    case infeasibility_kind::outline_winding:
+        return "outline_winding";
+    case infeasibility_kind::outside_boundary:
+        return "outside_boundary";
+    case infeasibility_kind::crossing_edges:
+        return "crossing_edges";
+    case infeasibility_kind::crowded_edge:
+        return "crowded_edge";
+    case infeasibility_kind::not_globally_injective:
+        return "not_globally_injective";
+    }
+    return "unknown";
+}
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// One proof, or one warning, with everything it concerns, and a sentence for people with the remedy.
+struct infeasibility_finding
+{
+    infeasibility_kind kind;
+    std::vector<idx> ids; ///< 0-based; which: see infeasibility_kind
+    std::string message;
+};
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// What can be said about pins before anything is solved.
+struct infeasibility
+{
+    std::vector<impl::infeasibility_finding> proofs;   ///< each is enough: no map is locally injective
+    std::vector<impl::infeasibility_finding> warnings; ///< what a map with these pins cannot be, though it may exist
+
+    /// True if infeasibility is proved.
+    explicit operator bool() const { return !proofs.empty(); }
+
+    /// The first proof in words; empty if there is none.
+    std::string reason() const { return proofs.empty() ? std::string() : proofs.front().message; }
+
+    /// Adds a proof if there are ids; say(ids) puts it in words.
+    template <class Say>
+    void prove(infeasibility_kind kind, std::vector<idx> ids, const Say& say)
+    {
+        if (ids.empty()) return;
+        std::string message = say(ids);
+        proofs.push_back({kind, std::move(ids), std::move(message)});
+    }
+};
+
+} // namespace taut

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/core/disjoint_sets.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/untangle/proofs/pinned_outline.hpp>
+
+namespace taut::impl
+{
+
+/// The components of an oriented surface whose boundaries are pinned altogether: how often a map of positive triangles
+/// covers a point is known there, as the winding number of the boundary.
+struct pinned_boundaries
+{
+    struct component
+    {
+        std::vector<std::array<idx, 2>> edges; ///< of all its loops
+        std::size_t loops = 0;
+        bool pinned = true;
+        bool simple = true; ///< one loop that does not meet itself: no point is covered twice
+    };
+    std::vector<component> components;
+    std::vector<idx> of_vertex;    ///< number of the component; -1: not pinned, or no boundary
+    std::vector<char> on_boundary; ///< one a vertex
+
+    /// True if both edges lie in one component where no point is covered twice.
+    bool exclusive(const std::array<idx, 2>& e, const std::array<idx, 2>& f) const
+    {
+        const idx c = of_vertex[static_cast<std::size_t>(e[0])];
+        return c >= 0 && c == of_vertex[static_cast<std::size_t>(f[0])] &&
+               components[static_cast<std::size_t>(c)].simple;
+    }
+};
+
+inline pinned_boundaries find_pinned_boundaries(const untangle_problem<triangle>& p, const facet_table& f)
+{
+    const auto at = [](idx i) { return static_cast<std::size_t>(i); };
+    pinned_boundaries b;
+    b.of_vertex.assign(p.initial.size(), -1);
+    b.on_boundary.assign(p.initial.size(), 0);
+    if (!f.oriented()) return b;
+    disjoint_sets sets(p.rest.vertex_count());
+    for (const auto& t : p.rest.cells())
+        for (const idx v : {t[1], t[2]}) sets.join(t[0], v);
+
+    std::vector<idx> number(p.initial.size(), -1); // of the component, by the vertex that stands for it
+    for (const auto& loop : boundary_loops(p.rest, f))
+    {
+        idx& n = number[at(sets.find(loop[0]))];
+        if (n < 0)
+        {
+            n = static_cast<idx>(b.components.size());
+            b.components.emplace_back();
+        }
+        auto& c = b.components[at(n)];
+        c.simple = ++c.loops == 1;
+        for (std::size_t k = 0; k < loop.size(); ++k)
+        {
+            c.edges.push_back({loop[k], loop[(k + 1) % loop.size()]});
+            c.pinned = c.pinned && p.held.all(at(loop[k]));
+            c.simple = c.simple && !b.on_boundary[at(loop[k])];
+            b.on_boundary[at(loop[k])] = 1;
+        }
+    }
+    for (auto& c : b.components)
+    {
+        c.simple = c.simple && c.pinned;
+        if (c.simple) for_each_meeting(c.edges, p.initial, [&c](std::size_t, std::size_t) { return c.simple = false; });
+    }
+    for (const auto& t : p.rest.cells())
+        for (const idx v : t)
+            if (const idx n = number[at(sets.find(v))]; n >= 0 && b.components[at(n)].pinned) b.of_vertex[at(v)] = n;
+    return b;
+}
+
+/// Pinned vertices inside a surface that lie where its pinned boundary leaves no room: not to be covered, or on a
+/// simple boundary itself. An image of an inner vertex is covered, and so are all points around it.
+inline std::vector<idx> vertices_outside(const untangle_problem<triangle>& p, const pinned_boundaries& b)
+{
+    std::vector<idx> outside;
+    std::size_t budget = 50'000'000; // edges looked at
+    for (std::size_t v = 0; v < p.initial.size(); ++v)
+    {
+        if (b.of_vertex[v] < 0 || b.on_boundary[v] || !p.held.all(v)) continue;
+        const auto& c = b.components[static_cast<std::size_t>(b.of_vertex[v])];
+        if (budget < c.edges.size()) break;
+        budget -= c.edges.size();
+        const auto winding = winding_number(c.edges, p.initial, p.initial[v]);
+        if (winding ? *winding <= 0 : c.simple) outside.push_back(static_cast<idx>(v));
+    }
+    return outside;
+}
+
+} // namespace taut::impl

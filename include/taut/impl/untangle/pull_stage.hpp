@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/mesh/wanted_shapes.hpp>
+#include <taut/impl/start/harmonic.hpp>
+#include <taut/impl/start/laid.hpp>
+#include <taut/impl/untangle/stage.hpp>
+
+namespace taut::impl
+{
+
+/// Variants of the stage below.
+struct pull_stage_params
+{
+    std::string name;
+    wanted_shapes shapes = wanted_shapes::rest; ///< rest: as they are in the map that it starts from
+    double area_weight = 1;                     ///< of det + 1 / det against the shape of a triangle; 0: shape alone
+    /// Where the springs have jammed, go on with weak ones: held vertices that are not at their places go to random
+    /// ones first, so that those that block each other's way get past each other.
+    bool detours = false;
+    int share = 1; ///< it makes so many times the iterations of a round
+};
+
+/// Starts from an injective map and stays injective: springs pull the held vertices to their places, stronger with
+/// every step, against an energy with a barrier. No triangle flattens on the way, so no branch point comes about
+/// either. The start holds the boundary alone, where that is injective, and nothing otherwise.
+class pull_stage final : public untangle_stage<triangle>
+{
+public:
+    explicit pull_stage(pull_stage_params params) : params_(std::move(params)) {}
+
+    std::string_view name() const override { return params_.name; }
+
+    bool run(untangle_state<triangle>& state, int iterations) override
+    {
+        if (state.injective() || (!newton_ && !start(state))) return false;
+        newton_->proceed = [&state] { return state.proceed(0); };
+        for (int i = 0; i / params_.share < iterations; ++i)
+        {
+            for (auto& s : newton_->springs) s.stiffness *= growth;
+            const double before = newton_->value(x_), after = newton_->step(x_, before);
+            state.stepped(before, after, newton_->last_length());
+            if (state.offer(x_)) return false; // injective with the held vertices at their places
+            if (!state.proceed() || !std::isfinite(after)) return false;
+            standing_ = after < before ? 0 : standing_ + 1;
+            ++pulled_;
+            if (standing_ <= 5 && (!params_.detours || pulled_ < (away_ ? 40 : 100))) continue;
+            if (!params_.detours) return false;
+            turn();
+        }
+        return true;
+    }
+
+private:
+    static constexpr double growth = 1.2;
+
+    /// False if there is no injective map to start from.
+    bool start(untangle_state<triangle>& state)
+    {
+        const auto& problem = state.problem();
+        if (!hold_boundary(state) && !hold_nothing(state)) return false;
+        const double measure = impl::expected_measure(problem, state.initial());
+        regularized_problem<triangle> pulled{.rest = problem.rest, .held = held_, .area_weight = params_.area_weight};
+        if (params_.shapes == wanted_shapes::regular)
+            pulled.shapes = impl::regular_shapes(problem.rest, measure);
+        else
+        {
+            std::vector<vec3> points;
+            for (const vec2& p : x_) points.emplace_back(p, 0.0);
+            pulled.shapes = impl::rest_shapes(mesh<triangle>(std::move(points), state.cells()), measure);
+        }
+        for (std::size_t v = 0; v < held_.size(); ++v)
+        {
+            const auto is_pulled = [&](int k) { return problem.held.test(v, k) && !held_.test(v, k); };
+            if (is_pulled(0) || is_pulled(1))
+                pulled.springs.push_back({static_cast<idx>(v), state.initial()[v], vec2(is_pulled(0), is_pulled(1))});
+        }
+        for (auto& s : pulled.springs) s.stiffness /= static_cast<double>(pulled.springs.size());
+        newton_ = state.make_newton(std::move(pulled));
+        vec2 low = x_.front(), high = low;
+        for (const vec2& p : x_)
+        {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        reach_ = glm::length(high - low) / 2;
+        return true;
+    }
+
+    /// The harmonic map within the held part of the boundary, if it is injective.
+    bool hold_boundary(const untangle_state<triangle>& state)
+    {
+        untangle_problem<triangle> rim = state.problem();
+        std::vector<char> on_boundary(rim.held.size(), 0);
+        for (const auto& edge : boundary_facets(rim.rest))
+            for (const idx v : edge) on_boundary[static_cast<std::size_t>(v)] = 1;
+        for (std::size_t v = 0; v < rim.held.size(); ++v)
+            if (!on_boundary[v]) rim.held[v] = 0;
+        if (!rim.held.any()) return false;
+        x_ = impl::harmonic_start(rim, state.initial());
+        held_ = std::move(rim.held);
+        return injective(rim.rest);
+    }
+
+    bool hold_nothing(const untangle_state<triangle>& state)
+    {
+        auto laid = impl::laid_start(state.problem(), state.initial(), state.draft());
+        if (!laid) return false;
+        x_ = std::move(*laid);
+        held_ = held_marks<2>(x_.size());
+        return injective(state.problem().rest);
+    }
+
+    bool injective(const mesh<triangle>& m) const
+    {
+        return static_cast<bool>(certify<2>(m.cells(), std::span<const vec2>(x_)));
+    }
+
+    /// Turns from the places to detours, or back.
+    void turn()
+    {
+        standing_ = pulled_ = 0;
+        away_ = !away_;
+        const auto uniform = [this] { return static_cast<double>(random_()) / random_.max(); };
+        if (away_) places_ = newton_->springs;
+        for (std::size_t i = 0; i < places_.size(); ++i)
+        {
+            auto& s = newton_->springs[i];
+            s.target = places_[i].target;
+            const double stiffness = std::exp(2 * uniform() - 1) / static_cast<double>(places_.size());
+            for (int k = 0; k < 2; ++k)
+                if (s.stiffness[k] > 0) s.stiffness[k] = stiffness;
+            const vec2 off =
+                vec2(glm::greaterThan(s.stiffness, vec2(0))) * (x_[static_cast<std::size_t>(s.vertex)] - s.target);
+            if (!away_ || glm::length(off) < 1e-3 * reach_ || uniform() > 0.7) continue;
+            const double angle = 2 * std::numbers::pi * uniform();
+            s.target += reach_ * uniform() * vec2(std::cos(angle), std::sin(angle));
+        }
+    }
+
+    pull_stage_params params_;
+    std::unique_ptr<regularized_newton<triangle>> newton_;
+    held_marks<2> held_; // by newton_
+    std::vector<vec2> x_;
+    std::mt19937 random_{1};
+    int standing_ = 0;  // steps in a row that could not be made
+    int pulled_ = 0;    // steps since the springs were weak
+    bool away_ = false; // on a detour
+    double reach_ = 0;  // of detours
+    std::vector<directed_spring<2>> places_;
+};
+
+} // namespace taut::impl

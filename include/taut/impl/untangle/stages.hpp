@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/core/error.hpp>
+#include <taut/impl/untangle/coarse_stage.hpp>
+#include <taut/impl/untangle/element_newton.hpp>
+#include <taut/impl/untangle/harmonic_stage.hpp>
+#include <taut/impl/untangle/lbfgs_stage.hpp>
+#include <taut/impl/untangle/newton_stage.hpp>
+#include <taut/impl/untangle/proofs/proof_stage.hpp>
+#include <taut/impl/untangle/pull_stage.hpp>
+
+namespace taut::impl
+{
+
+/// The stages of the plane that need no device:
+///
+/// coarse    a coarse level alone, and the map of it carried up
+/// harmonic  the harmonic map alone
+/// newton    from the harmonic map, towards the shapes at rest
+/// pull      from an injective map, whose elements stay positive while springs pull it to what is held
+/// stretch   the same towards regular triangles, with detours where the springs have jammed
+/// regular   from the harmonic map, towards regular triangles
+/// best      from the best map so far, towards the shapes at rest
+/// laid      from an injective map that ignores what is held, towards the shapes at rest
+/// shape     from the harmonic map, shape only
+/// lbfgs     as newton, without second derivatives
+///
+/// in the order that pays where all of the outline is pinned, so that a map without flips has no branch points; else
+/// those come first that make none.
+inline untangle_stages<triangle> host_stages(bool outline_pinned)
+{
+    using enum untangle_start;
+    using enum wanted_shapes;
+    untangle_stages<triangle> stages;
+    const auto follow = [&](newton_stage_params p)
+    { stages.push_back(std::make_unique<newton_stage<triangle>>(std::move(p))); };
+    const auto pull = [&] { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"})); };
+    const auto stretch = [&](int share) {
+        stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", regular, 0.1, true, share}));
+    };
+    const auto harmonic_map = [&] { stages.push_back(std::make_unique<harmonic_stage<triangle>>()); };
+    stages.push_back(std::make_unique<coarse_stage>());
+    if (outline_pinned)
+    {
+        harmonic_map();
+        follow({"newton", harmonic, rest, 1});
+        pull();
+        follow({"regular", harmonic, regular, 1});
+        follow({"best", best, rest, 1});
+        follow({"laid", laid, rest, 1});
+        follow({"shape", harmonic, rest, 0});
+        stretch(1);
+    }
+    else
+    {
+        pull();
+        stretch(10); // what it does not solve, others hardly ever do
+        follow({"best", best, rest, 1});
+        harmonic_map();
+        follow({"newton", harmonic, rest, 1});
+        follow({"regular", harmonic, regular, 1});
+        follow({"laid", laid, rest, 1});
+        follow({"shape", harmonic, rest, 0});
+    }
+    stages.push_back(std::make_unique<lbfgs_stage<triangle>>());
+    return stages;
+}
+
+/// The stages in space that need no device.
+inline untangle_stages<tetrahedron> solid_host_stages()
+{
+    untangle_stages<tetrahedron> stages;
+    stages.push_back(std::make_unique<harmonic_stage<tetrahedron>>());
+    stages.push_back(std::make_unique<proof_stage>());
+    stages.push_back(std::make_unique<lbfgs_stage<tetrahedron>>());
+    return stages;
+}
+
+/// Those of the stages that have these names, in the order of the names; all of them if there is no name.
+/// Throws parameter_error for a name that no stage has.
+template <class Element>
+untangle_stages<Element> chosen(untangle_stages<Element> all, std::span<const std::string> names)
+{
+    if (names.empty()) return all;
+    untangle_stages<Element> result;
+    for (const std::string& name : names)
+    {
+        auto found = all.end();
+        for (auto s = all.begin(); s != all.end(); ++s)
+            if (*s && (*s)->name() == name) found = s;
+        if (found == all.end())
+        {
+            std::string known;
+            for (const auto& s : all)
+                if (s) known += (known.empty() ? "" : ", ") + std::string(s->name());
+            throw parameter_error("stages",
+                                  "no stage is called '" + name + "' or it is named twice; left are " + known);
+        }
+        result.push_back(std::move(*found));
+    }
+    return result;
+}
+
+} // namespace taut::impl

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include <taut/impl/untangle/device/lead_stage.hpp>
+#include <taut/impl/untangle/device/multigrid_newton.hpp>
+#include <taut/impl/untangle/device/operator_stage.hpp>
+#include <taut/impl/untangle/untangle_host.hpp>
+
+namespace taut::impl
+{
+
+/// Newton's steps by multigrid on a device. In the plane small meshes go to the direct solver of the host, which is as
+/// quick there and needs no kernels compiled.
+template <class Element>
+newton_maker<Element> newton_on_device(const queue& q)
+{
+    return [q, traced = std::shared_ptr<const newton_kernels<Element>>()](
+               regularized_problem<Element> problem) mutable -> std::unique_ptr<regularized_newton<Element>>
+    {
+        if constexpr (Element::dimension == 2)
+        {
+            constexpr idx few = 4000; // docs/explanation/numerics.md, "Newton's steps"
+            if (problem.rest.cell_count() < few) return direct_newton(problem);
+        }
+        if (!traced) traced = multigrid_newton<Element>::trace(q);
+        return std::make_unique<multigrid_newton<Element>>(q, traced, std::move(problem));
+    };
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+template <class Element>
+untangle_result<Element> untangle(const queue& q, const untangle_problem<Element>& problem,
+                                  const untangle_params& params)
+{
+    auto newton = impl::newton_on_device<Element>(q);
+    auto on_device = std::make_unique<impl::operator_stage<Element>>(q);
+    if constexpr (Element::dimension == 2)
+    {
+        auto stages = impl::host_stages(problem.outline_pinned());
+        stages.push_back(std::move(on_device));
+        return untangle(problem, std::move(stages), std::move(newton), params);
+    }
+    else
+    {
+        // What the operator solves it solves at once, before kernels of Hessians are compiled, and it leaves little for
+        // a proof to look at. Handles of a free surface are led there rather than untangled: that makes no edges that
+        // tetrahedra go around more than once.
+        impl::untangle_stages<Element> stages;
+        stages.push_back(std::make_unique<impl::harmonic_stage<Element>>());
+        stages.push_back(std::move(on_device));
+        stages.push_back(std::make_unique<impl::proof_stage>());
+        stages.push_back(
+            std::make_unique<impl::newton_stage<Element>>(impl::newton_stage_params{"newton", impl::untangle_start::harmonic}));
+        stages.push_back(std::make_unique<impl::lead_stage<Element>>(q));
+        if (!problem.outline_pinned()) std::swap(stages[3], stages[4]);
+        return untangle(problem, std::move(stages), std::move(newton), params);
+    }
+}
+
+} // namespace taut

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/core/short_number.hpp>
+#include <taut/impl/exact/certify.hpp>
+#include <taut/impl/mesh/refine_elements.hpp>
+#include <taut/impl/untangle/local_problem.hpp>
+#include <taut/impl/untangle/proofs/infeasible.hpp>
+#include <taut/impl/untangle/proofs/mending_splits.hpp>
+#include <taut/impl/untangle/untangle.hpp>
+
+namespace taut
+{
+
+/// How much a mesh may be refined. Every field has a sensible default.
+struct refine_params
+{
+    /// So often at most elements are split and the problem is looked at again. Range >= 0.
+    int rounds = 8;
+
+    /// The refined mesh has no more elements than this times those of the mesh. Range >= 1.
+    double most_growth = 4;
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (rounds < 0) throw parameter_error("refine.rounds", "must not be negative");
+        if (!(most_growth >= 1)) throw parameter_error("refine.most_growth", "must be at least 1");
+    }
+};
+
+/// A problem on a mesh some of whose elements are split.
+template <class Element>
+struct refined_problem
+{
+    untangle_problem<Element> problem;
+    impl::subdivision how = {};        ///< of the mesh that it was; empty: it is the same
+    std::vector<idx> cells = {}; ///< of each element, that of the mesh that it was
+    int rounds = 0;              ///< of splits
+    std::string obstacle = {};   ///< the proof that no split refutes, or which limit was met; empty: none
+};
+
+/// What untangling came to, and on which mesh.
+template <class Element>
+struct refined_untangling
+{
+    untangle_result<Element> result; ///< ids of elements are those of the refined mesh
+    refined_problem<Element> refined;
+};
+
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// The same problem on a refined mesh: new vertices are free and lie in the middle of what they split, elements want to
+/// look like those that they are parts of.
+/// Throws parameter_error for cells that are corners of others (owners), which cannot be split.
+template <class Element>
+refined_problem<Element> refine_problem(const untangle_problem<Element>& p, const subdivision& how)
+{
+    constexpr int D = Element::dimension;
+    if (!p.owners.empty()) throw parameter_error("owners", "cells that are not simplices cannot be split; triangulate");
+    auto [rest, cells] = refine_elements(p.rest, how);
+    auto bits = p.held.bits();
+    bits.resize(static_cast<std::size_t>(how.vertex_count()), 0);
+    const auto moved = [&](const std::vector<vec<D>>& x) { return how.extended(std::span<const vec<D>>(x)); };
+    std::vector<mat<D>> wanted;
+    if (!p.wanted.empty())
+    {
+        std::vector<double> parts(p.wanted.size(), 0.0);
+        for (const idx c : cells) ++parts[static_cast<std::size_t>(c)];
+        for (const idx c : cells)
+        {
+            const auto k = static_cast<std::size_t>(c);
+            wanted.push_back(p.wanted[k] * std::pow(1 / parts[k], 1.0 / D)); // together they count as the whole
+        }
+    }
+    refined_problem<Element> result{{std::move(rest), moved(p.initial), held_marks<D>(std::move(bits))}};
+    if (!p.draft.empty()) result.problem.draft = moved(p.draft);
+    result.problem.wanted = std::move(wanted);
+    result.how = how;
+    result.cells = std::move(cells);
+    return result;
+}
+
+
+/// Splits simplices of the problem as it is by now; nothing happens, and false, where that makes too many elements.
+template <class Element>
+bool split_further(refined_problem<Element>& now, const std::vector<std::vector<idx>>& simplices,
+                   const refine_params& params)
+{
+    if (simplices.empty()) return false;
+    subdivision step(now.problem.rest.vertex_count());
+    for (const auto& s : simplices) step.split(s);
+    auto next = refine_problem(now.problem, step);
+    const double before = static_cast<double>(now.cells.back()) + 1;
+    if (static_cast<double>(next.cells.size()) > params.most_growth * before) return false;
+    next.how = std::move(now.how);
+    for (const auto& s : simplices) next.how.split(s);
+    for (idx& c : next.cells) c = now.cells[static_cast<std::size_t>(c)];
+    next.rounds = now.rounds + 1;
+    now = std::move(next);
+    return true;
+}
+
+/// Splits what is in the way of a problem that is proved to have no solution, until nothing proves that any more. Where
+/// that cannot be, `obstacle` says why. Nothing is solved, and nothing happens to a problem without a proof.
+template <class Element>
+refined_problem<Element> refine_infeasible(const untangle_problem<Element>& problem, const refine_params& params = {})
+{
+    params.validate();
+    auto now = refine_problem(problem, subdivision(problem.rest.vertex_count()));
+    for (;;)
+    {
+        const auto proof = find_infeasibility(now.problem);
+        if (!proof) return now;
+        const auto splits = splits_against(now.problem, proof);
+        if (!splits.obstacle.empty())
+            now.obstacle = splits.obstacle + "; no split inside the mesh changes that";
+        else if (now.rounds >= params.rounds)
+            now.obstacle = proof.reason() + "; so after " + std::to_string(now.rounds) + " rounds of splits";
+        else if (!impl::split_further(now, splits.simplices, params))
+            now.obstacle = proof.reason() + "; splits would make more than " +
+                           impl::short_number(params.most_growth) + " times as many elements";
+        if (!now.obstacle.empty()) return now;
+    }
+}
+
+
+/// The vertices within so many edges of cells. A flag a vertex.
+template <class Element>
+std::vector<char> within_rings(const mesh<Element>& m, std::span<const idx> cells, int rings)
+{
+    const auto at = [](idx i) { return static_cast<std::size_t>(i); };
+    std::vector<char> inside(m.points().size(), 0);
+    for (const idx c : cells)
+        for (const idx v : m.cells()[at(c)]) inside[at(v)] = 1;
+    for (; rings > 0; --rings)
+    {
+        const auto before = inside;
+        for (const auto& t : m.cells())
+            if (std::any_of(t.begin(), t.end(), [&](idx v) { return before[at(v)] != 0; }))
+                for (const idx v : t) inside[at(v)] = 1;
+    }
+    return inside;
+}
+
+/// Takes another map as the best one, if it has fewer defects.
+template <class Element>
+void take_better(const untangle_problem<Element>& p, std::vector<vec<Element::dimension>> map, const std::string& stage,
+                 untangle_result<Element>& found)
+{
+    constexpr int D = Element::dimension;
+    auto flips = certify<D>(p.rest.cells(), std::span<const vec<D>>(map), {}, p.rest.cells().size());
+    if (flips.defects() >= found.flips.defects()) return;
+    found.map = std::move(map);
+    found.flips = std::move(flips);
+    found.ids = found.flips.ids;
+    found.stage = stage;
+}
+
+/// The stages of a short try: in space those that end soon.
+template <class Element>
+std::vector<std::string> quick_stages(const untangle_params& params, std::vector<std::string> in_space)
+{
+    return params.stages.empty() && Element::dimension == 3 ? std::move(in_space) : params.stages;
+}
+
+/// Untangles once more from the best map so far.
+template <class Element>
+void untangle_again(const queue& q, refined_problem<Element>& now, const untangle_params& how,
+                    untangle_result<Element>& found)
+{
+    now.problem.initial = found.map;
+    auto next = untangle(q, now.problem, how);
+    next.stages.insert(next.stages.begin(), found.stages.begin(), found.stages.end());
+    if (next.stage == "initial") next.stage = found.stage; // there was nothing left to do
+    found = std::move(next);
+}
+
+/// Untangles around the elements that are left inverted, with the rest of the map where it is.
+template <class Element>
+void untangle_around(const queue& q, untangle_problem<Element> p, untangle_params how, const budget& clock,
+                     untangle_result<Element>& found)
+{
+    how.stages = quick_stages<Element>(how, {"harmonic", "operator", "newton"});
+    how.rounds = std::min(how.rounds, 2);
+    for (const int rings : {2, 4, 8})
+    {
+        if (found.flips.flipped == 0 || !clock.in_time()) return;
+        p.initial = found.map;
+        const auto part = part_of(p, within_rings(p.rest, found.ids, rings));
+        how.time_limit = clock.left();
+        auto local = untangle(q, part ? part->problem : p, how);
+        found.stages.insert(found.stages.end(), local.stages.begin(), local.stages.end());
+        auto map = part ? found.map : std::move(local.map);
+        for (std::size_t k = 0; part && k < part->vertices.size(); ++k)
+            map[static_cast<std::size_t>(part->vertices[k])] = local.map[k];
+        take_better(p, std::move(map), local.stage, found);
+        if (!part) return; // that was the whole
+    }
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// untangle(), and where it is proved that no map is injective, or none was found, elements are split and it is tried
+/// again: the edges inside between held vertices of what the proofs name, else of or around the elements left inverted
+/// (proofs/mending_splits.hpp), where it is untangled then. Held vertices stay where they are, the boundary is not
+/// split, and the certificate is of all elements of the refined mesh. Tries but the last, which is of the whole mesh,
+/// are short ones, in space by the operator and one round of Newton's steps. `infeasible`: what is proved is not mended
+/// by splits inside the mesh; reason says what.
+/// Throws parameter_error as untangle() and refine_problem() do, device_error.
+template <class Element>
+refined_untangling<Element> untangle_refined(const queue& q, const untangle_problem<Element>& problem,
+                                             const untangle_params& params = {}, const refine_params& refine = {})
+{
+    const impl::budget clock(params.time_limit);
+    bool refused = false;
+    auto how = params;
+    if (params.observer)
+        how.observer = [&](const progress& p)
+        {
+            refused = refused || !params.observer(p);
+            return !refused;
+        };
+    auto now = refine_infeasible(problem, refine);
+    const auto left = [&](const untangle_result<Element>& found)
+    { return found.outcome == untangle_outcome::gave_up && !refused && clock.in_time(); };
+    const bool splits = refine.rounds > 0;
+    how.time_limit = clock.left();
+    if (splits)
+    {
+        how.stages = impl::quick_stages<Element>(params, {"harmonic", "operator"});
+        how.rounds = std::min(2, params.rounds);
+    }
+    auto found = untangle(q, now.problem, how);
+    if (found.outcome == untangle_outcome::infeasible && !now.obstacle.empty()) found.reason = now.obstacle;
+    if (found.outcome != untangle_outcome::gave_up || !splits) return {std::move(found), std::move(now)};
+
+    if (Element::dimension == 3 && params.stages.empty() && left(found))
+    {
+        how.stages = {problem.outline_pinned() ? "newton" : "lead"};
+        how.rounds = 1;
+        how.time_limit = clock.left();
+        impl::untangle_again(q, now, how, found);
+    }
+    how.stages = params.stages;
+    how.rounds = params.rounds;
+    for (int round = now.rounds; left(found) && round < refine.rounds && found.flips.flipped > 0; ++round)
+    {
+        now.problem.initial = found.map;
+        if (!impl::split_further(now, splits_around(now.problem, found.ids).simplices, refine)) break;
+        found.flips.flipped = found.flips.branched = now.problem.rest.cells().size();
+        impl::take_better(now.problem, now.problem.initial, "initial", found);
+        impl::untangle_around(q, now.problem, how, clock, found);
+    }
+    if (found.outcome == untangle_outcome::gave_up)
+    {
+        how.time_limit = clock.left();
+        impl::untangle_again(q, now, how, found);
+    }
+    found.seconds = clock.total();
+    return {std::move(found), std::move(now)};
+}
+
+} // namespace taut
