@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Volumes whose ends are held and moved: bars, and models in any format of io/read_volume.hpp, whose ends are the first
+// Volumes whose ends are held and moved: bars, and models in any format of impl/io/read_volume.hpp, whose ends are the first
 // and last tenth along their longest axis. Twisted, stretched and bent; bars then lead a handle over 60 frames.
 //   taut_bench_volume [--quick] [--json FILE] [--only ends|session|compare] [--motion twist|stretch|bend]
 //                     [--poisson 0.3,0.45] [--compare SECONDS] [CUBES_ACROSS|NXxNYxNZ|MESH...]

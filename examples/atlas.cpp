@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // atlas SURFACE OUT.obj: cuts any surface into charts, flattens and packs them.
 #include <iostream>
-#include <taut/impl/atlas/make_atlas.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_obj.hpp>
+#include <taut/atlas.hpp>
+#include <taut/read.hpp>
+#include <taut/write.hpp>
 
 int main(int argc, char** argv)
 try

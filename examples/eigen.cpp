@@ -9,7 +9,7 @@
 #include <Eigen/SparseCholesky>
 
 #include <taut/eigen.hpp>
-#include <taut/impl/objective/map_evaluator.hpp>
+#include <taut/solve.hpp>
 #include <taut/taut.hpp>
 
 /// A bowl of n x n squares: V has a vertex a row, F a triangle.

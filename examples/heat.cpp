@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include <taut/impl/compute/handler.hpp>
+#include <taut/kernel.hpp>
 #include <taut/taut.hpp>
 
 using namespace taut;

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include <taut/impl/edit/write_paste.hpp>
+#include <taut/paste.hpp>
 #include <taut/taut.hpp>
 
 using namespace taut;

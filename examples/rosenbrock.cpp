@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/solve/minimize.hpp>
+#include <taut/solve.hpp>
 
 // [function]
 /// sum of 100 (x[i+1] - x[i]^2)^2 + (1 - x[i])^2: fills all of g and returns the value.

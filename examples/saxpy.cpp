@@ -3,7 +3,7 @@
 #include <iostream>
 #include <vector>
 
-#include <taut/impl/compute/handler.hpp>
+#include <taut/kernel.hpp>
 
 int main()
 {

@@ -61,7 +61,7 @@ clusters cluster(const shown_mesh& m, double cells)
                 cube[v] << 21 | static_cast<std::uint64_t>(std::clamp((m.points[v][k] - low[k]) / side, 0.0, 2e6));
     c.points = number(cube, c.of_point);
 
-    disjoint_sets joined(static_cast<idx>(m.places.size()));
+    impl::disjoint_sets joined(static_cast<idx>(m.places.size()));
     for (std::size_t t = 0; t < m.cells.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             if (c.of_point[at(m.cells[t][k])] == c.of_point[at(m.cells[t][(k + 1) % 3])])

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <iostream>
 
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_obj.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/read.hpp>
+#include <taut/write.hpp>
+#include <taut/parameterize.hpp>
 
 int main()
 {

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Reads surfaces, volumes, pins and problems.
+#include <taut/impl/io/pins.hpp>
+#include <taut/impl/io/prob.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/read_volume.hpp>
