@@ -14,7 +14,6 @@
 #include <taut/taut.hpp>
 
 using namespace taut;
-using namespace taut::impl;
 
 /// So many vertices inside a map, each as far as can be from the boundary and those before it.
 std::vector<taut::idx> spread_out(const std::vector<vec2>& uv, const std::vector<taut::idx>& boundary, int count)

@@ -140,17 +140,17 @@ TEST_CASE("writing: single precision rounds, and says to what")
     {
         const auto file =
             io::impl::parse_volume(test::vtk_text(s, {.text = text, .single = true}, 3), volume_format::vtk, "a.vtk");
-        const auto rounded = io::impl::rounded_to_file(file, points);
+        const auto rounded = io::rounded_to_file(file, points);
         CHECK(rounded[1].x == static_cast<double>(0.1f));
         const auto back = io::impl::parse_volume(io::impl::with_points(file, points), volume_format::vtk);
         CHECK(back.points[1].x == (text ? 0.1 : static_cast<double>(0.1f)));
-        CHECK(io::impl::rounded_to_file(back, back.points) == rounded);
+        CHECK(io::rounded_to_file(back, back.points) == rounded);
         points[1].x = 1e300;
         if (!text) CHECK_THROWS_AS(io::impl::with_points(file, points), parameter_error);
         points[1].x = 0.1;
     }
     const auto twice = io::impl::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk);
-    CHECK(io::impl::rounded_to_file(twice, points) == points);
+    CHECK(io::rounded_to_file(twice, points) == points);
 }
 
 TEST_CASE("writing: what a file cannot hold is refused")

@@ -86,6 +86,11 @@ inline std::vector<map_cell> split_cells(queue& q, const feature_map& map, std::
     return done;
 }
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// A feature made of its map: the rim as it is, and inside triangles as dense as the map asks for (paper, section 4.1,
 /// whose tessellation shader does the same). The plane within the rim is split into square cells, the roughest first,
 /// until half of the triangles are spent or nothing is rougher than a hundredth of a texel's footprint;
@@ -125,7 +130,7 @@ inline feature tessellate(queue& q, const feature& part, const feature_map& map,
     }
     impl::feature_refinement refine(part.region.surface, uv, tolerance);
     const mat3 frame = part.frame();
-    const auto sampled = sample(q, map, middles);
+    const auto sampled = impl::sample(q, map, middles);
     for (std::size_t i = 0; i < middles.size(); ++i)
     {
         const vec3 p = part.centre + frame * sampled[i];
@@ -140,4 +145,5 @@ inline feature tessellate(queue& q, const feature& part, const feature_map& map,
         {mesh<triangle>(std::move(points), plane.triangles()), std::move(vertices), std::move(faces), std::move(loop)});
 }
 
-} // namespace taut::impl
+} // namespace taut
+

@@ -10,13 +10,18 @@
 #include <taut/impl/io/write_files.hpp>
 #include <taut/impl/mesh/refine_elements.hpp>
 
-namespace taut::io::impl
+namespace taut::io
 {
 
 /// The points as a reader gets them who keeps to the precision that the file declares: rounded to single where it
 /// does, else as they are. Text itself holds every digit in any case.
 /// points: one a point of the file.
 std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points);
+
+} // namespace taut::io
+
+namespace taut::io::impl
+{
 
 /// The bytes of the file with other coordinates. A coordinate that has not changed, bit for bit, keeps its bytes;
 /// others are the shortest decimal that reads back the same double, or binary as the file has it.

@@ -132,6 +132,11 @@ inline void require_other(const std::filesystem::path& output, const std::filesy
         throw io_error(output.string(), "is the input; give the output another name");
 }
 
+} // namespace taut::io::impl
+
+namespace taut::io
+{
+
 std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points)
 {
     std::vector<vec3> result(points.begin(), points.end());
@@ -140,6 +145,11 @@ std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3>
             for (int k = 0; k < 3; ++k) p[k] = taut::impl::in_single(p[k]);
     return result;
 }
+
+} // namespace taut::io
+
+namespace taut::io::impl
+{
 
 std::string with_points(const volume_file& file, std::span<const vec3> points)
 {
