@@ -42,7 +42,7 @@ void look_at_boundary(assessment& a, const mesh<triangle>& surface, std::span<co
     }
     const auto loops = boundary_loops(surface, sides);
     a.boundaries = loops.size();
-    a.crossings = count_boundary_crossings(loops, uv);
+    a.crossings = impl::count_boundary_crossings(loops, uv);
 }
 
 nlohmann::ordered_json to_json(const spread& s)

@@ -27,7 +27,7 @@ struct assessment
     taut::quality quality;
     std::size_t left_out = 0;   ///< triangles without area at rest: counted in flips only
     std::size_t boundaries = 0; ///< boundary loops of the map, seams included
-    std::optional<crossing_count>
+    std::optional<impl::crossing_count>
         crossings;                  ///< pairs of boundary edges that meet; unknown where an edge has 3 triangles
     std::size_t polygons = 0;       ///< faces of more than three corners that are convex in space
     std::vector<idx> concave;       ///< those that are not in the map

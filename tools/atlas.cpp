@@ -15,7 +15,7 @@
 #endif
 
 #include <atlas/atlas_options.hpp>
-#include <impl/atlas/atlas_report.hpp>
+#include <taut/impl/atlas/atlas_report.hpp>
 #include <atlas/atlas_source.hpp>
 #include <atlas/joined_surfaces.hpp>
 #include <atlas/pinned_faces.hpp>

@@ -59,8 +59,8 @@ order order_of(const std::string& options, const taut::device& device)
 {
     for (const int dimension : {2, 3})
         for (const auto real : {scalar_type::f32, scalar_type::f64})
-            if (options == impl::block_options(real, dimension, dimension + 1, lane_form::for_device(device)))
-                return {{"build-kernels", std::to_string(dimension), std::string(spelling(real))}, {}};
+            if (options == impl::block_options(real, dimension, dimension + 1, impl::lane_form::for_device(device)))
+                return {{"build-kernels", std::to_string(dimension), std::string(impl::spelling(real))}, {}};
     return {};
 }
 
@@ -101,22 +101,22 @@ void require_own_kernels(const taut::device& device)
 {
     const auto folder = kernels_of_pocl();
     std::error_code failure;
-    if (!quirks::is_pocl(device) || !fs::is_directory(folder, failure)) return;
+    if (!impl::quirks::is_pocl(device) || !fs::is_directory(folder, failure)) return;
     if (const auto fault = fault_of_folder(fs::canonical(folder, failure), S_IWOTH); !fault.empty())
         throw usage_error(folder.string() + ", where PoCL keeps compiled kernels: " + fault +
                           "; name a folder of your own with POCL_CACHE_DIR");
 }
 
-program_builder build_elsewhere(const taut::device& device, const std::string& wish)
+impl::program_builder build_elsewhere(const taut::device& device, const std::string& wish)
 {
     const auto folder = kernels_of_pocl();
     const bool kept = variable("POCL_KERNEL_CACHE") != "0" && ::access(folder.c_str(), W_OK) == 0;
     const bool useful =
-        quirks::is_pocl(device) && device.compute_units() > 1 && std::thread::hardware_concurrency() > 1;
+        impl::quirks::is_pocl(device) && device.compute_units() > 1 && std::thread::hardware_concurrency() > 1;
     if (!useful || !kept) return {};
     const auto latest = std::make_shared<std::shared_ptr<work>>();
     return [=](const std::string& source, const std::string& options,
-               const std::vector<std::string>& kernels) -> build_under_way
+               const std::vector<std::string>& kernels) -> impl::build_under_way
     {
         auto order = kernels.empty() ? order_of(options, device) : order_of(source, options, kernels);
         const auto mark =

@@ -14,7 +14,7 @@ namespace taut::tools
 /// Which programs the driver's cache holds, files beside its kernels say. What they say wrongly costs time alone, and
 /// so does a process that fails or takes too long: what it has not built, this one builds. Neither writes a program
 /// or a kernel that the other one is building, as PoCL's cache is not safe between processes.
-program_builder build_elsewhere(const taut::device& device, const std::string& wish);
+impl::program_builder build_elsewhere(const taut::device& device, const std::string& wish);
 
 /// Throws usage_error if the compiled kernels that the device's driver would load may be somebody else's: they run as
 /// this user.

@@ -66,11 +66,11 @@ mesh<Element> block(idx n)
 template <class Element>
 void build(queue& q, scalar_type real, idx side)
 {
-    const mesh_levels<Element> levels(block<Element>(side));
-    newton_plan<Element> plan(levels, 0, lane_form::for_device(q.device()));
-    multigrid cycle(q, real, std::move(plan.cycle));
-    const block_assembly assemble(cycle.matrix(), plan.assembly);
-    real_buffer hessians(q, real, hessian_slots<Element::dimension>::count * plan.layout->cell_stride);
+    const impl::mesh_levels<Element> levels(block<Element>(side));
+    impl::newton_plan<Element> plan(levels, 0, impl::lane_form::for_device(q.device()));
+    impl::multigrid cycle(q, real, std::move(plan.cycle));
+    const impl::block_assembly assemble(cycle.matrix(), plan.assembly);
+    impl::real_buffer hessians(q, real, impl::hessian_slots<Element::dimension>::count * plan.layout->cell_stride);
     hessians.fill(0);
     auto x = cycle.matrix().vector(), y = cycle.matrix().vector();
     assemble(hessians, cycle.matrix());
@@ -98,7 +98,7 @@ void build_named(queue& q)
             const impl::argument number = p.type == "int" ? impl::argument(idx(0)) : impl::argument(0.0);
             arguments.push_back(p.is_memory ? impl::argument(nothing) : number.as(p.type));
         }
-        kernel(q, source, name, options)(impl::items_for(kernel_form::run, 1), arguments);
+        kernel(q, source, name, options)(impl::items_for(impl::kernel_form::run, 1), arguments);
     }
     q.finish();
 }
@@ -111,7 +111,7 @@ exit_code run(const build_options& options)
         build_named(q);
         return exit_code::valid;
     }
-    const auto real = options.real == spelling(scalar_type::f64) ? scalar_type::f64 : scalar_type::f32;
+    const auto real = options.real == impl::spelling(scalar_type::f64) ? scalar_type::f64 : scalar_type::f32;
     // With levels, and without.
     for (const idx side : options.dimension == 2 ? std::array{48, 4} : std::array{16, 3})
         options.dimension == 2 ? build<triangle>(q, real, side) : build<tetrahedron>(q, real, side);

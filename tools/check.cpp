@@ -83,7 +83,7 @@ bool near_enough(check_report& report, const mesh<Element>& m, const constraints
 {
     try
     {
-        pins.require_near(unit_scale(m));
+        pins.require_near(impl::unit_scale(m));
         return true;
     }
     catch (const constraint_error& e)
@@ -151,7 +151,7 @@ void report_repairs(check_report& report, const std::vector<repair_finding>& rep
     {
         const auto known = [&](const finding& f) { return f.fault == to_string(r.kind); };
         if (std::none_of(report.findings.begin(), report.findings.end(), known))
-            report.add({!usable && is_fault(r.kind), "mesh", to_string(r.kind), r.ids, r.problem, r.action},
+            report.add({!usable && impl::is_fault(r.kind), "mesh", to_string(r.kind), r.ids, r.problem, r.action},
                        exit_code::unsuitable_input);
     }
 }
@@ -162,7 +162,7 @@ std::optional<io::surface_file> find_surface(check_report& report, const std::st
 {
     try
     {
-        return to_surface_file(std::move(soup), path);
+        return io::impl::to_surface_file(std::move(soup), path);
     }
     catch (const mesh_error& e)
     {

@@ -48,7 +48,7 @@ namespace
 struct paste_options
 {
     std::string source, target, region, output, map, stats, picture, device;
-    int at = -1, onto = -1, triangles = 0, texels = feature_map_params{}.resolution;
+    int at = -1, onto = -1, triangles = 0, texels = impl::feature_map_params{}.resolution;
     double radius = 0, degrees = 0, reach = paste_params{}.reach;
     paste_pose pose;
     double time_limit = std::numeric_limits<double>::infinity();

@@ -31,7 +31,7 @@ nlohmann::ordered_json to_json(std::span<const repair_finding> findings)
     auto json = nlohmann::ordered_json::array();
     for (const auto& f : findings)
         json.push_back({{"fault", to_string(f.kind)},
-                        {"count", f.ids.size() / static_cast<std::size_t>(ids_each(f.kind))},
+                        {"count", f.ids.size() / static_cast<std::size_t>(impl::ids_each(f.kind))},
                         {"ids", f.ids},
                         {"message", f.problem},
                         {"repair", f.action}});

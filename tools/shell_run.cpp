@@ -136,7 +136,7 @@ void shell_run::take(const session_result<hinge>& found, const mesh<triangle>& s
         for (const auto& [v, pin] : pins.pins())
             for (int k = 0; k < 3; ++k)
                 held = held && ((pin.held >> k & 1u) == 0 || found.x[static_cast<std::size_t>(v)][k] == pin.value[k]);
-    run_.flips = certify_surface(surface.cells(), surface.points(), found.x);
+    run_.flips = impl::certify_surface(surface.cells(), surface.points(), found.x);
     if (held && run_.flips)
     {
         points_ = found.x;
@@ -144,7 +144,7 @@ void shell_run::take(const session_result<hinge>& found, const mesh<triangle>& s
         return;
     }
     code_ = exit_code::no_valid_map;
-    run_.reason = held ? describe_defects<hinge>(run_.flips) : "a pin has moved";
+    run_.reason = held ? impl::describe_defects<hinge>(run_.flips) : "a pin has moved";
 }
 
 void shell_run::refuse() const

@@ -160,7 +160,7 @@ private:
         report_.seam_vertices = cut_ ? cut_->seam_vertices : 0;
         // The certificate of exactly what is written, taken by other code than the solver's.
         if (!report_.after.quality.flips)
-            throw no_valid_map("the map has " + describe_defects<triangle>(report_.after.quality.flips) +
+            throw no_valid_map("the map has " + impl::describe_defects<triangle>(report_.after.quality.flips) +
                                "; --precision fp64 may succeed");
     }
 
@@ -174,7 +174,7 @@ private:
         if (options_.boundary != boundary_kind::free)
             for (const auto& loop : boundary_loops(surface()))
                 for (const idx v : loop) held[static_cast<std::size_t>(v)] = 1;
-        settle_piece(surface().cells(), polygons.corners, 0, surface().vertex_count(), uv_,
+        impl::settle_piece(surface().cells(), polygons.corners, 0, surface().vertex_count(), uv_,
                      {.held = held, .apart = false});
         if (const auto left = find_concave(polygons, uv_); !left.empty())
             report_.notes.push_back(count(left.size(), "polygon is", "polygons are") +

@@ -47,7 +47,7 @@ inline void require_examinable(const mesh<triangle>& surface)
 {
     const auto sides = facets(surface);
     const auto found = check(surface, sides);
-    const auto same = check(permute(surface, locality_order(surface)));
+    const auto same = check(impl::permute(surface, impl::locality_order(surface)));
     require(found.size() == same.size(), "another order has the same faults");
     if (sides.oriented()) boundary_loops(surface, sides);
 }

@@ -199,7 +199,7 @@ inline mesh<triangle> animal(int n)
 inline mesh<triangle> slit(const mesh<triangle>& closed, int edges, taut::idx from = 0)
 {
     // Breadth first, as far as the path is long.
-    const auto around = vertex_neighbours(closed);
+    const auto around = impl::vertex_neighbours(closed);
     std::vector<taut::idx> before(closed.points().size(), -1), reached = {from};
     std::vector<int> depth(closed.points().size(), -1);
     depth[std::size_t(from)] = 0;

@@ -23,7 +23,7 @@ class reference_problem
 public:
     static constexpr int D = Element::dimension;
 
-    reference_problem(std::shared_ptr<const layout<Element>> l, any_energy energy, energy::weighting weights)
+    reference_problem(std::shared_ptr<const impl::layout<Element>> l, any_energy energy, energy::weighting weights)
         : layout_(std::move(l)), energy_(std::move(energy)), weight_(layout_->measure)
     {
         if (weights == energy::weighting::uniform) std::fill(weight_.begin(), weight_.end(), 1.0);
@@ -83,11 +83,11 @@ private:
     {
         // dE/dS by evaluating the traced derivative at this S, with det as a function of S.
         using real = sym<double>;
-        tape recorded;
-        const tape_scope scope(recorded);
+        impl::tape recorded;
+        const impl::tape_scope scope(recorded);
         glm::mat<D, D, real> S;
         std::vector<real> unknowns;
-        std::vector<binding> values;
+        std::vector<impl::binding> values;
         for (int k = 0; k < D; ++k)
             for (int r = 0; r < D; ++r)
             {
@@ -96,7 +96,7 @@ private:
             }
         const real value = energy_(element<real, D>{S, glm::determinant(S), real(e.measure)});
         const auto partials = differentiate(value, unknowns);
-        const auto p = evaluator(recorded, values)(std::span<const real>(partials));
+        const auto p = impl::evaluator(recorded, values)(std::span<const real>(partials));
         mat<D> P;
         for (int k = 0; k < D; ++k)
             for (int r = 0; r < D; ++r) P[k][r] = p[static_cast<std::size_t>(k * D + r)];
@@ -115,7 +115,7 @@ private:
         if (vertex < static_cast<std::size_t>(layout_->free_count)) g[row + vertex] += value;
     }
 
-    std::shared_ptr<const layout<Element>> layout_;
+    std::shared_ptr<const impl::layout<Element>> layout_;
     any_energy energy_;
     std::vector<double> weight_;
 };

@@ -15,7 +15,7 @@ namespace taut::test
 /// the library finds without angles.
 inline std::vector<idx> wound_vertices(const mesh<triangle>& m, const std::vector<vec2>& uv)
 {
-    const auto boundary = boundary_flags(uv.size(), boundary_loops(m));
+    const auto boundary = impl::boundary_flags(uv.size(), boundary_loops(m));
     std::vector<double> angle(uv.size(), 0.0);
     for (const auto& t : m.cells())
         for (std::size_t k = 0; k < 3; ++k)

@@ -41,7 +41,7 @@ std::vector<idx> face_materials(std::string_view text)
 /// Whether triangles are one piece, by common corners.
 bool hang_together(std::span<const std::array<idx, 3>> cells)
 {
-    disjoint_sets pieces(static_cast<idx>(cells.size()));
+    impl::disjoint_sets pieces(static_cast<idx>(cells.size()));
     std::map<idx, idx> at_corner; // the first triangle
     std::size_t left = cells.size();
     for (idx c = 0; c < static_cast<idx>(cells.size()); ++c)

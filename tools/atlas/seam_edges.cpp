@@ -29,7 +29,7 @@ void mark_edges(std::vector<char>& seam, const std::vector<std::array<idx, 2>>& 
     std::vector<char> found(edges.size(), 0);
     for (idx s = 0; s < 3 * m.cell_count(); ++s)
     {
-        auto v = side_vertices(m, s);
+        auto v = impl::side_vertices(m, s);
         for (idx& i : v) i = source.vertex_origin(i);
         std::sort(v.begin(), v.end());
         const auto at = std::lower_bound(edges.begin(), edges.end(), v);
@@ -82,7 +82,7 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
     if (!any)
         throw unsuitable_input("--keep-seams: the file has neither texture coordinates nor materials; leave it out");
     mark_texcoords(seam, joined.surface, f, uv);
-    const auto borders = seams_between(f, label);
+    const auto borders = impl::seams_between(f, label);
     for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
     return seam;
 }

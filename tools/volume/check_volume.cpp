@@ -192,7 +192,7 @@ void report_cells(check_report& report, const volume_case<Element>& input)
     if (!state.simplices && input.look(x).simplices)
         report.add({true, "mesh", "single_precision", state.inverted,
                     "read in the single precision that the file declares the mesh has " +
-                        describe_defects<Element>(state.simplices, input.owners()) +
+                        impl::describe_defects<Element>(state.simplices, input.owners()) +
                         "; save it in double precision, or move it to the origin"},
                    exit_code::unsuitable_input);
     if (!input.parts().overlapping)
@@ -201,7 +201,7 @@ void report_cells(check_report& report, const volume_case<Element>& input)
         report_faces(report, input.file());
     if (report.map.flipped == 0 && report.map.branched > 0)
         report.add({true, "mesh", D == 2 ? "branch_points" : "branch_edges", report.map.branch_ids,
-                    describe_defects<Element>(report.map)},
+                    impl::describe_defects<Element>(report.map)},
                    exit_code::unsuitable_input);
 }
 

@@ -79,7 +79,7 @@ volume_map measure(const volume_case<Element>& input, const std::vector<vec<Elem
     map.left_out = keep.size() - cells.size();
     if (cells.empty()) return map;
     const mesh<Element> solid(whole.points(), std::move(cells));
-    const double unit = unit_scale(solid);
+    const double unit = impl::unit_scale(solid);
     auto scaled = x;
     for (auto& p : scaled) p *= unit;
     ideal_elements<Element> ideal(solid, unit);
@@ -158,7 +158,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
     if (input.parts().overlapping && D == 3) lines.add("insides", insides_text(state));
     lines.add("winding", state.simplices.branched == 0
                              ? std::string(D == 2 ? "once around every inner vertex" : "once around every inner edge")
-                             : describe_defects<Element>(state.simplices));
+                             : impl::describe_defects<Element>(state.simplices));
     if (has_rest) lines.add("stretch", "singular values " + number(map.least) + " .. " + number(map.most));
     lines.add(has_rest ? "distortion" : "1/ratio", "median " + number(distortion.median) + ", 99 % below " +
                                                        number(distortion.percentile99) + ", largest " +

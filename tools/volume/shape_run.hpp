@@ -315,7 +315,7 @@ private:
     std::vector<idx> parts_; ///< of each element, that of the input; where it is refined
     constraints<Element> pins_;
     std::vector<idx> fixed_;
-    std::vector<kept_facet> kept_facets_;
+    std::vector<impl::kept_facet> kept_facets_;
     std::vector<vec3> points_;
     std::vector<std::string> notes_; ///< of the command, behind those of the library
     deform_report report_;

@@ -118,12 +118,12 @@ public:
     /// where one is flat, NaN where it was at rest.
     std::vector<double> distortion(std::span<const vec<D>> x) const
     {
-        const double unit = unit_scale(simplices());
+        const double unit = impl::unit_scale(simplices());
         return worst_of_cells(
             [&](std::size_t c)
             {
                 const mat<D> W = impl::ideal_of(simplices(), static_cast<idx>(c), unit);
-                if (!(Element::flatness(W) > flattest)) return std::numeric_limits<double>::quiet_NaN();
+                if (!(Element::flatness(W) > impl::flattest)) return std::numeric_limits<double>::quiet_NaN();
                 const auto s =
                     singular_values<D>(shape_matrix<D>(simplices().cells()[c], x, unit * impl::invert_upper(W)));
                 return std::max(s.front(), 1 / s.back());
@@ -139,7 +139,7 @@ public:
                 typename Element::mapped_corners corners;
                 for (std::size_t k = 0; k < corners.size(); ++k)
                     corners[k] = x[static_cast<std::size_t>(simplices().cells()[c][k])];
-                const double ratio = corner_shape(corners, parts_.regular[c]).mean_ratio;
+                const double ratio = impl::corner_shape(corners, parts_.regular[c]).mean_ratio;
                 return ratio > 0 ? 1 / ratio : std::numeric_limits<double>::infinity();
             });
     }

@@ -51,7 +51,7 @@ struct written_shape
     {
         if (state.simplices) return {};
         return "in the single precision of the file the mesh has " +
-               describe_defects<Element>(state.simplices, input.owners()) +
+               impl::describe_defects<Element>(state.simplices, input.owners()) +
                "; save the input in double precision, or move it to the origin";
     }
 
@@ -68,7 +68,7 @@ private:
     {
         const auto before = x;
         auto rounded = input.as_written(x);
-        mend_rounding<D>(std::span(input.simplices().cells()), std::span<vec<D>>(rounded), movable);
+        impl::mend_rounding<D>(std::span(input.simplices().cells()), std::span<vec<D>>(rounded), movable);
         for (std::size_t v = 0; v < x.size(); ++v) // a text keeps the digits of what is held
             for (int k = 0; k < D; ++k)
                 if (movable(v, k)) x[v][k] = rounded[v][k];
@@ -90,7 +90,7 @@ public:
     /// A coordinate of a pin. Throws unsuitable_input where it is beyond single precision.
     double operator()(idx vertex, double x)
     {
-        const double held = rounds_ ? in_single(x) : x;
+        const double held = rounds_ ? impl::in_single(x) : x;
         if (held == x) return x;
         if (std::isinf(held))
             throw unsuitable_input("the pin of vertex " + std::to_string(vertex) + ": " + number(x) +

@@ -119,7 +119,7 @@ TEST_CASE("devices: TAUT_FORM=gpu takes the device for a GPU, and nothing else i
         const taut::device rehearsed = taut::choose_device();
         CHECK(rehearsed.is_gpu());
         CHECK(!rehearsed.is_cpu());
-        CHECK(!taut::quirks::wants_serial_items(rehearsed));
+        CHECK(!taut::impl::quirks::wants_serial_items(rehearsed));
     }
     {
         with_variable form("TAUT_FORM", "");
@@ -132,7 +132,7 @@ TEST_CASE("devices: TAUT_FORM=gpu takes the device for a GPU, and nothing else i
 TEST_CASE("devices: a platform is PoCL or Oclgrind, not both")
 {
     const taut::device d = taut::choose_device();
-    CHECK(!(taut::quirks::is_pocl(d) && taut::quirks::is_oclgrind(d)));
+    CHECK(!(taut::impl::quirks::is_pocl(d) && taut::impl::quirks::is_oclgrind(d)));
 }
 
 // Run by the ctest device.no_platform, with OCL_ICD_VENDORS at an empty folder.

@@ -149,7 +149,7 @@ TEST_CASE_TEMPLATE("trace: recordings call no functions but the few that are dec
     const auto program = q.state()->cache.find(text.source, "all_functions", taut::impl::few_functions).get_program();
     const auto options = program.template get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS,
                                                                       boost::compute::device(q.device().native()));
-    CHECK((options.find("_OPENCL_H_") != std::string::npos) == taut::quirks::reads_long_header(q.device()));
+    CHECK((options.find("_OPENCL_H_") != std::string::npos) == taut::impl::quirks::reads_long_header(q.device()));
 }
 
 TEST_CASE("trace: a buffer that is written must not be bound twice")

@@ -53,11 +53,18 @@ struct product
     }
 };
 
-namespace impl
+} // namespace taut::energy
+
+namespace taut::energy::impl
 {
+
 template <class E>
 concept composable = energy_function<E, 2> || energy_function<E, 3>;
-}
+
+} // namespace taut::energy::impl
+
+namespace taut::energy
+{
 
 template <impl::composable E>
 scaled<E> operator*(double factor, const E& e)

@@ -43,11 +43,11 @@ std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Elem
                                std::span<const vec<Element::dimension>> x, const Energy& energy)
 {
     std::vector<double> result(m.cells().size());
-    parallel_for(result.size(),
+    impl::parallel_for(result.size(),
                  [&](std::size_t begin, std::size_t end)
                  {
                      for (std::size_t c = begin; c < end; ++c)
-                         result[c] = bounded(energy, mapped_element(m, ideal, x, c));
+                         result[c] = bounded(energy, impl::mapped_element(m, ideal, x, c));
                  });
     return result;
 }

@@ -42,7 +42,9 @@ private:
     }
 };
 
-namespace energy
+} // namespace taut
+
+namespace taut::energy
 {
 
 /// A density of distortion: a function of one element, smooth where det S > 0. `barrier` says that it tends to
@@ -72,6 +74,4 @@ double rest_value(const E& e)
     return e(element<double, D>{mat<D>(1.0), 1.0, 1.0});
 }
 
-} // namespace energy
-
-} // namespace taut
+} // namespace taut::energy

@@ -25,10 +25,19 @@ namespace taut::io
 {
 
 #else
-namespace impl
+
+} // namespace taut::io
+
+namespace taut::io::impl
 {
+
 using new_file = plain_file;
-}
+
+} // namespace taut::io::impl
+
+namespace taut::io
+{
+
 /// Nothing that a handler of signals could do is known here.
 inline void remove_temporaries() noexcept {}
 #endif

@@ -196,7 +196,7 @@ namespace taut::io
 template <int D>
 std::vector<pin<D>> read_pins(const std::filesystem::path& path, idx vertices = std::numeric_limits<idx>::max())
 {
-    return parse_pins<D>(impl::read_file(path), path.string(), vertices);
+    return impl::parse_pins<D>(impl::read_file(path), path.string(), vertices);
 }
 
 /// Writes pins as read_pins reads them, with the digits that give every number back bit for bit. Throws io_error.

@@ -224,7 +224,7 @@ namespace taut::io
 template <class Element>
 prob_file<Element> read_prob(const std::filesystem::path& path)
 {
-    return parse_prob<Element>(impl::read_file(path), path.string());
+    return impl::parse_prob<Element>(impl::read_file(path), path.string());
 }
 
 } // namespace taut::io

@@ -40,7 +40,7 @@ refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, de
     map x = params.initial.empty() ? map(points.begin(), points.end()) : params.initial;
     const auto pins = params.constraints.on(m);
     pins.impose(x);
-    auto split = refine_infeasible(untangle_problem<Element>{m, std::move(x), pins.held()}, refine);
+    auto split = impl::refine_infeasible(untangle_problem<Element>{m, std::move(x), pins.held()}, refine);
     refined_deformation<Element> found{
         {}, std::move(split.problem.rest), std::move(split.how), std::move(split.cells), split.rounds};
     if (!split.obstacle.empty())

@@ -63,7 +63,7 @@ private:
                                             std::to_string(from.points().size()) + " vertices");
         static_cast<void>(ideal_elements<Element>(from)); // none flat or inverted
         if (const auto flips = certify<D>(from.cells(), std::span<const vec<D>>(to)); !flips)
-            throw parameter_error("to", "has " + describe_defects<Element>(flips) + "; untangle it first");
+            throw parameter_error("to", "has " + impl::describe_defects<Element>(flips) + "; untangle it first");
         return to;
     }
 

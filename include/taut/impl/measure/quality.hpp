@@ -178,7 +178,7 @@ quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& i
         impl::block_sum<impl::quality_sums>(cells,
                                                 [&](impl::quality_sums& s, std::size_t c)
                                                 {
-                                                    const auto e = mapped_element(m, ideal, x, c);
+                                                    const auto e = impl::mapped_element(m, ideal, x, c);
                                                     s.isometric.add(bounded(energy::isometric{}, e), e.measure);
                                                     s.shape.add(bounded(energy::shape{}, e), e.measure);
                                                     s.area.add(bounded(energy::area{}, e), e.measure);
@@ -196,7 +196,7 @@ quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& i
     const auto stretch = impl::block_sum<impl::stretch_sums>(cells,
                                                                  [&](impl::stretch_sums& s, std::size_t c)
                                                                  {
-                                                                     const auto e = mapped_element(m, ideal, x, c);
+                                                                     const auto e = impl::mapped_element(m, ideal, x, c);
                                                                      const auto sigma =
                                                                          singular_values<D>(q.scale * e.S);
                                                                      double sum = 0;
@@ -223,7 +223,7 @@ template <class Element>
 quality measure_quality(const mesh<Element>& m, std::span<const vec<Element::dimension>> x)
 {
     // In units of the model, so that squares neither overflow nor vanish.
-    const double unit = unit_scale(m);
+    const double unit = impl::unit_scale(m);
     std::vector<vec<Element::dimension>> scaled(x.begin(), x.end());
     for (auto& p : scaled) p *= unit;
     return measure_quality<Element>(m, ideal_elements<Element>(m, unit), scaled);

@@ -223,7 +223,7 @@ shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& ce
                              std::span<const vec<Element::dimension>> x)
 {
     return shape_quality(
-        impl::shapes_of<Element>(cells, x, [](std::size_t, const auto& corners) { return shape_of(corners); }));
+        impl::shapes_of<Element>(cells, x, [](std::size_t, const auto& corners) { return impl::shape_of(corners); }));
 }
 
 /// The same of cells of any kind by the simplices at their corners, a cell being as good as its worst corner. owners:
@@ -238,7 +238,7 @@ shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& si
     const auto corners =
         impl::shapes_of<Element>(simplices, x,
                                    [&](std::size_t c, const auto& corner)
-                                   { return alone(c) ? shape_of(corner) : corner_shape(corner, regular[c]); });
+                                   { return alone(c) ? impl::shape_of(corner) : impl::corner_shape(corner, regular[c]); });
     std::vector<impl::element_shape> shapes;
     std::vector<idx> ids;
     for (std::size_t c = 0; c < corners.size(); ++c)

@@ -39,7 +39,7 @@ public:
           weights_(weights),
           types_(impl::types_of(how)),
           layout_(with_data(m, data)),
-          cells_(permute(m, layout_->order).cells()),
+          cells_(impl::permute(m, layout_->order).cells()),
           objective_(queue_, layout_, energy_, weights, types_),
           x_(objective_.make_point()),
           g_(objective_.space().make())
@@ -105,7 +105,7 @@ private:
               arrays(q, types.vector, l, weights, energy),
               elements(q, types.vector, impl::hessian_slots<D>::count * l.cell_stride),
               matrix(q, types.vector,
-                     pattern_of_cells(cells, static_cast<std::size_t>(l.vertex_count),
+                     impl::pattern_of_cells(cells, static_cast<std::size_t>(l.vertex_count),
                                       impl::lane_form::for_device(q.device()).slice),
                      D),
               assemble(matrix, impl::assembly_lists(matrix.pattern(), D, cells, l.cell_stride))
@@ -117,7 +117,7 @@ private:
     {
         data.validate(m.cells().size());
         auto l = std::make_shared<impl::layout<Element>>(m);
-        l->attach(data.reordered(l->order.cells), permute(m, l->order));
+        l->attach(data.reordered(l->order.cells), impl::permute(m, l->order));
         return l;
     }
 

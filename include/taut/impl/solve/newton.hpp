@@ -19,10 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace taut::solve
-{
-
-namespace impl
+namespace taut::solve::impl
 {
 
 /// The loop of newton(). Truncated Newton's method with a line search (Nocedal & Wright, Algorithm 7.1): the direction
@@ -357,7 +354,10 @@ private:
     report report_;
 };
 
-} // namespace impl
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 /// Minimises f from x by truncated Newton's method with the preconditioner of the objective. x ends at the best
 /// iterate whatever the reason to stop. Throws parameter_error, and nothing else but what f and the observer do.

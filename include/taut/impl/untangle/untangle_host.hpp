@@ -65,7 +65,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
 {
     problem.validate();
     params.validate();
-    stages = chosen(std::move(stages), params.stages);
+    stages = impl::chosen(std::move(stages), params.stages);
     impl::untangle_state<Element> state(problem, params, std::move(newton));
     untangle_result<Element> result;
     if (state.injective())

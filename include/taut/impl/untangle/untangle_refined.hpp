@@ -236,7 +236,7 @@ refined_untangling<Element> untangle_refined(const queue& q, const untangle_prob
             refused = refused || !params.observer(p);
             return !refused;
         };
-    auto now = refine_infeasible(problem, refine);
+    auto now = impl::refine_infeasible(problem, refine);
     const auto left = [&](const untangle_result<Element>& found)
     { return found.outcome == untangle_outcome::gave_up && !refused && clock.in_time(); };
     const bool splits = refine.rounds > 0;
@@ -262,7 +262,7 @@ refined_untangling<Element> untangle_refined(const queue& q, const untangle_prob
     for (int round = now.rounds; left(found) && round < refine.rounds && found.flips.flipped > 0; ++round)
     {
         now.problem.initial = found.map;
-        if (!impl::split_further(now, splits_around(now.problem, found.ids).simplices, refine)) break;
+        if (!impl::split_further(now, impl::splits_around(now.problem, found.ids).simplices, refine)) break;
         found.flips.flipped = found.flips.branched = now.problem.rest.cells().size();
         impl::take_better(now.problem, now.problem.initial, "initial", found);
         impl::untangle_around(q, now.problem, how, clock, found);

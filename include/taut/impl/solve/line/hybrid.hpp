@@ -8,10 +8,7 @@
 #include <taut/impl/solve/line/secant.hpp>
 #include <taut/impl/solve/line/strong_wolfe.hpp>
 
-namespace taut::solve
-{
-
-namespace impl
+namespace taut::solve::impl
 {
 
 /// A minimum along the line: bracket, then Brent. The line remembers the lowest trial.
@@ -35,7 +32,10 @@ void minimize_line(Line& phi, const line_point& first, const exact_params& p, bo
     brent([&](double a) { return phi.value(a); }, t.a, t.b, t.c, t.value, tolerance);
 }
 
-} // namespace impl
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 /// The paper's hybrid line search (section 3.2): the full step of a well-scaled direction if it has the strong Wolfe
 /// conditions, which costs one value and one gradient and is the common case; else a minimum along the line without
