@@ -100,7 +100,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<direct_solver> make_direct_solver(const taut::impl::block_rows<3>& pattern, const std::vector<bool>& free)
+std::unique_ptr<direct_solver> make_direct_solver(const taut::impl::block_rows<3>& pattern,
+                                                  const std::vector<bool>& free)
 {
     return std::make_unique<cholmod_solver>(pattern, free);
 }

@@ -26,6 +26,7 @@ public:
 };
 
 /// By CHOLMOD; null where the build left it out (TAUT_BENCH_PEERS). pattern: a matrix of it. free: one a vertex.
-std::unique_ptr<direct_solver> make_direct_solver(const taut::impl::block_rows<3>& pattern, const std::vector<bool>& free);
+std::unique_ptr<direct_solver> make_direct_solver(const taut::impl::block_rows<3>& pattern,
+                                                  const std::vector<bool>& free);
 
 } // namespace bench

@@ -164,7 +164,7 @@ private:
         x = r.uv;
         const auto& s = r.report.solve;
         return {static_cast<bool>(r),
-                solve::converged(s.stop),
+                solve::impl::converged(s.stop),
                 s.value,
                 s.gradient_norm,
                 s.iterations,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Volumes whose ends are held and moved: bars, and models in any format of impl/io/read_volume.hpp, whose ends are the first
-// and last tenth along their longest axis. Twisted, stretched and bent; bars then lead a handle over 60 frames.
+// Volumes whose ends are held and moved: bars, and models in any format of impl/io/read_volume.hpp, whose ends are the
+// first and last tenth along their longest axis. Twisted, stretched and bent; bars then lead a handle over 60 frames.
 //   taut_bench_volume [--quick] [--json FILE] [--only ends|session|compare] [--motion twist|stretch|bend]
 //                     [--poisson 0.3,0.45] [--compare SECONDS] [CUBES_ACROSS|NXxNYxNZ|MESH...]
 // A bar has 30 n^3 tetrahedra for n cubes across, or 6 nx ny nz; without arguments 8 and 16. Kernels are compiled

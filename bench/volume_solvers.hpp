@@ -93,8 +93,8 @@ public:
         solver_run run;
         const stopwatch watch;
         taut::impl::map_objective<tetrahedra> f(queue_, std::make_shared<const taut::impl::layout<tetrahedra>>(mesh_),
-                                          taut::energy::isometric{}, taut::energy::weighting::measure,
-                                          taut::impl::types_of(taut::precision::mixed));
+                                                taut::energy::isometric{}, taut::energy::weighting::measure,
+                                                taut::impl::types_of(taut::precision::mixed));
         f.constrain({held_, {}, {}});
         auto x = f.make_point();
         f.upload(start_, x);

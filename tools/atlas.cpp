@@ -15,7 +15,6 @@
 #endif
 
 #include <atlas/atlas_options.hpp>
-#include <taut/impl/atlas/atlas_report.hpp>
 #include <atlas/atlas_source.hpp>
 #include <atlas/joined_surfaces.hpp>
 #include <atlas/pinned_faces.hpp>
@@ -23,6 +22,7 @@
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
 #include <report/atlas_page.hpp>
+#include <taut/impl/atlas/atlas_report.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/symmetry.hpp>
 #include <taut/impl/gltf/gltf.hpp>

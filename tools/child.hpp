@@ -80,7 +80,7 @@ private:
 
     limits bounds_;
     clock::time_point start_ = clock::now();
-    pid_t process_ = 0;                             ///< 0 once its end is known
+    pid_t process_ = 0;                           ///< 0 once its end is known
     std::array<io::impl::descriptor, 2> streams_; ///< closed once nothing more can come
     io::impl::descriptor over_;                   ///< readable once it has ended; none on older systems
     std::array<std::string, 2> said_;

@@ -42,7 +42,8 @@ exit_code run(const untangle_options& options, const outputs& files, std::chrono
     if (names_volume(options.input))
     {
         std::optional<io::volume_file> file;
-        report.seconds.read = clock.timed([&] { file = read_volume_at_rest(options.input, options.rest, options.zone); });
+        report.seconds.read =
+            clock.timed([&] { file = read_volume_at_rest(options.input, options.rest, options.zone); });
         require_name(options.output, *file);
         require_drawable(*file, {options.picture, options.cut});
         require_mesh(*file);

@@ -143,7 +143,7 @@ private:
     void go_on_with(refined_problem<Element> refined)
     {
         parts_ = std::move(refined.cells);
-        if (!input_) problem_file_ = io::subdivided(*problem_file_, refined.how);
+        if (!input_) problem_file_ = io::impl::subdivided(*problem_file_, refined.how);
         if (refined.how.empty()) return;
         report_.refined = {refined.rounds, static_cast<std::size_t>(refined.how.vertex_count()), parts_.size()};
         problem_ = std::move(refined.problem);

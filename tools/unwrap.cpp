@@ -175,7 +175,7 @@ private:
             for (const auto& loop : boundary_loops(surface()))
                 for (const idx v : loop) held[static_cast<std::size_t>(v)] = 1;
         impl::settle_piece(surface().cells(), polygons.corners, 0, surface().vertex_count(), uv_,
-                     {.held = held, .apart = false});
+                           {.held = held, .apart = false});
         if (const auto left = find_concave(polygons, uv_); !left.empty())
             report_.notes.push_back(count(left.size(), "polygon is", "polygons are") +
                                     " not convex in the map, though in space; cut along other diagonals, triangles of "

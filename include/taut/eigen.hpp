@@ -169,7 +169,7 @@ constraints<Element> constraints_from(const mesh<Element>& m, const Eigen::Dense
                                       const Eigen::DenseBase<Points>& bc, double weight)
 {
     return impl::constraints_of_rows(m, b, bc,
-                                       [weight](auto& wanted, idx v, const auto& x) { wanted.spring(v, x, weight); });
+                                     [weight](auto& wanted, idx v, const auto& x) { wanted.spring(v, x, weight); });
 }
 template <class Element, class... Rows>
 void constraints_from(mesh<Element>&&, const Rows&...) = delete; // constraints refer to their mesh

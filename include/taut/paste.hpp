@@ -10,5 +10,6 @@
 #include <taut/impl/edit/rbf.hpp>
 #include <taut/impl/edit/region.hpp>
 #include <taut/impl/edit/self_intersections.hpp>
+#include <taut/impl/edit/tessellate.hpp>
 #include <taut/impl/edit/write_feature_map.hpp>
 #include <taut/impl/edit/write_paste.hpp>

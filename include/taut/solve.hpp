@@ -8,3 +8,4 @@
 #include <taut/impl/solve/host_objective.hpp>
 #include <taut/impl/solve/host_space.hpp>
 #include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/solve/prescribed.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Maps of meshes: all that reads, constrains, makes, judges and writes them. What needs other libraries or is a subject
-/// of its own has a header beside this one: <taut/atlas.hpp>, <taut/pack.hpp>, <taut/repair.hpp>, <taut/paste.hpp>,
-/// <taut/gltf.hpp>, <taut/eigen.hpp>, <taut/solve.hpp>, <taut/kernel.hpp>.
+/// Maps of meshes: all that reads, constrains, makes, judges and writes them. What needs other libraries or is a
+/// subject of its own has a header beside this one: <taut/atlas.hpp>, <taut/pack.hpp>, <taut/repair.hpp>,
+/// <taut/paste.hpp>, <taut/gltf.hpp>, <taut/eigen.hpp>, <taut/solve.hpp>, <taut/kernel.hpp>.
 #include <taut/certify.hpp>
 #include <taut/constraints.hpp>
 #include <taut/deform.hpp>

@@ -15,7 +15,7 @@ void launch_all(taut::queue& q, const taut::mesh<taut::triangle>& surface, taut:
 {
     const auto local = std::make_shared<const taut::impl::layout<taut::triangle>>(surface);
     taut::impl::map_objective<taut::triangle> f(q, local, taut::energy::isometric{}, taut::energy::weighting::uniform,
-                                          taut::impl::types_of(how));
+                                                taut::impl::types_of(how));
     std::vector<taut::vec2> flat;
     for (const auto& p : surface.points()) flat.emplace_back(p.x, p.y);
     auto x = f.make_point();

@@ -256,7 +256,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         if (formats[letter] != volume_format::tetgen) return io::impl::parse_volume(text, formats[letter]);
         return io::impl::parse_tetgen(text, bytes.substr(std::min(cut + 1, size), second - std::min(cut + 1, second)),
-                                bytes.substr(std::min(second + 1, size)));
+                                      bytes.substr(std::min(second + 1, size)));
     };
     attempt(
         [&]

@@ -34,8 +34,12 @@ def statements(code, begin, end):
     """(from, to, head) of what is declared between two places: head is the text before a body or a semicolon."""
     at = begin
     while at < end:
-        m = re.compile(r"[{;]|^#[^\n]*$", re.M).search(code, at, end)
-        if not m:
+        parentheses, m = 0, None
+        for m in re.compile(r"[(){;]|^#[^\n]*$", re.M).finditer(code, at, end):
+            parentheses += {"(": 1, ")": -1}.get(m.group(), 0)
+            if parentheses == 0 and m.group() not in "()":
+                break
+        else:
             return
         if m.group()[0] == "#":
             at = m.end()
@@ -51,9 +55,17 @@ def statements(code, begin, end):
 
 
 def without_templates(head):
-    head = re.sub(r"\brequires\b.*?(?=\b(?:class|struct|inline|constexpr|auto|void)\b|$)", " ", head, flags=re.S)
     while re.search(r"<[^<>]*>", head):
         head = re.sub(r"<[^<>]*>", "", head)
+    clause = re.search(r"\brequires\s*(\(|!?[\w:]+)", head)
+    while clause:
+        end = clause.end()
+        depth = 1 if clause.group(1) == "(" else 0
+        while depth and end < len(head):
+            depth += {"(": 1, ")": -1}.get(head[end], 0)
+            end += 1
+        head = head[:clause.start()] + head[end:]
+        clause = re.search(r"\brequires\s*(\(|!?[\w:]+)", head)
     return head
 
 
@@ -69,7 +81,8 @@ def name_of(head):
         return kind.group(1)
     if "->" in flat and "auto" not in flat:
         return None  # a deduction guide
-    words = re.findall(r"[\w:]+", before.split("=")[0])
+    called = re.search(r"\b(?!requires\b|noexcept\b|decltype\b|template\b)(\w+)\s*\(", flat)
+    words = [called.group(1)] if called else re.findall(r"[\w:]+", before.split("=")[0])
     if not words or "::" in words[-1]:
         return None
     return words[-1]

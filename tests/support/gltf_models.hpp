@@ -151,8 +151,8 @@ inline gltf_builder textured_model(std::uint32_t n = 8)
     }
     const std::size_t colour = b.array(colours, 5121, "VEC4", {{"normalized", true}}, vertex);
     const std::size_t id =
-        b.accessor(b.view(io::impl::bytes_of<std::uint8_t>(ids), {{"byteStride", 4}, {"target", 34962}}), 5121,
-                   "VEC3", torus.vertices);
+        b.accessor(b.view(io::impl::bytes_of<std::uint8_t>(ids), {{"byteStride", 4}, {"target", 34962}}), 5121, "VEC3",
+                   torus.vertices);
     const std::string png = // one pixel
         *io::impl::from_base64(
             "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR42mP436AAAAQhAaBzQuE8AAAAAElFTkSuQmCC");

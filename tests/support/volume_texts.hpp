@@ -244,7 +244,11 @@ inline std::string gmsh4_text(const volume_sample& s, const volume_encoding& e)
     for (std::size_t c = 0; c < s.cells.size(); ++c)
     {
         const auto& cell = s.cells[c];
-        out.put(io::impl::shape_of(cell.kind).dimension).put(cell.tag + 40).put(gmsh_number(cell.kind)).put_i64(1).row();
+        out.put(io::impl::shape_of(cell.kind).dimension)
+            .put(cell.tag + 40)
+            .put(gmsh_number(cell.kind))
+            .put_i64(1)
+            .row();
         out.put_i64(c + 1);
         for (const idx v : cell.corners) out.put_i64(static_cast<std::size_t>(gmsh_id(s, v)));
         out.row();

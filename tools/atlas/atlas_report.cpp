@@ -92,19 +92,19 @@ void write_stats(io::atomic_file& file, const atlas_run_report& r, const atlas_o
     file.write(head + ",\n  \"chart_table\": [");
     const auto& charts = r.atlas.charts;
     io::impl::write_items(file, charts.size(),
-                            [&](std::string& text, std::size_t k)
-                            {
-                                const auto& c = charts[k];
-                                text += k == 0 ? "\n    {\"triangles\": " : ",\n    {\"triangles\": ";
-                                io::impl::append_number(text, c.triangles);
-                                text += ", \"tile\": ";
-                                io::impl::append_number(text, c.tile);
-                                text += ", \"area\": ";
-                                append_json(text, c.area);
-                                text += ", \"energy\": ";
-                                append_json(text, c.energy);
-                                text += '}';
-                            });
+                          [&](std::string& text, std::size_t k)
+                          {
+                              const auto& c = charts[k];
+                              text += k == 0 ? "\n    {\"triangles\": " : ",\n    {\"triangles\": ";
+                              io::impl::append_number(text, c.triangles);
+                              text += ", \"tile\": ";
+                              io::impl::append_number(text, c.tile);
+                              text += ", \"area\": ";
+                              append_json(text, c.area);
+                              text += ", \"energy\": ";
+                              append_json(text, c.energy);
+                              text += '}';
+                          });
     file.write("\n  ]\n}\n");
 }
 

@@ -89,22 +89,21 @@ void write_joined(io::atomic_file& out, std::span<const std::string> names, cons
         out.write("o " + std::filesystem::path(names[i]).stem().string() + '\n');
         const auto first = static_cast<std::size_t>(joined.first_vertex[i]);
         io::impl::write_items(out, static_cast<std::size_t>(joined.first_vertex[i + 1]) - first,
-                                [&](std::string& text, std::size_t v)
-                                {
-                                    const vec3& p = joined.surface.points()[first + v];
-                                    io::impl::append_line(text, "v", {p.x, p.y, p.z});
-                                });
+                              [&](std::string& text, std::size_t v)
+                              {
+                                  const vec3& p = joined.surface.points()[first + v];
+                                  io::impl::append_line(text, "v", {p.x, p.y, p.z});
+                              });
         const corner_map map = maps.of(i);
         io::impl::write_texcoords(out, map.uv);
         const auto first_cell = static_cast<std::size_t>(joined.first_cell[i]);
         io::impl::write_items(out, map.cells.size(),
-                                [&](std::string& text, std::size_t c)
-                                {
-                                    auto texcoords = map.cells[c];
-                                    for (idx& t : texcoords) t += first_texcoord;
-                                    io::impl::append_face(text, joined.surface.cells()[first_cell + c], texcoords,
-                                                            false);
-                                });
+                              [&](std::string& text, std::size_t c)
+                              {
+                                  auto texcoords = map.cells[c];
+                                  for (idx& t : texcoords) t += first_texcoord;
+                                  io::impl::append_face(text, joined.surface.cells()[first_cell + c], texcoords, false);
+                              });
         first_texcoord += static_cast<idx>(map.uv.size());
     }
 }

@@ -32,7 +32,7 @@ public:
 
     [[noreturn]] void refuse(const std::string& why) const
     {
-        throw io::io_error(path_, why, io::file_place{io::file_place::line, number_});
+        throw io::io_error(path_, why, io::impl::file_place{io::impl::file_place::line, number_});
     }
 
     job read() const

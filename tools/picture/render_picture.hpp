@@ -172,8 +172,7 @@ inline image render_picture(std::span<const vec3> points, std::span<const std::a
         std::fill_n(&grid(0, y), grid.width(), c);
     }
 
-    const impl::render_scene scene{
-        points, cells, uv, impl::vertex_normals(points, cells), {uv, cells, style.checks}};
+    const impl::render_scene scene{points, cells, uv, impl::vertex_normals(points, cells), {uv, cells, style.checks}};
     orientation stance = guess_orientation(points, cells);
     stance.up = style.up.value_or(stance.up);
     stance.front = style.front.value_or(stance.front);
@@ -194,7 +193,7 @@ inline image render_picture(std::span<const vec3> points, std::span<const std::a
         const int left = static_cast<int>(k) * half, width = k == 0 ? half : grid.width() - half;
         if (scale > 0 && std::isfinite(scale) && width > 0)
             impl::draw_view(grid, left, width, scene,
-                              {eyes[k], (boxes[k][0] + boxes[k][1]) / 2.0, scale, vec2(width, grid.height()) / 2.0});
+                            {eyes[k], (boxes[k][0] + boxes[k][1]) / 2.0, scale, vec2(width, grid.height()) / 2.0});
         draw_text(paper, vec2((left + width / 2.0) / style.samples, style.height - 30 * unit), names[k],
                   {.size = 20 * unit, .color = {98, 104, 116}, .at = anchor::middle});
     }

@@ -111,12 +111,12 @@ inline void draw_text(canvas& paper, vec2 position, std::string_view text, const
         const impl::glyph& g = impl::glyph_of(c);
         const auto place = [&](const vec2& p) { return position + cell * vec2(p.x, impl::base_line - p.y); };
         impl::trace_glyph(g,
-                            [&](const vec2& a, const vec2& b)
-                            {
-                                // A dot needs a little more ink than a line to look as heavy.
-                                const double pen = style.weight * style.size * (a == b ? 1.35 : 1);
-                                paper.line(place(a), place(b), pen, style.color);
-                            });
+                          [&](const vec2& a, const vec2& b)
+                          {
+                              // A dot needs a little more ink than a line to look as heavy.
+                              const double pen = style.weight * style.size * (a == b ? 1.35 : 1);
+                              paper.line(place(a), place(b), pen, style.color);
+                          });
         position.x += cell * (g.width + impl::letter_gap);
     }
 }

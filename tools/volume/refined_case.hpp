@@ -35,7 +35,8 @@ template <class Element>
 class refined_case
 {
 public:
-    refined_case(const io::volume_file& file, const impl::subdivision& how) : file_(io::subdivided(file, how)), case_(file_)
+    refined_case(const io::volume_file& file, const impl::subdivision& how)
+        : file_(io::impl::subdivided(file, how)), case_(file_)
     {
     }
     refined_case(const refined_case&) = delete;
@@ -51,7 +52,7 @@ private:
 /// Before anything is solved. Throws io_error for files that are not written with more cells.
 inline void require_refinable(const io::volume_file& file)
 {
-    io::subdivided(file, impl::subdivision(static_cast<idx>(file.points.size())));
+    io::impl::subdivided(file, impl::subdivision(static_cast<idx>(file.points.size())));
 }
 
 } // namespace taut::tools

@@ -53,8 +53,8 @@ std::vector<cell> cells_of(const io::volume_file& file)
 {
     std::vector<cell> cells;
     io::impl::for_each_cell(file, file.dimension,
-                      [&](io::cell_kind kind, idx, std::span<const idx> corners)
-                      { cells.emplace_back(kind, std::vector<idx>(corners.begin(), corners.end())); });
+                            [&](io::cell_kind kind, idx, std::span<const idx> corners)
+                            { cells.emplace_back(kind, std::vector<idx>(corners.begin(), corners.end())); });
     return cells;
 }
 
@@ -126,15 +126,15 @@ void require_mesh(const io::volume_file& file)
 void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_state& state)
 {
     io::impl::for_each_cell(file, 3,
-                      [&](io::cell_kind, idx number, std::span<const idx> corners)
-                      {
-                          if (std::binary_search(state.inverted.begin(), state.inverted.end(), number)) return;
-                          std::vector<vec3> places;
-                          for (const idx v : corners) places.push_back(x[static_cast<std::size_t>(v)]);
-                          const auto verdict = validity_of_cell(places);
-                          if (verdict == cell_validity::invalid) state.negative_inside.push_back(number);
-                          if (verdict == cell_validity::undecided) state.undecided.push_back(number);
-                      });
+                            [&](io::cell_kind, idx number, std::span<const idx> corners)
+                            {
+                                if (std::binary_search(state.inverted.begin(), state.inverted.end(), number)) return;
+                                std::vector<vec3> places;
+                                for (const idx v : corners) places.push_back(x[static_cast<std::size_t>(v)]);
+                                const auto verdict = validity_of_cell(places);
+                                if (verdict == cell_validity::invalid) state.negative_inside.push_back(number);
+                                if (verdict == cell_validity::undecided) state.undecided.push_back(number);
+                            });
 }
 
 std::string turned_note(const io::volume_file& file)

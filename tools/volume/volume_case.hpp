@@ -28,7 +28,8 @@ void require_file(const std::string& output);
 void require_name(const std::string& output, const io::volume_file& file);
 
 /// Reads a volume file. rest: the file of the shape at rest, or empty; its points become the `rest` of the result.
-/// zone: of SU2 files of several, 0: none. Throws io_error, and unsuitable_input where the two are not of the same vertices and cells.
+/// zone: of SU2 files of several, 0: none. Throws io_error, and unsuitable_input where the two are not of the same
+/// vertices and cells.
 io::volume_file read_volume_at_rest(const std::string& path, const std::string& rest, int zone);
 
 /// "32 tetrahedra", "12 hexahedra, 3 wedges": the cells of a dimension by kind.
@@ -62,7 +63,7 @@ public:
 
     const io::volume_file& file() const { return file_; }
     const mesh<Element>& simplices() const { return parts_.simplices; } ///< at rest
-    const io::corner_simplices<Element>& parts() const { return parts_; }
+    const io::impl::corner_simplices<Element>& parts() const { return parts_; }
     std::size_t cells() const { return static_cast<std::size_t>(parts_.cells.back()) + 1; }
     const char* element() const { return parts_.overlapping ? "mixed" : Element::name; } ///< a word for programs
 
@@ -159,7 +160,7 @@ private:
     }
 
     const io::volume_file& file_;
-    io::corner_simplices<Element> parts_;
+    io::impl::corner_simplices<Element> parts_;
 };
 
 /// Throws mesh_error for cells that cannot all be positive and not overlap, by how they meet: io::impl::check_sides().

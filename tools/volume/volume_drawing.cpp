@@ -51,13 +51,13 @@ std::vector<char> kept_cells(const io::volume_file& file, std::span<const vec3> 
 {
     std::vector<char> kept;
     io::impl::for_each_cell(file, 3,
-                      [&](io::cell_kind, idx, std::span<const idx> corners)
-                      {
-                          vec3 centre(0.0);
-                          for (const idx v : corners)
-                              centre += points[static_cast<std::size_t>(v)] / static_cast<double>(corners.size());
-                          kept.push_back(!cut || !cut->beyond(centre));
-                      });
+                            [&](io::cell_kind, idx, std::span<const idx> corners)
+                            {
+                                vec3 centre(0.0);
+                                for (const idx v : corners)
+                                    centre += points[static_cast<std::size_t>(v)] / static_cast<double>(corners.size());
+                                kept.push_back(!cut || !cut->beyond(centre));
+                            });
     return kept;
 }
 
@@ -111,14 +111,14 @@ std::string draw_layouts(const io::volume_file& file, const std::vector<drawn_st
     std::vector<std::array<idx, 3>> triangles;
     std::vector<std::size_t> owners;
     io::impl::for_each_cell(file, 2,
-                      [&](io::cell_kind, idx number, std::span<const idx> corners)
-                      {
-                          for (std::size_t k = 2; k < corners.size(); ++k)
-                          {
-                              triangles.push_back({corners[0], corners[k - 1], corners[k]});
-                              owners.push_back(static_cast<std::size_t>(number));
-                          }
-                      });
+                            [&](io::cell_kind, idx number, std::span<const idx> corners)
+                            {
+                                for (std::size_t k = 2; k < corners.size(); ++k)
+                                {
+                                    triangles.push_back({corners[0], corners[k - 1], corners[k]});
+                                    owners.push_back(static_cast<std::size_t>(number));
+                                }
+                            });
     std::vector<std::vector<idx>> outline;
     for (const auto& [a, b] : boundary_facets(mesh<triangle>(file.points, triangles))) outline.push_back({a, b});
     io::layout_style style;

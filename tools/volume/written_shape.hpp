@@ -22,8 +22,9 @@
 namespace taut::tools
 {
 
-/// A shape as a file holds it: what io::impl::volume_outputs() writes, and what is true of that. Where the file has single
-/// precision, coordinates are rounded, and free vertices move by units of their last digit where cells would be flat.
+/// A shape as a file holds it: what io::impl::volume_outputs() writes, and what is true of that. Where the file has
+/// single precision, coordinates are rounded, and free vertices move by units of their last digit where cells would be
+/// flat.
 template <class Element>
 struct written_shape
 {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <iostream>
 
+#include <taut/parameterize.hpp>
 #include <taut/read.hpp>
 #include <taut/write.hpp>
-#include <taut/parameterize.hpp>
 
 int main()
 {

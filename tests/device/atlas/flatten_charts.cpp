@@ -21,6 +21,7 @@
 #include <taut/impl/start/isometric_newton.hpp>
 
 using namespace taut;
+using namespace taut::impl;
 
 namespace
 {

@@ -7,8 +7,8 @@
 
 #include "support/device.hpp"
 
-using taut::impl::real_buffer;
 using taut::scalar_type;
+using taut::impl::real_buffer;
 using taut::test::random_reals;
 using taut::test::sized_count;
 

@@ -310,8 +310,8 @@ TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
         taut::impl::real_buffer x(q, type, std::vector<double>(64, 3.0));
         k(64, {{"factor", 0.1}, {"x", x}});
         CHECK(x.download()[63] == taut::test::as_real(type, 3 * taut::test::as_real(type, 0.1)));
-        taut::impl::real_buffer other(q, type == taut::scalar_type::f32 ? taut::scalar_type::f64 : taut::scalar_type::f32,
-                                64);
+        taut::impl::real_buffer other(
+            q, type == taut::scalar_type::f32 ? taut::scalar_type::f64 : taut::scalar_type::f32, 64);
         CHECK_THROWS_AS(k(64, {{"factor", 0.1}, {"x", other}}), taut::parameter_error);
     }
     taut::queue weak(taut::choose_device().without_fp64());

@@ -9,9 +9,9 @@
 
 #include "support/device.hpp"
 
+using taut::scalar_type;
 using taut::impl::host_reals;
 using taut::impl::real_buffer;
-using taut::scalar_type;
 using taut::test::random_reals;
 
 namespace

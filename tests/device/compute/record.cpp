@@ -105,7 +105,8 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
         return r.finish(name, form, power > 1 ? taut::impl::kernel_use::seldom : taut::impl::kernel_use::often);
     };
     const std::vector<taut::impl::kernel_text> texts = {record(0.0f, "narrow", 1), record(0.0, "wide", 1),
-                                                  record(0.0f, "narrow_square", 2), record(0.0, "wide_square", 2)};
+                                                        record(0.0f, "narrow_square", 2),
+                                                        record(0.0, "wide_square", 2)};
     const taut::impl::traced_program p(q, texts);
     for (const char* helper : {" taut_cbrt_f32(const float", " taut_cbrt_f64(const double"})
         CHECK(p.source().find(helper) == p.source().rfind(helper));

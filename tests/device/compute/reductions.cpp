@@ -9,10 +9,10 @@
 #include "support/device.hpp"
 
 using taut::buffer;
+using taut::reductions;
 using taut::impl::real_buffer;
 using taut::impl::real_view;
 using taut::impl::reduction_plan;
-using taut::reductions;
 using taut::test::random_values;
 using taut::test::sized_count;
 

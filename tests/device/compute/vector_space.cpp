@@ -8,9 +8,9 @@
 
 #include "support/device.hpp"
 
-using taut::impl::device_vector;
 using taut::device_vectors;
 using taut::scalar_type;
+using taut::impl::device_vector;
 using taut::impl::scalar_type_of;
 using taut::test::random_reals;
 using taut::test::random_values;
@@ -188,7 +188,7 @@ TEST_CASE("device_vectors: vectors, reductions and gathers of a type share one b
     r.fetch();
     const std::vector<taut::idx> offsets = {0, 1}, zero = {0};
     const taut::impl::gather sum(q, offsets, zero, zero, {.components = 3, .cell_stride = 64, .vertex_stride = 64},
-                           scalar_type::f32, scalar_type::f32);
+                                 scalar_type::f32, scalar_type::f32);
     q.finish();
     CHECK(q.counters().builds == 1);
 }

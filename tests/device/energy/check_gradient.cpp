@@ -14,6 +14,7 @@ namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// Says one thing to numbers and another to the tape.
 struct two_faced

@@ -71,12 +71,12 @@ bool all_valid(const io::volume_file& file, const std::vector<vec3>& x)
 {
     bool valid = true;
     io::impl::for_each_cell(file, 3,
-                      [&](io::cell_kind, idx, std::span<const idx> corners)
-                      {
-                          std::vector<vec3> places;
-                          for (const idx v : corners) places.push_back(x[static_cast<std::size_t>(v)]);
-                          valid = valid && validity_of_cell(places) == cell_validity::valid;
-                      });
+                            [&](io::cell_kind, idx, std::span<const idx> corners)
+                            {
+                                std::vector<vec3> places;
+                                for (const idx v : corners) places.push_back(x[static_cast<std::size_t>(v)]);
+                                valid = valid && validity_of_cell(places) == cell_validity::valid;
+                            });
     return valid;
 }
 

@@ -193,11 +193,11 @@ TEST_CASE("no_overlap: edges of the boundary that are pinned across each other a
     constraints<triangle> pins(m);
     std::vector<idx> ends;
     impl::for_each_meeting(edges, free.uv,
-                             [&](std::size_t i, std::size_t j)
-                             {
-                                 ends = {edges[i][0], edges[i][1], edges[j][0], edges[j][1]};
-                                 return false;
-                             });
+                           [&](std::size_t i, std::size_t j)
+                           {
+                               ends = {edges[i][0], edges[i][1], edges[j][0], edges[j][1]};
+                               return false;
+                           });
     REQUIRE(ends.size() == 4);
     for (const idx v : ends) pins.pin(v, free.uv[static_cast<std::size_t>(v)]);
     CHECK(parameterize(q, m, {.constraints = pins}));

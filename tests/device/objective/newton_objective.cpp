@@ -308,7 +308,7 @@ TEST_CASE_TEMPLATE("newton objective: few waits an iteration, and the minimum th
     f.upload(s.start, x);
     f.warm_up(x);
     const auto before = s.q.counters();
-    const auto r = solve::newton(f, x, {.relax_below = 0});
+    const auto r = solve::impl::newton(f, x, {.relax_below = 0});
     const auto waits = s.q.counters().waits - before.waits;
     CHECK(r.stop == solve::stop::gradient);
     CHECK(r.iterations >= 2);

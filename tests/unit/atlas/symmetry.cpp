@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/symmetry/symmetric_half.hpp>
 #include <taut/impl/atlas/symmetry.hpp>
+#include <taut/impl/atlas/symmetry/symmetric_half.hpp>
 
 using namespace taut;
 using namespace taut::impl;

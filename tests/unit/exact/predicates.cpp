@@ -12,10 +12,10 @@
 namespace
 {
 
-using taut::impl::orient2d;
-using taut::impl::orient3d;
 using taut::vec2;
 using taut::vec3;
+using taut::impl::orient2d;
+using taut::impl::orient3d;
 
 __extension__ using wide = __int128; // the oracle: integers that hold the whole determinant
 

@@ -243,7 +243,7 @@ TEST_CASE("gltf: bytes of images, skins and animations are the same, and no data
               io::impl::all_elements(back.source, io::impl::accessor_of(back.source, a), ""));
     std::set<std::size_t> named;
     io::impl::for_each_view_reference(back.source.document,
-                                        [&](const gltf_json& v) { named.insert(v.get<std::size_t>()); });
+                                      [&](const gltf_json& v) { named.insert(v.get<std::size_t>()); });
     std::size_t needed = 0;
     for (const std::size_t v : named) needed += io::impl::view_bytes(back.source, v).size() + 7;
     CHECK(named.size() == back.source.document["bufferViews"].size());
@@ -541,8 +541,8 @@ TEST_CASE("gltf: several meshes and buffers become one buffer; accessors that ot
     const std::size_t first = b.document["bufferViews"][1]["byteOffset"].get<std::size_t>();
     d["buffers"] = gltf_json::array();
     for (const auto& part : {b.bytes.substr(0, first), b.bytes.substr(first)})
-        d["buffers"].push_back({{"byteLength", part.size()},
-                                {"uri", "data:application/gltf-buffer;base64," + io::impl::to_base64(part)}});
+        d["buffers"].push_back(
+            {{"byteLength", part.size()}, {"uri", "data:application/gltf-buffer;base64," + io::impl::to_base64(part)}});
     for (gltf_json& view : d["bufferViews"])
         if (const auto at = view["byteOffset"].get<std::size_t>(); at >= first)
         {

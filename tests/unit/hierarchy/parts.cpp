@@ -136,8 +136,7 @@ TEST_CASE("kernel: none is reported for a ring without")
     CHECK(!impl::kernel_point(ring_of({{0, 0}, {0, 1}, {1, 0}}), 0, p)); // clockwise
     CHECK(!impl::kernel_point(ring_of({{0, 0}, {1, 0}, {2, 0}}), 0, p)); // flat
     // A horseshoe: no point sees both of its ends.
-    CHECK(
-        !impl::kernel_point(ring_of({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2.9, 0.1}, {0.1, 0.1}, {1, 3}, {0, 3}}), 0, p));
+    CHECK(!impl::kernel_point(ring_of({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2.9, 0.1}, {0.1, 0.1}, {1, 3}, {0, 3}}), 0, p));
 }
 
 TEST_CASE("kernel: a boundary ring leaves room outside the mesh")

@@ -28,13 +28,13 @@ TEST_CASE("cell faces: normals point out, and the sides of cells that meet know 
     REQUIRE(sides.faces.size() == 2 * 4 + 6 + 5 + 5);
     std::vector<vec3> centres;
     io::impl::for_each_cell(file, 3,
-                      [&](io::cell_kind, idx number, std::span<const idx> corners)
-                      {
-                          CHECK(number == static_cast<idx>(centres.size()));
-                          vec3 centre(0.0);
-                          for (const idx v : corners) centre += file.points[static_cast<std::size_t>(v)];
-                          centres.push_back(centre / static_cast<double>(corners.size()));
-                      });
+                            [&](io::cell_kind, idx number, std::span<const idx> corners)
+                            {
+                                CHECK(number == static_cast<idx>(centres.size()));
+                                vec3 centre(0.0);
+                                for (const idx v : corners) centre += file.points[static_cast<std::size_t>(v)];
+                                centres.push_back(centre / static_cast<double>(corners.size()));
+                            });
     int inner = 0;
     for (std::size_t s = 0; s < sides.faces.size(); ++s)
     {
@@ -54,7 +54,8 @@ TEST_CASE("cell faces: a face with three cells is crowded")
     auto s = test::small_volume(false);
     s.cells.push_back({io::cell_kind::tetrahedron, {0, 1, 2, static_cast<idx>(s.points.size())}, 1});
     s.points.push_back({0.5, 0.4, 1});
-    const auto sides = io::cell_faces_of(io::impl::parse_volume(test::medit_text(s), io::volume_format::medit, "a.mesh"));
+    const auto sides =
+        io::cell_faces_of(io::impl::parse_volume(test::medit_text(s), io::volume_format::medit, "a.mesh"));
     CHECK(std::count(sides.twin.begin(), sides.twin.end(), io::cell_faces::crowded) == 3);
 }
 

@@ -274,7 +274,7 @@ TEST_CASE("obj: malformed lines are named")
         const auto e = io_error_of(text);
         CHECK(e.path() == "x.obj");
         REQUIRE(e.place());
-        CHECK(e.place()->counted_in == io::file_place::line);
+        CHECK(e.place()->counted_in == io::impl::file_place::line);
         return e.place()->number;
     };
     CHECK(line("v 0 0\n") == 1);

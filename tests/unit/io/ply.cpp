@@ -166,7 +166,7 @@ TEST_CASE("ply: malformed headers are refused with the line")
     {
         const auto e = io_error_of(text);
         REQUIRE(e.place());
-        CHECK(e.place()->counted_in == io::file_place::line);
+        CHECK(e.place()->counted_in == io::impl::file_place::line);
         return e.place()->number;
     };
     CHECK(line("") == 1);
@@ -198,7 +198,7 @@ TEST_CASE("ply: bodies that are too short or hold nonsense are refused")
         {
             const auto e = io_error_of(whole.substr(0, n));
             REQUIRE(e.place());
-            CHECK(e.place()->counted_in == io::file_place::byte);
+            CHECK(e.place()->counted_in == io::impl::file_place::byte);
             CHECK(e.place()->number >= body);
             CHECK(e.place()->number <= n);
         }

@@ -161,7 +161,8 @@ TEST_CASE("polygons: two quads around a vertex of two faces get other diagonals"
     const auto m = io::impl::parse_obj(obj_text(points, {{1, 2, 3, 5}, {1, 5, 3, 4}}, 0.3)).surface;
     CHECK(m.cell_count() == 4);
     CHECK(is_surface(m));
-    const auto triangle_and_quad = io::impl::parse_obj(obj_text(points, {{1, 2, 3}, {1, 3, 4, 5}, {1, 5, 4}}, 0.3)).surface;
+    const auto triangle_and_quad =
+        io::impl::parse_obj(obj_text(points, {{1, 2, 3}, {1, 3, 4, 5}, {1, 5, 4}}, 0.3)).surface;
     CHECK(is_surface(triangle_and_quad));
 }
 
@@ -178,7 +179,8 @@ TEST_CASE("polygons: a chain of quads that take each other's diagonals is parted
 TEST_CASE("polygons: copies are cut alike, whatever corner they begin with and whichever way they face")
 {
     const std::vector<vec2> points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-    const auto soup = io::impl::parse_obj_soup(obj_text(points, {{1, 2, 3, 4}, {2, 3, 4, 1}, {4, 3, 2, 1}, {3, 2, 1, 4}}));
+    const auto soup =
+        io::impl::parse_obj_soup(obj_text(points, {{1, 2, 3, 4}, {2, 3, 4, 1}, {4, 3, 2, 1}, {3, 2, 1, 4}}));
     REQUIRE(soup.triangles.size() == 8);
     for (const auto& t : soup.triangles)
         CHECK((std::count(t.begin(), t.end(), 1) == 1 && std::count(t.begin(), t.end(), 3) == 1));
@@ -190,9 +192,9 @@ TEST_CASE("polygons: OFF and PLY split the same faces")
     const std::string face = "10 0 1 2 3 0 4 5 6 7 4\n";
     const auto off = io::impl::parse_off("OFF\n8 1 0\n" + points + face).surface;
     const auto ply = io::impl::parse_ply("ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
-                                   "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                   "end_header\n" +
-                                   points + face)
+                                         "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                         "end_header\n" +
+                                         points + face)
                          .surface;
     CHECK(off.cells() == ply.cells());
     CHECK(area_facing(off, vec3(0, 0, 1)) == doctest::Approx(12));

@@ -145,24 +145,25 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
     CHECK(cut.uv == std::vector<vec2>{{0, 0}, {1, 0}, {0, 1}, {6, 1}, {5, 0}, {5, 1}});
     CHECK(cut.seam_vertices == 2);
     CHECK_FALSE(io::cut_seams(io::impl::parse_obj(head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt -0 1\n"
-                                                   "f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n")));
+                                                         "f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n")));
     // Charts that share a texture coordinate at a vertex, but no edge, are apart: here two quads that both have all of
     // the texture.
     const auto tiles =
         io::cut_seams(io::impl::parse_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
-                                    "vt 1 1\nvt 0 1\nf 1/1 2/2 5/3 4/4\nf 2/2 3/1 6/4 5/1\n"))
+                                          "vt 1 1\nvt 0 1\nf 1/1 2/2 5/3 4/4\nf 2/2 3/1 6/4 5/1\n"))
             .value();
     CHECK(tiles.surface.vertex_count() == 8);
     CHECK(tiles.seam_vertices == 2);
     CHECK(std::vector<taut::idx>(tiles.corners.begin(), tiles.corners.begin() + 4) ==
           std::vector<taut::idx>{0, 1, 4, 3});
     CHECK(tiles.corners[4] + tiles.corners[7] == 6 + 7);
-    CHECK_THROWS_AS(io::cut_seams(io::impl::parse_obj(head + "vt 0 0\nf 1/1 2/1 3/1\nf 2/1 4 3/1\n")), io::texcoord_error);
+    CHECK_THROWS_AS(io::cut_seams(io::impl::parse_obj(head + "vt 0 0\nf 1/1 2/1 3/1\nf 2/1 4 3/1\n")),
+                    io::texcoord_error);
 
     // A polygon stays whole, though a third triangle meets its two halves where it is split.
     const auto crowded =
         io::impl::parse_obj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 2 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 5 5\n"
-                      "f 1/5 3/5 5/5\nf 1/1 2/2 3/3 4/4\n");
+                            "f 1/5 3/5 5/5\nf 1/1 2/2 3/3 4/4\n");
     const auto whole = io::cut_seams(crowded).value();
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t k = 0; k < 3; ++k)

@@ -73,8 +73,8 @@ TEST_CASE("read_surface: UTF-16 is named, with a byte order mark and without")
                 folder.write(folder / name, wide);
                 CHECK_THROWS_WITH_AS(io::read_surface(folder / name), doctest::Contains("in UTF-16; save it as UTF-8"),
                                      io::io_error);
-                CHECK_THROWS_WITH_AS(io::impl::parse_volume(wide, io::volume_format::medit), doctest::Contains("in UTF-16"),
-                                     io::io_error);
+                CHECK_THROWS_WITH_AS(io::impl::parse_volume(wide, io::volume_format::medit),
+                                     doctest::Contains("in UTF-16"), io::io_error);
                 CHECK_THROWS_WITH_AS(io::impl::parse_pins<2>(wide), doctest::Contains("in UTF-16"), io::io_error);
             }
 }

@@ -50,7 +50,8 @@ TEST_CASE("soup: a file without faults is what it is as a surface")
 
 TEST_CASE("soup: what a mesh refuses stays, and the first fault is named with its place")
 {
-    const auto obj = io::impl::parse_obj_soup("v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\nf 1 1 2\nf 1 2 9\nf 0 1 -7\n", "a.obj");
+    const auto obj =
+        io::impl::parse_obj_soup("v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\nf 1 1 2\nf 1 2 9\nf 0 1 -7\n", "a.obj");
     CHECK(obj.points.size() == 3);
     CHECK(obj.triangles == cells_of_soup{{0, 1, 2}, {0, 0, 1}, {0, 1, 8}, {-1, 0, -1}});
     REQUIRE(obj.fault.has_value());
@@ -62,9 +63,10 @@ TEST_CASE("soup: what a mesh refuses stays, and the first fault is named with it
     CHECK(std::isinf(off.points[2].z));
     CHECK(std::string(off.fault->what()).starts_with("a.off, line 5: vertex 2"));
 
-    const auto ply = io::impl::parse_ply_soup("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                                        "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                                        "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n");
+    const auto ply =
+        io::impl::parse_ply_soup("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                 "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                 "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n");
     CHECK(ply.triangles == cells_of_soup{{0, 1, -1}});
     CHECK(ply.fault->fault() == mesh_fault::index_out_of_range);
 }
@@ -148,7 +150,8 @@ TEST_CASE("soup: a large file, which is read in pieces, holds the same as one th
 TEST_CASE("soup: a file is written back with texture coordinates a corner, or none")
 {
     const std::string rest = "v nan 0 0\nvn 0 0 1\n# kept\n";
-    const auto soup = io::impl::parse_obj_soup(soup_square + rest + "vt 9 9\nf 1/1/1 2//1 3/1 4\nf 1 2/1 5/1/1\nf 1 2 7//1");
+    const auto soup =
+        io::impl::parse_obj_soup(soup_square + rest + "vt 9 9\nf 1/1/1 2//1 3/1 4\nf 1 2/1 5/1/1\nf 1 2 7//1");
     CHECK(text_of(soup, {0, 1, 1, 0, -1, -1, -1, 1, 1, 1}, {{0, 0}, {0.5, 1}}) ==
           soup_square + rest + "vt 0 0\nvt 0.5 1\nf 1/1/1 2/2/1 3/2 4/1\nf 1 2 5//1\nf 1/2 2/2 7/2/1");
     CHECK_THROWS_AS(text_of(soup, {0}, {{0, 0}}), parameter_error);

@@ -120,8 +120,8 @@ TEST_CASE("corner simplices: cells of any kind in the other order are read turne
 TEST_CASE("writing: coordinates that stay keep their text, others are the shortest that read back")
 {
     const std::string head = "MeshVersionFormatted 2\nDimension 3\nVertices 2\n", tail = "\nTriangles 0\nEnd\n";
-    const auto file = io::impl::parse_volume(head + "+1.500 -0.0 1e+00 7\n\t.5   2. 0.1000000000000000055\t7 # x" + tail,
-                                       volume_format::medit);
+    const auto file = io::impl::parse_volume(
+        head + "+1.500 -0.0 1e+00 7\n\t.5   2. 0.1000000000000000055\t7 # x" + tail, volume_format::medit);
     CHECK(io::impl::with_points(file, file.points) == file.bytes);
     auto points = file.points;
     points[0].y = 0.0; // another sign
@@ -158,9 +158,11 @@ TEST_CASE("writing: what a file cannot hold is refused")
     const auto file = medit_file(test::small_volume(false));
     auto points = file.points;
     points[2].y = NAN;
-    CHECK_THROWS_WITH_AS(io::impl::with_points(file, points), doctest::Contains("point 2 has a coordinate"), parameter_error);
+    CHECK_THROWS_WITH_AS(io::impl::with_points(file, points), doctest::Contains("point 2 has a coordinate"),
+                         parameter_error);
     points.pop_back();
-    CHECK_THROWS_WITH_AS(io::impl::with_points(file, points), doctest::Contains("4 for the 5 of the file"), parameter_error);
+    CHECK_THROWS_WITH_AS(io::impl::with_points(file, points), doctest::Contains("4 for the 5 of the file"),
+                         parameter_error);
     const auto planar = io::impl::parse_volume(test::medit_text(test::small_square(), 2), volume_format::medit);
     points = planar.points;
     points[1].z = 1;

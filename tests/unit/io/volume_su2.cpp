@@ -76,8 +76,8 @@ TEST_CASE("SU2: one zone of several is read, in any order, with its own markers"
     }
     const auto refuses = [](const std::string& bytes, int zone, const char* message)
     {
-        CHECK_THROWS_WITH_AS(io::impl::parse_volume(bytes, io::volume_format::su2, "a.su2", zone), doctest::Contains(message),
-                             io::io_error);
+        CHECK_THROWS_WITH_AS(io::impl::parse_volume(bytes, io::volume_format::su2, "a.su2", zone),
+                             doctest::Contains(message), io::io_error);
     };
     refuses(text, 0, "3 zones; say which one is meant: --zone N, from 1 to 3");
     refuses(text, 4, "zone 4 of 3; they count from 1");
@@ -88,7 +88,8 @@ TEST_CASE("SU2: one zone of several is read, in any order, with its own markers"
     refuses("NZONE= 2\nIZONE= 1\nNDIME= 2\nNPOIN= 9\n0 0\n1 0\n" + zone_text(2, 0, true, "a"), 1, "a number");
     refuses("NZONE= 2\nIZONE= 1\nNDIME= 2\nNPOIN= 1\n0 0\nMARKER_TAG= a\nIZONE= 2\nMARKER_ELEMS= 0\n", 1,
             "no MARKER_ELEMS=");
-    const auto single = io::impl::parse_volume("NZONE= 1\n" + zone_text(1, 5, true, "a"), io::volume_format::su2, "a", 1);
+    const auto single =
+        io::impl::parse_volume("NZONE= 1\n" + zone_text(1, 5, true, "a"), io::volume_format::su2, "a", 1);
     CHECK(single.points[0].x == 5);
     CHECK_THROWS_AS(io::impl::parse_volume("1 2", io::volume_format::problem, "a.prob", 1), io::io_error);
 }

@@ -37,7 +37,7 @@ void check_split(const std::string& bytes, volume_format format, const char* lab
     const auto file = io::impl::parse_volume(bytes, format);
     subdivision how(static_cast<taut::idx>(file.points.size()));
     how.split({0, 1});
-    const auto split = io::subdivided(file, how);
+    const auto split = io::impl::subdivided(file, how);
     CHECK(split.format == file.format);
     CHECK(split.path == file.path);
     CHECK(split.dimension == file.dimension);
@@ -85,11 +85,11 @@ TEST_CASE("subdivided: a problem keeps who is fixed, and its rest shape is split
 {
     const auto file =
         io::impl::parse_volume("4 3\n0 0 0\n2 0 0\n0 2 0\n0 0 2\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 4\n0 1 2 3\n"
-                         "2\n1\n3\n",
-                         volume_format::problem);
+                               "2\n1\n3\n",
+                               volume_format::problem);
     subdivision how(4);
     how.split({1, 2});
-    const auto split = io::subdivided(file, how);
+    const auto split = io::impl::subdivided(file, how);
     CHECK(split.cells[0].size() == 2);
     CHECK(split.points.back() == vec3(0.5, 0.5, 0));
     CHECK(split.rest.back() == vec3(1, 1, 0));
@@ -100,12 +100,12 @@ TEST_CASE("subdivided: a new point has the reference that all corners of what it
 {
     const auto file =
         io::impl::parse_volume("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 5\n1 0 0 5\n0 1 0 6\n0 0 1 0\n"
-                         "Corners\n1\n3\nTetrahedra\n1\n1 2 3 4 9\nEnd\n",
-                         volume_format::medit);
+                               "Corners\n1\n3\nTetrahedra\n1\n1 2 3 4 9\nEnd\n",
+                               volume_format::medit);
     subdivision how(4);
     how.split({0, 1});
     how.split({1, 2});
-    const auto split = io::subdivided(file, how);
+    const auto split = io::impl::subdivided(file, how);
     CHECK(split.find_group("vertices:5").vertices == std::vector<taut::idx>{0, 1, 4});
     CHECK(split.find_group("vertices:0").vertices == std::vector<taut::idx>{3, 5});
     CHECK(split.find_group("corners").vertices == std::vector<taut::idx>{2});
@@ -115,9 +115,9 @@ TEST_CASE("subdivided: a new point has the reference that all corners of what it
 TEST_CASE("subdivided: formats that are not written anew, and cells that are no simplices, are refused")
 {
     const auto mixed = io::impl::parse_volume(test::medit_text(test::small_volume(true)), volume_format::medit);
-    CHECK_THROWS_WITH_AS(io::subdivided(mixed, subdivision(static_cast<taut::idx>(mixed.points.size()))),
+    CHECK_THROWS_WITH_AS(io::impl::subdivided(mixed, subdivision(static_cast<taut::idx>(mixed.points.size()))),
                          doctest::Contains("triangulate"), io::io_error);
     const auto nodes = io::impl::parse_tetgen("4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", "1 4 0\n0 0 1 2 3\n");
-    CHECK_THROWS_WITH_AS(io::subdivided(nodes, subdivision(4)), doctest::Contains("convert"), io::io_error);
-    CHECK_THROWS_AS(io::subdivided(nodes, subdivision(3)), parameter_error);
+    CHECK_THROWS_WITH_AS(io::impl::subdivided(nodes, subdivision(4)), doctest::Contains("convert"), io::io_error);
+    CHECK_THROWS_AS(io::impl::subdivided(nodes, subdivision(3)), parameter_error);
 }

@@ -81,7 +81,8 @@ TEST_CASE("TetGen: errors name the file and the line")
 {
     const auto s = test::small_volume(false);
     const std::string nodes = test::tetgen_nodes(s);
-    const auto refuses = [](const std::string& points, const std::string& elements, const char* message) {
+    const auto refuses = [](const std::string& points, const std::string& elements, const char* message)
+    {
         CHECK_THROWS_WITH_AS(io::impl::parse_tetgen(points, elements, {}, "a.node"), doctest::Contains(message),
                              io::io_error);
     };

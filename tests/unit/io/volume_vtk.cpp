@@ -36,15 +36,17 @@ TEST_CASE("VTK, VTU: integers of points and cells are groups by value")
     // By the names of types of a fixed width, as VTK 5.1 files have them.
     const auto wide = test::vtk_text(s, {}, 5);
     for (const auto& [name, fixed] : {std::pair("part int", "part vtktypeint32"), {"part int", "part vtktypeuint32"}})
-        CHECK(io::impl::parse_volume(exchange(wide, name, fixed), volume_format::vtk).find_group("part:7").vertices.size() ==
-              3);
+        CHECK(io::impl::parse_volume(exchange(wide, name, fixed), volume_format::vtk)
+                  .find_group("part:7")
+                  .vertices.size() == 3);
 }
 
 TEST_CASE("VTK: attributes that are not known, or number things, make no groups, which is said")
 {
     const auto s = test::small_volume(false);
     const std::string text = test::vtk_text(s, {}, 3);
-    const auto file = io::impl::parse_volume(exchange(text, "VECTORS push float", "SPECIAL push float"), volume_format::vtk);
+    const auto file =
+        io::impl::parse_volume(exchange(text, "VECTORS push float", "SPECIAL push float"), volume_format::vtk);
     REQUIRE(file.notes.size() == 1);
     CHECK(file.notes[0].find("'SPECIAL'") != std::string::npos);
     CHECK(file.find_group("part:1").vertices.size() == 4);
@@ -112,9 +114,9 @@ TEST_CASE("VTU: bits and strings make no groups")
         for (const char* const array : {"<DataArray type='Bit' Name='b' format='ascii'>1 0 1</DataArray>",
                                         "<DataArray type=\"String\" Name='s' format='ascii'>65 0</DataArray>"})
         {
-            const auto file =
-                io::impl::parse_volume(exchange(test::vtu_text(s, {text}), "<PointData>", "<PointData>" + std::string(array)),
-                                 volume_format::vtu);
+            const auto file = io::impl::parse_volume(
+                exchange(test::vtu_text(s, {text}), "<PointData>", "<PointData>" + std::string(array)),
+                volume_format::vtu);
             CHECK(file.find_group("side:1").vertices == std::vector<idx>{1, 3});
         }
 }
@@ -210,8 +212,8 @@ TEST_CASE("VTU: errors tell the line and the remedy")
     refuses(exchange(text, "\">5 10 10</DataArray>", "\">5 10 42</DataArray>"), "polyhedra");
 
     // What is wrong with an attribute alone costs its groups.
-    const auto file =
-        io::impl::parse_volume(exchange(text, "format=\"ascii\">0 1 0 1 0<", "format=\"zip\">AAAA<"), volume_format::vtu);
+    const auto file = io::impl::parse_volume(exchange(text, "format=\"ascii\">0 1 0 1 0<", "format=\"zip\">AAAA<"),
+                                             volume_format::vtu);
     REQUIRE(file.notes.size() == 1);
     CHECK(file.notes[0].find("no groups were made of 'side': format 'zip'") != std::string::npos);
 }

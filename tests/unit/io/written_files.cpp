@@ -261,7 +261,8 @@ TEST_CASE("require_writable: says before the work what would be said after it, a
     fs::permissions(folder / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
     for (const char* name : {"old", "sealed/new"})
     {
-        CHECK_THROWS_WITH_AS(io::impl::require_writable(folder / name), doctest::Contains("Permission denied"), io::io_error);
+        CHECK_THROWS_WITH_AS(io::impl::require_writable(folder / name), doctest::Contains("Permission denied"),
+                             io::io_error);
         CHECK_THROWS_WITH_AS(io::write_file(folder / name, ""), doctest::Contains("Permission denied"), io::io_error);
     }
     CHECK(folder.read(folder / "old") == "old");

@@ -8,14 +8,14 @@
 #include <numbers>
 #include <vector>
 
-using taut::solve::brent;
-using taut::solve::brent_tolerance;
+using taut::solve::impl::brent;
+using taut::solve::impl::brent_tolerance;
 
 namespace
 {
 
 template <class F>
-taut::solve::brent_result run(F f, double a, double b, double c, brent_tolerance t = {})
+taut::solve::impl::brent_result run(F f, double a, double b, double c, brent_tolerance t = {})
 {
     return brent(f, a, b, c, f(b), t);
 }

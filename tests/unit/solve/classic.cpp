@@ -9,6 +9,7 @@
 #include <string>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 namespace
 {

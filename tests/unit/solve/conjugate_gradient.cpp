@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 namespace
 {

@@ -7,6 +7,7 @@
 #include <memory>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 namespace
 {

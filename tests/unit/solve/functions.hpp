@@ -132,12 +132,12 @@ public:
     {
     }
 
-    taut::solve::line_point start() const { return start_; }
+    taut::solve::impl::line_point start() const { return start_; }
     double bound() const { return bound_; }
     double noise() const { return 1e-14 * std::abs(start_.value); }
     double ceiling() const { return start_.value + noise(); }
     int batch() const { return batch_; }
-    taut::solve::line_point best() const { return best_; }
+    taut::solve::impl::line_point best() const { return best_; }
     bool interrupted() const { return evaluations >= limit; }
 
     double value(double a)
@@ -145,7 +145,7 @@ public:
         longest = std::max(longest, a);
         if (interrupted()) return std::numeric_limits<double>::infinity();
         ++evaluations;
-        const double v = taut::solve::finite_or_inf(f_(a));
+        const double v = taut::solve::impl::finite_or_inf(f_(a));
         if (v < best_.value) best_ = {.step = a, .value = v};
         return v;
     }
@@ -174,7 +174,7 @@ private:
     DF df_;
     double bound_;
     int batch_;
-    taut::solve::line_point start_, best_;
+    taut::solve::impl::line_point start_, best_;
     double at_ = 0;
 };
 

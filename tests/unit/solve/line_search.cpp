@@ -12,6 +12,7 @@
 #include <string>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 namespace
 {

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 namespace
 {

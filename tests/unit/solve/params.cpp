@@ -7,6 +7,7 @@
 #include <string>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 TEST_CASE("params: the defaults are valid")
 {

@@ -9,6 +9,7 @@
 #include <taut/impl/solve/prescribed.hpp>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 namespace
 {

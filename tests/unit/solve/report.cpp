@@ -7,6 +7,7 @@
 #include <taut/impl/solve/report.hpp>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 TEST_CASE("report: a run that was continued reads as one")
 {

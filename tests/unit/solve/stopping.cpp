@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 using namespace taut::solve;
+using namespace taut::solve::impl;
 
 TEST_CASE("stopping: a start that is not finite is a result, not an exception")
 {

@@ -12,9 +12,9 @@
 namespace
 {
 
-using taut::impl::barycentric_system;
 using taut::barycentric_weights;
 using taut::vec2;
+using taut::impl::barycentric_system;
 
 /// A path 0 - 1 - ... - n-1 with fixed ends at x = 0 and x = 1; weight[k] joins k and k + 1, weight[0] the left end.
 barycentric_system path(const std::vector<double>& weight)
@@ -89,7 +89,8 @@ TEST_CASE("elimination tree: every variable is eliminated once, children come fi
     const auto m = taut::test::bumpy(15, 0.3, 4);
     const std::vector<char> fixed(m.points().size(), 0);
     const std::vector<vec2> x(m.points().size());
-    const auto system = taut::impl::make_barycentric_system(m.points(), m.cells(), fixed, x, barycentric_weights::uniform);
+    const auto system =
+        taut::impl::make_barycentric_system(m.points(), m.cells(), fixed, x, barycentric_weights::uniform);
     const taut::impl::elimination_tree tree(system.offset, system.column);
     std::vector<int> front_of(system.size(), -1);
     int f = 0;

@@ -118,14 +118,14 @@ TEST_CASE("barycentric map: mean value weights reproduce a planar convex mesh wi
 {
     // The unit square on a square with chord spacing is a similarity of the boundary, so of the whole map.
     const auto m = taut::test::bumpy(10, 0.0, 3);
-    const auto start =
-        taut::impl::barycentric_map(m, {{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::mean_value});
+    const auto start = taut::impl::barycentric_map(
+        m, {{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::mean_value});
     CHECK(start.distortion.measure == doctest::Approx(4).epsilon(1e-9));
     CHECK(start.distortion.uniform == doctest::Approx(4).epsilon(1e-9));
     CHECK(start.flips.min_det == doctest::Approx(1).epsilon(1e-9));
     CHECK(start.flips.max_det == doctest::Approx(1).epsilon(1e-9));
-    const auto uniform =
-        taut::impl::barycentric_map(m, {{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::uniform});
+    const auto uniform = taut::impl::barycentric_map(
+        m, {{boundary_shape::square, boundary_spacing::chord}, barycentric_weights::uniform});
     CHECK(uniform.distortion.measure > 4.01);
 }
 

@@ -10,11 +10,11 @@
 namespace
 {
 
-using taut::impl::coarse_start;
 using taut::idx;
-using taut::impl::robust_start;
 using taut::vec2;
 using taut::vec3;
+using taut::impl::coarse_start;
+using taut::impl::robust_start;
 using surface = taut::mesh<taut::triangle>;
 
 /// Valid, at the scale of least energy, and below a bound.
@@ -192,8 +192,9 @@ TEST_CASE("coarse start: a fixed boundary stays on the outline")
 TEST_CASE("coarse start: a hierarchy without the boundary that is to be fixed is refused")
 {
     const auto m = taut::test::cap(20, 2);
-    CHECK_THROWS_AS(coarse_start(m, taut::impl::make_hierarchy(m), {.vertices = 100, .coarse = {.fixed_boundary = true}}),
-                    taut::parameter_error);
+    CHECK_THROWS_AS(
+        coarse_start(m, taut::impl::make_hierarchy(m), {.vertices = 100, .coarse = {.fixed_boundary = true}}),
+        taut::parameter_error);
 }
 
 TEST_CASE("coarse start: the outline is the longest boundary loop of the fine surface")

@@ -101,8 +101,8 @@ TEST_CASE("emit: a kernel is one statement an operation, in the order of the rec
                       "}\n");
     using taut::impl::argument_kind, taut::scalar_type;
     CHECK(k.arguments == std::vector<taut::impl::kernel_argument>{{"x", argument_kind::in, scalar_type::f64},
-                                                            {"y", argument_kind::inout, scalar_type::f64},
-                                                            {"a", argument_kind::scalar, scalar_type::f64}});
+                                                                  {"y", argument_kind::inout, scalar_type::f64},
+                                                                  {"a", argument_kind::scalar, scalar_type::f64}});
 }
 
 TEST_CASE("emit: arguments that are used at the plain index are known, those at other places or in a loop are not")

@@ -180,7 +180,8 @@ TEST_CASE("recording: a kernel in float is written with doubles, and mentions no
         z[i + 1] = select(chosen > 0.5, sym<double>(1.0), sym<double>(0.0));
         return r.finish("f", form).source;
     };
-    for (const auto form : {taut::impl::kernel_form::item, taut::impl::kernel_form::guarded, taut::impl::kernel_form::run})
+    for (const auto form :
+         {taut::impl::kernel_form::item, taut::impl::kernel_form::guarded, taut::impl::kernel_form::run})
     {
         const std::string narrow = record(scalar_type::f32, form), wide = record(scalar_type::f64, form);
         CHECK(narrow.find("double") == std::string::npos);

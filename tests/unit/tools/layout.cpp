@@ -160,11 +160,9 @@ TEST_CASE("layout: the caption counts")
     CHECK(io::impl::layout_caption(faces, style, {}) ==
           "18 faces, 1 flipped, energy 4.5, 1 not finite  |  distortion: median 2, 99 % below 2, largest 2");
     const io::layout_overlay overlay{.branch_points = {vec2(0.5), vec2(0.25)}};
-    CHECK(
-        io::impl::layout_caption(faces, style, overlay).starts_with("18 faces, 1 flipped, 2 branch points, energy"));
+    CHECK(io::impl::layout_caption(faces, style, overlay).starts_with("18 faces, 1 flipped, 2 branch points, energy"));
     style.census = "9 quads, 0 inverted"; // faces are halves of them
-    CHECK(
-        io::impl::layout_caption(faces, style, overlay).starts_with("9 quads, 0 inverted, 2 branch points, energy"));
+    CHECK(io::impl::layout_caption(faces, style, overlay).starts_with("9 quads, 0 inverted, 2 branch points, energy"));
 }
 
 TEST_CASE("layout: the same input gives the same picture")

@@ -213,7 +213,7 @@ inline chart_mesh cut_charts(const mesh<triangle>& m, const facet_table& f, std:
     {
         std::vector<idx> order(n);
         auto start = impl::counting_sort(n, u(charts), chart_of,
-                                           [&](std::size_t i, std::size_t at) { order[at] = static_cast<idx>(i); });
+                                         [&](std::size_t i, std::size_t at) { order[at] = static_cast<idx>(i); });
         return std::pair(std::move(start), std::move(order));
     };
     auto [first_cell, cell_origins] = by_chart(cells, [&](std::size_t c) { return chart[c]; });
@@ -235,23 +235,23 @@ inline chart_mesh cut_charts(const mesh<triangle>& m, const facet_table& f, std:
     std::vector<idx> vertex_origins(order.size()), place(order.size()); // of each fan
     std::vector<std::array<idx, 3>> cut(cells);
     impl::parallel_for(order.size(),
-                 [&, &order = order](std::size_t begin, std::size_t end)
-                 {
-                     for (std::size_t i = begin; i < end; ++i)
-                     {
-                         const idx fan = by_vertex[u(order[i])];
-                         place[u(fan)] = static_cast<idx>(i);
-                         vertex_origins[i] = vertex_of(fan);
-                         points[i] = m.points()[u(vertex_origins[i])];
-                     }
-                 });
+                       [&, &order = order](std::size_t begin, std::size_t end)
+                       {
+                           for (std::size_t i = begin; i < end; ++i)
+                           {
+                               const idx fan = by_vertex[u(order[i])];
+                               place[u(fan)] = static_cast<idx>(i);
+                               vertex_origins[i] = vertex_of(fan);
+                               points[i] = m.points()[u(vertex_origins[i])];
+                           }
+                       });
     impl::parallel_for(cells,
-                 [&, &cell_origins = cell_origins](std::size_t begin, std::size_t end)
-                 {
-                     for (std::size_t i = begin; i < end; ++i)
-                         for (std::size_t k = 0; k < 3; ++k)
-                             cut[i][k] = place[u(fans.of_corner[3 * u(cell_origins[i]) + k])];
-                 });
+                       [&, &cell_origins = cell_origins](std::size_t begin, std::size_t end)
+                       {
+                           for (std::size_t i = begin; i < end; ++i)
+                               for (std::size_t k = 0; k < 3; ++k)
+                                   cut[i][k] = place[u(fans.of_corner[3 * u(cell_origins[i]) + k])];
+                       });
     return {mesh<triangle>(std::move(points), std::move(cut)), std::move(first_cell), std::move(first_vertex),
             std::move(cell_origins), std::move(vertex_origins)};
 }

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/arc_graph.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/chart_moments.hpp>
 #include <taut/impl/atlas/seams/seam_weights.hpp>
 #include <taut/impl/core/budget.hpp>
@@ -70,7 +70,6 @@ struct cluster_tree
         return seam;
     }
 };
-
 
 /// Unites neighbouring pieces, those first that save most length of seam for the distortion that it costs.
 class clustering

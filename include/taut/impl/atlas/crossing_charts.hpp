@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/chart_border.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/exact/crossings.hpp>
 

@@ -223,11 +223,11 @@ private:
             auto map = parameterize(queue_, work_[k].chart->surface, params);
             report.iterations = static_cast<int>(map.report.solve.iterations);
             report.reason = map.reason();
-            report.outcome = !map                                      ? chart_outcome::no_map
-                             : solve::converged(map.report.solve.stop) ? chart_outcome::converged
-                             : clock_.over()                           ? chart_outcome::stopped
-                             : steps >= params_.max_iterations         ? chart_outcome::iterations
-                                                                       : chart_outcome::stuck;
+            report.outcome = !map                                            ? chart_outcome::no_map
+                             : solve::impl::converged(map.report.solve.stop) ? chart_outcome::converged
+                             : clock_.over()                                 ? chart_outcome::stopped
+                             : steps >= params_.max_iterations               ? chart_outcome::iterations
+                                                                             : chart_outcome::stuck;
             if (map) work_[k].uv = std::move(map.uv);
         }
         catch (const mesh_error& e)

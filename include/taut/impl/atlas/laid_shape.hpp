@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/chart_border.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
 
 namespace taut::impl

@@ -13,9 +13,9 @@
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
+#include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/pinned_charts.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
-#include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
 #include <taut/impl/mesh/validate.hpp>
 #include <taut/impl/packing/certificate.hpp>

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <taut/impl/atlas/crossing_charts.hpp>
-#include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/packing/certificate.hpp>
 

@@ -109,7 +109,6 @@ struct chart_maps
     std::vector<char> settled;  ///< one a chart; 0: the map could be better, for want of effort
 };
 
-
 /// Maps of charts; of those that are given a map to begin with, all that effort can do.
 using charts_to_maps = std::function<chart_maps(const chart_mesh&, std::span<const vec2>)>;
 

@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/atlas/cluster_tree.hpp>
 #include <taut/impl/atlas/chart_moments.hpp>
+#include <taut/impl/atlas/cluster_tree.hpp>
 #include <taut/impl/atlas/laid_shape.hpp>
 #include <taut/impl/atlas/seams/seam_arcs.hpp>
 #include <taut/impl/atlas/seams/straighten.hpp>
+#include <taut/impl/atlas/segment.hpp>
 #include <taut/impl/atlas/surface_charts.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
-#include <taut/impl/atlas/segment.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 
 namespace taut::impl

@@ -13,8 +13,8 @@
 #include <taut/impl/atlas/cluster_tree.hpp>
 #include <taut/impl/atlas/laid_shape.hpp>
 #include <taut/impl/atlas/seams/seam_arcs.hpp>
-#include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/atlas/segment.hpp>
+#include <taut/impl/atlas/surface_part.hpp>
 
 namespace taut::impl
 {

@@ -51,7 +51,7 @@ struct mirror_symmetry
     std::vector<idx> vertex;  ///< the image of each vertex; itself on the plane
     std::vector<idx> side;    ///< the image of each side, which runs the other way; -1 within polygons
     std::vector<idx> polygon; ///< that each triangle is of, by the first of its triangles
-    impl::csr triangles;            ///< of each polygon
+    impl::csr triangles;      ///< of each polygon
     std::vector<idx> image;   ///< of each polygon: itself where it lies across the plane
 
     /// The corner at the image of the vertex of corner k of triangle c, in the image of its polygon. Triangles need not

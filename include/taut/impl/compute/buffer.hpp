@@ -22,8 +22,9 @@ namespace taut
 template <class T>
 class buffer
 {
-    static_assert(device_scalar<T>, "buffer<T>: T must be float, double or a 32 or 64 bit integer; split structs and "
-                                    "vectors into one buffer a component");
+    static_assert(impl::device_scalar<T>,
+                  "buffer<T>: T must be float, double or a 32 or 64 bit integer; split structs and "
+                  "vectors into one buffer a component");
 
 public:
     using value_type = T;

@@ -33,7 +33,7 @@ public:
     handler& operator=(const handler&) = delete;
 
     /// A number that may change between submits without a new build.
-    template <traceable T>
+    template <impl::traceable T>
     sym<T> uniform(T value)
     {
         arguments_.emplace_back(value);
@@ -48,7 +48,7 @@ public:
     }
 
     /// Behind buffer::read, write and read_write.
-    template <traceable T>
+    template <impl::traceable T>
     impl::in_array<T> reads(const buffer<T>& b)
     {
         arguments_.emplace_back(b);
@@ -59,7 +59,7 @@ public:
         arguments_.emplace_back(b);
         return recording_.in<double>({}, b.type());
     }
-    template <traceable T>
+    template <impl::traceable T>
     impl::out_array<T> writes(buffer<T>& b)
     {
         arguments_.emplace_back(b);
@@ -70,7 +70,7 @@ public:
         arguments_.emplace_back(b);
         return recording_.out<double>({}, b.type());
     }
-    template <traceable T>
+    template <impl::traceable T>
     impl::inout_array<T> updates(buffer<T>& b)
     {
         arguments_.emplace_back(b);

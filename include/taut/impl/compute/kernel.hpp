@@ -150,7 +150,7 @@ private:
     boost::compute::kernel kernel_;
     std::string name_;
     std::vector<impl::parameter> signature_;
-    std::size_t count_ = 0;             ///< of its arguments
+    std::size_t count_ = 0;                   ///< of its arguments
     mutable impl::build_under_way under_way_; ///< elsewhere, to be waited for at the first launch
 };
 
@@ -237,7 +237,8 @@ namespace taut
 {
 
 template <class... Args>
-impl::typed_kernel<Args...> queue::kernel(const std::string& source, const std::string& name, const std::string& options)
+impl::typed_kernel<Args...> queue::kernel(const std::string& source, const std::string& name,
+                                          const std::string& options)
 {
     return impl::typed_kernel<Args...>(*this, source, name, options);
 }

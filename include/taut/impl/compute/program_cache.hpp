@@ -11,10 +11,10 @@
 
 #include <taut/impl/compute/detail/build_excerpt.hpp>
 #include <taut/impl/compute/detail/few_functions.hpp>
-#include <taut/impl/compute/kernels/functions.hpp>
 #include <taut/impl/compute/detail/program_builder.hpp>
 #include <taut/impl/compute/device.hpp>
 #include <taut/impl/compute/errors.hpp>
+#include <taut/impl/compute/kernels/functions.hpp>
 #include <taut/impl/compute/quirks.hpp>
 
 namespace taut::impl

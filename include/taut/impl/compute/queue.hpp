@@ -81,7 +81,8 @@ public:
     /// The kernel called name in OpenCL C source, with the C++ types of its arguments in order: buffer<T>,
     /// const buffer<T>, or a scalar. Built at the first request, then found in the cache. Defined in kernel.hpp.
     template <class... Args>
-    impl::typed_kernel<Args...> kernel(const std::string& source, const std::string& name, const std::string& options = {});
+    impl::typed_kernel<Args...> kernel(const std::string& source, const std::string& name,
+                                       const std::string& options = {});
 
     queue_counters counters() const;
 

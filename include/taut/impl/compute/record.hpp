@@ -24,19 +24,19 @@ namespace taut
 
 /// What a traced kernel does with an argument: a buffer that it reads, writes, or reads and writes, or a number that
 /// may change from launch to launch.
-template <traceable T>
+template <impl::traceable T>
 struct in
 {
 };
-template <traceable T>
+template <impl::traceable T>
 struct out
 {
 };
-template <traceable T>
+template <impl::traceable T>
 struct inout
 {
 };
-template <traceable T>
+template <impl::traceable T>
 struct uniform
 {
 };

@@ -9,7 +9,7 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/symbolic/scalar_type.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// A number that has the same size and meaning on the host and on every device: float, double, and the fixed-width
@@ -18,7 +18,7 @@ template <class T>
 concept device_scalar = std::same_as<T, float> || std::same_as<T, double> ||
     (std::integral<T> && !std::same_as<T, bool> && (sizeof(T) == 4 || sizeof(T) == 8));
 
-} // namespace taut
+} // namespace taut::impl
 
 namespace taut::impl
 {
@@ -36,7 +36,6 @@ constexpr const char* cl_name()
     else
         return std::signed_integral<T> ? "long" : "ulong";
 }
-
 
 /// Refuses double early on a device without it; the driver would only fail later and less clearly.
 inline void require_fp64(const queue_state& state, scalar_type type, const std::string& operation)

@@ -175,7 +175,8 @@ private:
     /// Workspace, shared by copies of the space; kernels are built when first used.
     struct shared
     {
-        shared(const taut::queue& q, scalar_type real, impl::reduction_plan plan) : queue(q), type(real), reductions(q, plan)
+        shared(const taut::queue& q, scalar_type real, impl::reduction_plan plan)
+            : queue(q), type(real), reductions(q, plan)
         {
         }
 

@@ -24,7 +24,6 @@ struct boundary_motion
     std::vector<slide<Element::dimension>> slides; ///< in other flat sides, and along straight creases between them
 };
 
-
 /// Directions that a few unit vectors span, one after the other as they come.
 template <int D>
 class span_of_normals
@@ -68,7 +67,6 @@ struct kept_facet
         return std::span<const idx>(vertices).first(vertices[2] < 0 ? 2 : vertices[3] < 0 ? 3 : 4);
     }
 };
-
 
 /// Collects the directions in which vertices may not move.
 template <class Element>

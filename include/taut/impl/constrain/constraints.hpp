@@ -186,7 +186,7 @@ public:
         if (!finite(x, all)) impl::refuse_vertices(constraint_fault::not_finite, {v}, not_finite_);
         if (!(weight >= 0) || !std::isfinite(weight))
             impl::refuse_vertices(constraint_fault::bad_weight, {v},
-                                    "with a spring whose weight is negative or not finite; give a finite one >= 0");
+                                  "with a spring whose weight is negative or not finite; give a finite one >= 0");
         if (held(v) == all) impl::refuse_vertices(constraint_fault::idle_spring, {v}, idle_spring_);
         if (!springs_.try_emplace(v, taut::spring<D>{v, x, weight}).second)
             impl::refuse_vertices(constraint_fault::duplicate, {v}, "with a second spring; leave one out");
@@ -204,7 +204,7 @@ public:
         for (const auto& [v, s] : springs_)
             if (!finite(s.target * unit, all)) far.push_back(v);
         impl::refuse_vertices(constraint_fault::not_finite, std::move(far),
-                                "with a target that is too far away for the size of the mesh; give a nearer one");
+                              "with a target that is too far away for the size of the mesh; give a nearer one");
     }
 
     /// Throws constraint_error (unused_vertex) where anything is asked of one of these vertices, which ascend: those
@@ -220,8 +220,8 @@ public:
             if (is_unused(v) && !pins_.contains(v)) bad.push_back(v);
         std::sort(bad.begin(), bad.end());
         impl::refuse_vertices(constraint_fault::unused_vertex, std::move(bad),
-                                std::string("pinned that no ") + Element::name +
-                                    " uses, so that nothing follows; pin others, or leave the pins out");
+                              std::string("pinned that no ") + Element::name +
+                                  " uses, so that nothing follows; pin others, or leave the pins out");
     }
 
     /// The same for a copy of the mesh. Throws constraint_error where it is another mesh, with fewer vertices.
@@ -292,7 +292,7 @@ private:
         for (const idx v : vertices)
             if (v < 0 || static_cast<std::size_t>(v) >= count()) bad.push_back(v);
         impl::refuse_vertices(constraint_fault::out_of_range, std::move(bad),
-                                "that the mesh does not have; it has " + std::to_string(count()) + ", counted from 0");
+                              "that the mesh does not have; it has " + std::to_string(count()) + ", counted from 0");
     }
 
     static void require_coordinate(idx v, int k)
@@ -365,9 +365,9 @@ private:
         }
         impl::refuse_vertices(constraint_fault::not_finite, std::move(not_finite), not_finite_);
         impl::refuse_vertices(constraint_fault::contradictory, std::move(contradictory),
-                                "pinned to two different positions; leave one of the pins out");
+                              "pinned to two different positions; leave one of the pins out");
         impl::refuse_vertices(constraint_fault::duplicate, std::move(duplicate),
-                                "pinned twice to the same position; leave one of the pins out");
+                              "pinned twice to the same position; leave one of the pins out");
         impl::refuse_vertices(constraint_fault::idle_spring, std::move(idle), idle_spring_);
         for (auto& [v, p] : added) pins_.insert_or_assign(v, p);
         return *this;

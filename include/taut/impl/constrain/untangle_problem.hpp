@@ -22,7 +22,7 @@ struct untangle_problem
 
     mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
     std::vector<vec<D>> initial; ///< one a vertex, in any state; a held coordinate is a hard constraint
-    impl::held_marks<D> held;          ///< one a vertex
+    impl::held_marks<D> held;    ///< one a vertex
     /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
     /// empty: none is known.
     std::vector<vec<D>> draft = {};

@@ -42,7 +42,8 @@ namespace taut
 /// surface; infinity beyond `limit` and where no way leads. Fronts are carried across triangles as circles around an
 /// unfolded source (fast marching after Kimmel and Sethian 1998, with the update of Novotni and Klein 2002): exact in a
 /// plane as far as the source is seen, a percent or so too long on scans.
-inline std::vector<double> geodesic_distances(const mesh<triangle>& m, const impl::csr& cells_of, std::span<const idx> from,
+inline std::vector<double> geodesic_distances(const mesh<triangle>& m, const impl::csr& cells_of,
+                                              std::span<const idx> from,
                                               double limit = std::numeric_limits<double>::infinity())
 {
     constexpr double far = std::numeric_limits<double>::infinity();

@@ -136,8 +136,8 @@ public:
                       [&](const std::array<idx, 2>& pair)
                       {
                           return pair[0] >= first_feature_ &&
-                                 impl::turned_back(part_.region.surface, pair[0] - first_feature_, pair[1] - first_feature_) >
-                                     impl::fold_angle - nearly;
+                                 impl::turned_back(part_.region.surface, pair[0] - first_feature_,
+                                                   pair[1] - first_feature_) > impl::fold_angle - nearly;
                       });
         return pairs;
     }
@@ -330,7 +330,7 @@ private:
     {
         const double far = *std::max_element(from_rim_.begin(), from_rim_.end());
         auto laid = impl::lay_feature(queue_, part_.region, from_rim_, 0.4 * far, site_.place, site_.rim.uv,
-                                        params_.time_limit);
+                                      params_.time_limit);
         bend_laid_ = {queue_, base_.field(std::vector<vec3>(moving_.size(), vec3(0.0))), laid.on_target};
         laid_ = std::move(laid);
         paste_pose soft = to;
@@ -413,12 +413,12 @@ private:
     paste_report report_;
     impl::site site_;
     impl::bending base_, soft_;
-    std::vector<double> from_rim_;             ///< of vertices of the feature
+    std::vector<double> from_rim_;           ///< of vertices of the feature
     std::optional<impl::laid_feature> laid_; ///< from the first soft pose on
-    double laid_width_ = 0;                    ///< of the band that follows it
-    impl::rbf_evaluator bend_laid_;                  ///< of the field of the target, there
-    std::vector<idx> moving_;                  ///< controls, of the rim
-    std::vector<idx> bent_;                    ///< vertices of the result
+    double laid_width_ = 0;                  ///< of the band that follows it
+    impl::rbf_evaluator bend_laid_;          ///< of the field of the target, there
+    std::vector<idx> moving_;                ///< controls, of the rim
+    std::vector<idx> bent_;                  ///< vertices of the result
     std::vector<vec3> points_;
     std::vector<cell> cells_;
     std::vector<idx> origins_, kept_faces_;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <taut/impl/core/types.hpp>
-#include <taut/impl/mesh/manifold.hpp>
 #include <taut/impl/mesh/facets.hpp>
+#include <taut/impl/mesh/manifold.hpp>
 
 namespace taut::impl
 {

@@ -135,8 +135,8 @@ private:
         std::vector<idx> leader(y.size());
         std::iota(leader.begin(), leader.end(), 0);
         impl::for_each_near_pair(y, 1e-12,
-                                   [&](std::size_t i, std::size_t j, double) // i < j
-                                   { leader[j] = std::min(leader[j], leader[i]); });
+                                 [&](std::size_t i, std::size_t j, double) // i < j
+                                 { leader[j] = std::min(leader[j], leader[i]); });
         for (std::size_t i = 0; i < y.size(); ++i)
         {
             if (leader[i] == static_cast<idx>(i))
@@ -201,11 +201,11 @@ private:
         std::vector<Eigen::Triplet<double>> entries;
         for (int i = 0; i < size(); ++i) entries.emplace_back(i, i, impl::rbf_value(params_.basis, 0, field_.radius));
         impl::for_each_near_pair(field_.centres, field_.radius,
-                                   [&](std::size_t i, std::size_t j, double r)
-                                   {
-                                       const double value = impl::rbf_value(params_.basis, r, field_.radius);
-                                       entries.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
-                                   });
+                                 [&](std::size_t i, std::size_t j, double r)
+                                 {
+                                     const double value = impl::rbf_value(params_.basis, r, field_.radius);
+                                     entries.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
+                                 });
         Eigen::SparseMatrix<double> system(size(), size());
         system.setFromTriplets(entries.begin(), entries.end());
         sparse_ = std::make_shared<const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>>(system);
@@ -229,7 +229,7 @@ private:
     }
 
     rbf_params params_;
-    impl::rbf_field field_;            ///< without weights
+    impl::rbf_field field_;      ///< without weights
     std::vector<idx> merged_to_; ///< the centre of each point
     std::vector<idx> of_centre_; ///< the first point of each centre
     matrix axes_, polynomial_;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <taut/impl/compute/detail/few_functions.hpp>
-#include <taut/impl/compute/kernels/rbf.hpp>
 #include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/compute/kernels/rbf.hpp>
 #include <taut/impl/compute/real_buffer.hpp>
 #include <taut/impl/edit/rbf_field.hpp>
 #include <taut/impl/mesh/arrays.hpp>
@@ -38,7 +38,7 @@ public:
         out_ = {q, type_, 3 * count_};
         evaluate_ = {q, impl::kernels::rbf, "rbf_evaluate",
                      impl::few_functions + ("-DREAL=" + std::string(spelling(type_)) +
-                                              " -DPHI=" + std::to_string(static_cast<int>(field.basis))),
+                                            " -DPHI=" + std::to_string(static_cast<int>(field.basis))),
                      type_};
     }
 

@@ -146,4 +146,3 @@ inline feature tessellate(queue& q, const feature& part, const feature_map& map,
 }
 
 } // namespace taut
-

@@ -48,30 +48,30 @@ inline void write_paste(atomic_file& out, const paste& p, const surface_file& ta
     const auto& part = p.part().region;
     const auto first_texcoord = static_cast<idx>(target.texcoords.size());
     impl::write_items(out, p.cells().size(),
-                        [&](std::string& text, std::size_t f)
-                        {
-                            auto texcoords = none;
-                            if (f < p.kept_faces().size())
-                            {
-                                if (!target.texcoord_cells.empty())
-                                    texcoords = target.texcoord_cells[static_cast<std::size_t>(p.kept_faces()[f])];
-                            }
-                            else if (f >= static_cast<std::size_t>(p.first_feature()) && !source.texcoord_cells.empty())
-                            {
-                                const std::size_t own = f - static_cast<std::size_t>(p.first_feature());
-                                if (part.faces[own] < 0) return append(text, p.cells()[f], none);
-                                const auto of_source = static_cast<std::size_t>(part.faces[own]);
-                                texcoords = source.texcoord_cells[of_source];
-                                for (std::size_t k = 0; k < 3; ++k)
-                                {
-                                    const idx v = part.surface.cells()[own][k];
-                                    const bool same = part.vertices[static_cast<std::size_t>(v)] ==
-                                                      source.surface.cells()[of_source][k];
-                                    texcoords[k] = same && texcoords[k] >= 0 ? texcoords[k] + first_texcoord : -1;
-                                }
-                            }
-                            append(text, p.cells()[f], texcoords);
-                        });
+                      [&](std::string& text, std::size_t f)
+                      {
+                          auto texcoords = none;
+                          if (f < p.kept_faces().size())
+                          {
+                              if (!target.texcoord_cells.empty())
+                                  texcoords = target.texcoord_cells[static_cast<std::size_t>(p.kept_faces()[f])];
+                          }
+                          else if (f >= static_cast<std::size_t>(p.first_feature()) && !source.texcoord_cells.empty())
+                          {
+                              const std::size_t own = f - static_cast<std::size_t>(p.first_feature());
+                              if (part.faces[own] < 0) return append(text, p.cells()[f], none);
+                              const auto of_source = static_cast<std::size_t>(part.faces[own]);
+                              texcoords = source.texcoord_cells[of_source];
+                              for (std::size_t k = 0; k < 3; ++k)
+                              {
+                                  const idx v = part.surface.cells()[own][k];
+                                  const bool same = part.vertices[static_cast<std::size_t>(v)] ==
+                                                    source.surface.cells()[of_source][k];
+                                  texcoords[k] = same && texcoords[k] >= 0 ? texcoords[k] + first_texcoord : -1;
+                              }
+                          }
+                          append(text, p.cells()[f], texcoords);
+                      });
 }
 
 } // namespace taut::io

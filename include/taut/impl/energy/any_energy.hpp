@@ -88,7 +88,8 @@ public:
     /// does, traced; nothing of others. Filtered they are to be positive semi-definite, and else what they are.
     template <int D>
     std::optional<impl::symmetric_matrix<sym<double>, D * D>>
-    hessian(const element<sym<double>, D>& e, const impl::eigenvalue_filter<sym<double>>& filter, scalar_type type) const
+    hessian(const element<sym<double>, D>& e, const impl::eigenvalue_filter<sym<double>>& filter,
+            scalar_type type) const
     {
         return model_->hessian_at(e, filter, type);
     }

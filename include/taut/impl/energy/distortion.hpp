@@ -27,7 +27,7 @@ element<double, Element::dimension> mapped_element(const mesh<Element>& m, const
 
 } // namespace taut::impl
 
-namespace taut
+namespace taut::impl
 {
 
 /// An energy's value at an element: +infinity beyond its barrier, where the element is flipped or flat.
@@ -37,6 +37,11 @@ double bounded(const Energy& energy, const element<double, D>& e)
     return Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
 }
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// An energy's value for every element, as bounded() has it.
 template <class Element, class Energy>
 std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Element>& ideal,
@@ -44,11 +49,11 @@ std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Elem
 {
     std::vector<double> result(m.cells().size());
     impl::parallel_for(result.size(),
-                 [&](std::size_t begin, std::size_t end)
-                 {
-                     for (std::size_t c = begin; c < end; ++c)
-                         result[c] = bounded(energy, impl::mapped_element(m, ideal, x, c));
-                 });
+                       [&](std::size_t begin, std::size_t end)
+                       {
+                           for (std::size_t c = begin; c < end; ++c)
+                               result[c] = bounded(energy, impl::mapped_element(m, ideal, x, c));
+                       });
     return result;
 }
 
@@ -112,12 +117,12 @@ means mean_over(const mesh<Element>& m, const ideal_elements<Element>& ideal,
         }
     };
     const auto s = impl::block_sum<sums>(m.cells().size(),
-                                           [&](sums& part, std::size_t c)
-                                           {
-                                               const auto e = impl::mapped_element(m, ideal, x, c);
-                                               part.values.add(value(e), e.measure);
-                                               part.total += e.measure;
-                                           });
+                                         [&](sums& part, std::size_t c)
+                                         {
+                                             const auto e = impl::mapped_element(m, ideal, x, c);
+                                             part.values.add(value(e), e.measure);
+                                             part.total += e.measure;
+                                         });
     return s.values.over(m.cells().size(), s.total);
 }
 

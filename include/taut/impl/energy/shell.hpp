@@ -45,7 +45,8 @@ struct shell
     /// Second derivatives by the entries of S, by columns. Filtered, the stretching energy of each triangle has its own
     /// eigenvalues filtered, and bending has what Gauss and Newton's method has, which is positive.
     template <class T>
-    taut::impl::symmetric_matrix<T, 9> hessian(const element<T, 3>& e, const taut::impl::eigenvalue_filter<T>& filter, scalar_type type) const
+    taut::impl::symmetric_matrix<T, 9> hessian(const element<T, 3>& e, const taut::impl::eigenvalue_filter<T>& filter,
+                                               scalar_type type) const
     {
         taut::impl::symmetric_matrix<T, 9> H;
         for (int j = 0; j < 9; ++j)

@@ -369,11 +369,11 @@ inline std::size_t boundary_crossings(std::span<const std::vector<idx>> loops, s
 {
     std::size_t count = 0;
     impl::for_each_meeting(impl::edges_of(loops), x,
-                             [&count](std::size_t, std::size_t)
-                             {
-                                 ++count;
-                                 return true;
-                             });
+                           [&count](std::size_t, std::size_t)
+                           {
+                               ++count;
+                               return true;
+                           });
     return count;
 }
 

@@ -70,8 +70,7 @@ public:
     /// Throws parameter_error unless it is inside of the rectangle.
     idx add(const vec2& p, idx near)
     {
-        if (!impl::finite(p) ||
-            !(points_[0].x < p.x && p.x < points_[2].x && points_[0].y < p.y && p.y < points_[2].y))
+        if (!impl::finite(p) || !(points_[0].x < p.x && p.x < points_[2].x && points_[0].y < p.y && p.y < points_[2].y))
             throw parameter_error("point", "is not inside of the rectangle; make that larger");
         return insert(p, find(p, corner_[u(near)] / 3, false));
     }

@@ -99,8 +99,7 @@ inline orientation orient(const vec2& a, const vec2& b, const vec2& c)
     const double det = left - right;
     if (impl::decided(det, std::abs(left) + std::abs(right), 6, std::numeric_limits<double>::min()))
         return {det > 0 ? 1 : -1, det};
-    if (!impl::finite(a) || !impl::finite(b) || !impl::finite(c))
-        return {0, std::numeric_limits<double>::quiet_NaN()};
+    if (!impl::finite(a) || !impl::finite(b) || !impl::finite(c)) return {0, std::numeric_limits<double>::quiet_NaN()};
     return impl::exact_orient(a, b, c);
 }
 

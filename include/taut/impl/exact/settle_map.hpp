@@ -39,7 +39,6 @@ struct map_faults
     explicit operator bool() const { return valid() && concave == 0; }
 };
 
-
 /// A step from one number that a file holds to the next, about, near a point.
 inline double spacing_at(const vec2& p, vec2 (*stored)(vec2))
 {

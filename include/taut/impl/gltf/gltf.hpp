@@ -36,7 +36,7 @@ struct gltf_model
     std::vector<vec2> texcoords;               ///< of the set that was asked for, as in the file: v runs downwards
     std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: none
     std::vector<std::string> notes;                 ///< what was changed in reading or making it, in sentences
-    impl::gltf_source source;                             ///< the file
+    impl::gltf_source source;                       ///< the file
 };
 
 /// Whether a name ends in .gltf or .glb, in either case.

@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 #include <taut/impl/gltf/container.hpp>
-#include <taut/impl/gltf/primitives.hpp>
 #include <taut/impl/gltf/gltf.hpp>
+#include <taut/impl/gltf/primitives.hpp>
 #include <taut/impl/io/detail/point_numbers.hpp>
 #include <taut/impl/mesh/mesh_error.hpp>
 #include <utility>

@@ -28,7 +28,6 @@ struct gltf_source
     std::set<std::filesystem::path> files = {}; ///< that buffers were read from
 };
 
-
 /// An object of a document, and what messages call it.
 class gltf_object
 {

@@ -18,9 +18,9 @@
 #include <taut/impl/core/single.hpp>
 #include <taut/impl/gltf/arrays.hpp>
 #include <taut/impl/gltf/container.hpp>
+#include <taut/impl/gltf/gltf.hpp>
 #include <taut/impl/gltf/new_gltf.hpp>
 #include <taut/impl/gltf/split_vertices.hpp>
-#include <taut/impl/gltf/gltf.hpp>
 #include <taut/impl/mesh/describe.hpp>
 #include <utility>
 #include <vector>
@@ -230,16 +230,15 @@ namespace taut::io
 {
 
 std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
-                                             std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set,
-                                             gltf_numbers numbers)
+                                      std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set,
+                                      gltf_numbers numbers)
 {
     const auto data = impl::gltf_data_file(path, model.source);
     auto [document, bytes] = impl::gltf_writer(model, corner_uv, texcoord_set, numbers).write();
     impl::move_uris(document, model.source.path, path);
     const std::string extension = path.extension().string();
     if (extension.size() == 4) // .glb
-        return {
-            impl::file_of(path, impl::join_glb(document.dump(), bytes, model.source.more_chunks, path.string()))};
+        return {impl::file_of(path, impl::join_glb(document.dump(), bytes, model.source.more_chunks, path.string()))};
     std::vector<file_to_write> files;
     if (!data)
         document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + impl::to_base64(bytes);
@@ -253,7 +252,7 @@ std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const g
 }
 
 void write_gltf(const std::filesystem::path& path, const gltf_model& model,
-                       std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set, gltf_numbers numbers)
+                std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set, gltf_numbers numbers)
 {
     write_files(gltf_files(path, model, corner_uv, texcoord_set, numbers));
 }

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/hierarchy/thinning.hpp>
 #include <taut/impl/hierarchy/hierarchy.hpp>
+#include <taut/impl/hierarchy/thinning.hpp>
 #include <taut/impl/mesh/ideal.hpp>
 
 namespace taut::impl

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <taut/impl/hierarchy/boundary_rank.hpp>
-#include <taut/impl/hierarchy/point_thinning.hpp>
 #include <taut/impl/hierarchy/hierarchy.hpp>
+#include <taut/impl/hierarchy/point_thinning.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 #include <taut/impl/mesh/hinge.hpp>
 #include <taut/impl/mesh/ideal.hpp>
@@ -73,8 +73,8 @@ inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::sp
     params.validate();
     auto cloud = impl::cloud_of(m, held);
     const double unit = unit_scale(m);
-    cloud.rank = boundary.empty() ? impl::boundary_rank(m, boundary_facets(m), unit)
-                                  : impl::boundary_rank(m, boundary, unit);
+    cloud.rank =
+        boundary.empty() ? impl::boundary_rank(m, boundary_facets(m), unit) : impl::boundary_rank(m, boundary, unit);
     return impl::thinned_levels(m, std::move(cloud), params);
 }
 

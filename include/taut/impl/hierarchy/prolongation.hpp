@@ -41,7 +41,6 @@ void prolong(const prolongation<K>& P, std::span<const Value> coarse, std::span<
     }
 }
 
-
 /// Fills P.transpose for `count` columns. K is at most 4.
 template <std::size_t K>
 void transpose(prolongation<K>& P, std::size_t count, unsigned threads = 0)

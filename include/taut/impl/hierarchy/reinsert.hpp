@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <taut/impl/core/block_sum.hpp>
-#include <taut/impl/hierarchy/star_energy.hpp>
 #include <taut/impl/hierarchy/hierarchy.hpp>
+#include <taut/impl/hierarchy/star_energy.hpp>
 
 namespace taut::impl
 {
@@ -38,7 +38,6 @@ struct reinsertion
     /// positive. Empty if no triangle of the coarse map is flipped or flat but for rounding.
     std::vector<idx> failed;
 };
-
 
 /// Mean value coordinates of the vertex in its ring at rest, applied to the ring's image (Floater 2003).
 inline vec2 mean_value_point(const ring_image& ring, std::span<const vec3> rest)

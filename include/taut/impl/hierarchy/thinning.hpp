@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <taut/impl/hierarchy/independent_set.hpp>
-#include <taut/impl/hierarchy/tracking.hpp>
 #include <taut/impl/hierarchy/prolongation.hpp>
 #include <taut/impl/hierarchy/removals.hpp>
+#include <taut/impl/hierarchy/tracking.hpp>
 
 namespace taut::impl
 {

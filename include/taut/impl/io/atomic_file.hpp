@@ -18,29 +18,17 @@ namespace taut::io::impl
 
 #if defined(__unix__) || defined(__APPLE__)
 using new_file = posix_file;
-
-} // namespace taut::io::impl
-
-namespace taut::io
-{
-
 #else
-
-} // namespace taut::io
-
-namespace taut::io::impl
-{
-
 using new_file = plain_file;
-
-} // namespace taut::io::impl
-
-namespace taut::io
-{
 
 /// Nothing that a handler of signals could do is known here.
 inline void remove_temporaries() noexcept {}
 #endif
+
+} // namespace taut::io::impl
+
+namespace taut::io
+{
 
 /// A file that appears complete or not at all: it is written beside the one of that name, which it replaces in
 /// commit(). Without commit() nothing is left behind, and an older file stays. Permissions of the older file stay, its

@@ -18,7 +18,7 @@
 #include <taut/impl/io/volume_file.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
-namespace taut::io
+namespace taut::io::impl
 {
 
 /// A side of a cell of the file's dimension: a face, its normal pointing out where the cell is positive, or in the
@@ -34,13 +34,18 @@ struct cell_face
     }
 };
 
+} // namespace taut::io::impl
+
+namespace taut::io
+{
+
 /// The sides of all cells of the file's dimension, those of a cell together, and which meet.
 struct cell_faces
 {
     static constexpr idx boundary = -1; ///< no cell is on the other side
     static constexpr idx crowded = -2;  ///< three cells or more share the face
 
-    std::vector<cell_face> faces;
+    std::vector<impl::cell_face> faces;
     std::vector<idx> twin; ///< the other side of each, or boundary, or crowded
 
     /// Whether a side goes around as its twin does: one of the two cells has its corners in the other order.
@@ -101,19 +106,20 @@ inline cell_faces cell_faces_of(const volume_file& file)
 {
     std::size_t n = 0;
     for (const auto& block : file.cells)
-        if (impl::shape_of(block.kind).dimension == file.dimension) n += block.size() * impl::face_table(block.kind).size();
+        if (impl::shape_of(block.kind).dimension == file.dimension)
+            n += block.size() * impl::face_table(block.kind).size();
     cell_faces result;
     result.faces.reserve(n);
     impl::for_each_cell(file, file.dimension,
-                  [&](cell_kind kind, idx number, std::span<const idx> corners)
-                  {
-                      for (const auto& side : impl::face_table(kind))
-                      {
-                          auto& face = result.faces.emplace_back(cell_face{number, {-1, -1, -1, -1}});
-                          for (std::size_t k = 0; k < 4; ++k)
-                              if (side[k] >= 0) face.vertices[k] = corners[static_cast<std::size_t>(side[k])];
-                      }
-                  });
+                        [&](cell_kind kind, idx number, std::span<const idx> corners)
+                        {
+                            for (const auto& side : impl::face_table(kind))
+                            {
+                                auto& face = result.faces.emplace_back(impl::cell_face{number, {-1, -1, -1, -1}});
+                                for (std::size_t k = 0; k < 4; ++k)
+                                    if (side[k] >= 0) face.vertices[k] = corners[static_cast<std::size_t>(side[k])];
+                            }
+                        });
 
     struct entry
     {
@@ -145,11 +151,11 @@ inline cell_faces cell_faces_of(const volume_file& file)
                                quad ? key[1] : -1, static_cast<idx>(side)};
         });
     taut::impl::parallel_for(file.points.size(),
-                 [&](std::size_t begin, std::size_t end)
-                 {
-                     for (std::size_t v = begin; v < end; ++v)
-                         std::sort(order.begin() + start[v], order.begin() + start[v + 1]);
-                 });
+                             [&](std::size_t begin, std::size_t end)
+                             {
+                                 for (std::size_t v = begin; v < end; ++v)
+                                     std::sort(order.begin() + start[v], order.begin() + start[v + 1]);
+                             });
     result.twin.assign(n, cell_faces::boundary);
     for (std::size_t v = 0; v < file.points.size(); ++v)
         for (auto first = static_cast<std::size_t>(start[v]), last = first,

@@ -9,7 +9,7 @@
 #include <taut/impl/core/error.hpp>
 
 /// Files. Whatever is wrong with one, a reader throws io_error or mesh_error, both of which say where.
-namespace taut::io
+namespace taut::io::impl
 {
 
 /// Where in a file: a line of a text, counted from 1, or a byte of a binary file, counted from 0.
@@ -24,7 +24,7 @@ struct file_place
     std::size_t number;
 };
 
-} // namespace taut::io
+} // namespace taut::io::impl
 
 namespace taut::io::impl
 {
@@ -46,17 +46,17 @@ namespace taut::io
 class io_error : public error
 {
 public:
-    io_error(std::string path, const std::string& what, std::optional<file_place> place = {})
+    io_error(std::string path, const std::string& what, std::optional<impl::file_place> place = {})
         : error(impl::place_prefix(path, place) + what), path_(std::move(path)), place_(place)
     {
     }
 
     const std::string& path() const noexcept { return path_; }
-    const std::optional<file_place>& place() const noexcept { return place_; } ///< nothing: the file as a whole
+    const std::optional<impl::file_place>& place() const noexcept { return place_; } ///< nothing: the file as a whole
 
 private:
     std::string path_;
-    std::optional<file_place> place_;
+    std::optional<impl::file_place> place_;
 };
 
 } // namespace taut::io

@@ -95,9 +95,9 @@ struct surface_file
     std::vector<vec2> texcoords;                    ///< as in the file; empty if it has none
     std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: that corner has none
     std::vector<std::string> notes = {};            ///< what was changed in reading, in sentences
-    impl::file_faces faces = {};                          ///< what the triangles were made from
-    impl::file_vertices vertices = {};                    ///< OFF and PLY
-    impl::obj_text obj = {};                              ///< OBJ; else empty
+    impl::file_faces faces = {};                    ///< what the triangles were made from
+    impl::file_vertices vertices = {};              ///< OFF and PLY
+    impl::obj_text obj = {};                        ///< OBJ; else empty
     std::string texcoord_fault = {}; ///< what is wrong with the texture coordinates of the file, which then are none
                                      ///< here: one is no finite number, or is named and not there; place and fault
 

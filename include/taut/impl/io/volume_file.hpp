@@ -251,6 +251,11 @@ mesh<tetrahedron> tetrahedra_of(const volume_file& file);
 /// are no triangles, or the file is of dimension 3.
 mesh<triangle> triangles_of(const volume_file& file);
 
+} // namespace taut::io
+
+namespace taut::io::impl
+{
+
 /// The cells of a file as simplices: tetrahedra, or triangles of a planar file, for themselves; others as the simplices
 /// at their corners, which overlap.
 template <class Element>
@@ -263,6 +268,11 @@ struct corner_simplices
     std::vector<double> weights;                  ///< of each, so that a cell counts once; exact for parallelepipeds
 };
 
+} // namespace taut::io::impl
+
+namespace taut::io
+{
+
 /// A simplex a corner with `dimension` edges, which these edges span: 4 a quad, 4 a pyramid (at the corners of its
 /// base), 6 a wedge, 8 a hexahedron; cells of lower dimension have none. That all are positive is necessary for a
 /// wedge, pyramid or hexahedron to be valid, not sufficient (exact/cell_validity.hpp decides it); for a quad it is
@@ -272,7 +282,7 @@ struct corner_simplices
 /// and 24 (exact/cell_tetrahedra.hpp). Where all are positive a wedge is valid; of a hexahedron that is not proved, but
 /// no other was found in 700,000 at random.
 template <class Element = tetrahedron>
-corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span<const idx> edged = {});
+impl::corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span<const idx> edged = {});
 
 } // namespace taut::io
 

@@ -44,6 +44,11 @@ namespace taut::io
 /// Writes them; they appear together or not at all. Throws io_error, parameter_error.
 void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);
 
+} // namespace taut::io
+
+namespace taut::io::impl
+{
+
 /// The file with cells subdivided, as its own format has it, written anew as text: `bytes` and all else as a reader of
 /// that finds it, `path` as it was, `rest` subdivided, too. Points come first as they were, and parts of a cell follow
 /// each other; they have its labels, and a new point those that all corners of what it splits have, or else 0.
@@ -54,7 +59,7 @@ void write_volume(const std::filesystem::path& path, const volume_file& file, st
 /// parameter_error for a subdivision of another number of points.
 volume_file subdivided(const volume_file& file, const taut::impl::subdivision& how);
 
-} // namespace taut::io
+} // namespace taut::io::impl
 
 #ifdef TAUT_IMPLEMENTATION
 #include <taut/impl/io/volume/subdivided.ipp>

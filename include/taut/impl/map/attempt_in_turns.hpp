@@ -42,7 +42,7 @@ inline attempt attempt_in_turns(const map_run& run, const run_start& start)
     if (!next.descent) next.descent = std::move(first.descent);
     if (!next.stopped)
     {
-        if (first.certified) next.solve = joined(std::move(first.solve), std::move(next.solve));
+        if (first.certified) next.solve = solve::impl::joined(std::move(first.solve), std::move(next.solve));
         return next;
     }
     // The map of float, if that is one, else what it began with.

@@ -17,7 +17,7 @@ struct refined_deformation
 {
     session_result<Element> result; ///< of the refined mesh
     mesh<Element> refined;          ///< the vertices of the mesh first, in their order
-    impl::subdivision how;                ///< of the mesh; empty: no element was split
+    impl::subdivision how;          ///< of the mesh; empty: no element was split
     std::vector<idx> cells;         ///< of each element of the refined mesh, the one that it is a part of
     int rounds = 0;                 ///< of splits
 };

@@ -220,7 +220,7 @@ private:
                 ++strides;
                 finest.set_springs(springs(0, stiffness *= growth));
             }
-            steps = done == 0 ? std::move(r) : joined(std::move(steps), std::move(r));
+            steps = done == 0 ? std::move(r) : solve::impl::joined(std::move(steps), std::move(r));
         }
         untangle_stage_report did{stage_of("draw", 0, run_.vertices(), steps)};
         did.cut_by = corners_of(levels_.cells(0), steps.capping, levels_.users(0));

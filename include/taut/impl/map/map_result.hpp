@@ -44,10 +44,10 @@ struct map_seconds
 /// What became of crossings of the boundary: pairs of its edges that have a common point beyond a common end.
 struct overlap_report
 {
-    impl::crossing_count before;     ///< of the map as it would be without parameterize_params::no_overlap
-    double energy_before = 0;  ///< of that map, where it has any
-    int rounds = 0;            ///< of the minimisation without them; 0: none was needed, or there was no time
-    std::size_t crossings = 0; ///< of the map that is returned, exact: 0 in valid ones
+    impl::crossing_count before; ///< of the map as it would be without parameterize_params::no_overlap
+    double energy_before = 0;    ///< of that map, where it has any
+    int rounds = 0;              ///< of the minimisation without them; 0: none was needed, or there was no time
+    std::size_t crossings = 0;   ///< of the map that is returned, exact: 0 in valid ones
 };
 
 /// What one run did and what its map is like.
@@ -63,7 +63,7 @@ struct map_report
     std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
     std::vector<stage_report> stages; ///< all that was done, also in vain, in its order in time
     std::vector<impl::untangle_stage_report> untangling; ///< what it took to make the start injective
-    std::optional<overlap_report> overlap;         ///< of a run with parameterize_params::no_overlap that came to a map
+    std::optional<overlap_report> overlap; ///< of a run with parameterize_params::no_overlap that came to a map
     double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
     certificate flips;   ///< of the map that is returned, exact: flips and branch points
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights

@@ -63,7 +63,7 @@ inline map_result stopped_result(const map_run& run, const run_start& start, att
             a = certified(run.in, std::move(a));
         }
     }
-    a.solve.stop = solve::stop_of(run.clock);
+    a.solve.stop = solve::impl::stop_of(run.clock);
     const bool valid = a.certified;
     map_result r = run_result(run, start, std::move(a));
     if (valid)

@@ -9,8 +9,8 @@
 
 #include <taut/impl/compute/queue.hpp>
 #include <taut/impl/map/deform_params.hpp>
-#include <taut/impl/map/session/session_body.hpp>
 #include <taut/impl/map/parameterize_params.hpp>
+#include <taut/impl/map/session/session_body.hpp>
 #include <taut/impl/map/session_result.hpp>
 #include <taut/impl/map/shell_params.hpp>
 

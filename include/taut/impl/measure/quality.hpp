@@ -176,16 +176,16 @@ quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& i
     const std::size_t cells = m.cells().size();
     const auto sums =
         impl::block_sum<impl::quality_sums>(cells,
-                                                [&](impl::quality_sums& s, std::size_t c)
-                                                {
-                                                    const auto e = impl::mapped_element(m, ideal, x, c);
-                                                    s.isometric.add(bounded(energy::isometric{}, e), e.measure);
-                                                    s.shape.add(bounded(energy::shape{}, e), e.measure);
-                                                    s.area.add(bounded(energy::area{}, e), e.measure);
-                                                    s.angular += impl::angular_distortion(m, x, c);
-                                                    s.rest += e.measure;
-                                                    s.mapped += std::abs(e.det) * e.measure;
-                                                });
+                                            [&](impl::quality_sums& s, std::size_t c)
+                                            {
+                                                const auto e = impl::mapped_element(m, ideal, x, c);
+                                                s.isometric.add(bounded(energy::isometric{}, e), e.measure);
+                                                s.shape.add(bounded(energy::shape{}, e), e.measure);
+                                                s.area.add(bounded(energy::area{}, e), e.measure);
+                                                s.angular += impl::angular_distortion(m, x, c);
+                                                s.rest += e.measure;
+                                                s.mapped += std::abs(e.det) * e.measure;
+                                            });
     q.isometric = sums.isometric.over(cells, sums.rest);
     q.shape = sums.shape.over(cells, sums.rest);
     q.area = sums.area.over(cells, sums.rest);
@@ -194,23 +194,22 @@ quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& i
     q.scale = D == 2 ? std::sqrt(sums.rest / sums.mapped) : std::cbrt(sums.rest / sums.mapped);
 
     const auto stretch = impl::block_sum<impl::stretch_sums>(cells,
-                                                                 [&](impl::stretch_sums& s, std::size_t c)
+                                                             [&](impl::stretch_sums& s, std::size_t c)
+                                                             {
+                                                                 const auto e = impl::mapped_element(m, ideal, x, c);
+                                                                 const auto sigma = singular_values<D>(q.scale * e.S);
+                                                                 double sum = 0;
+                                                                 double volume = 1;
+                                                                 for (const double v : sigma)
                                                                  {
-                                                                     const auto e = impl::mapped_element(m, ideal, x, c);
-                                                                     const auto sigma =
-                                                                         singular_values<D>(q.scale * e.S);
-                                                                     double sum = 0;
-                                                                     double volume = 1;
-                                                                     for (const double v : sigma)
-                                                                     {
-                                                                         sum += 1 / (v * v);
-                                                                         volume *= v;
-                                                                     }
-                                                                     s.l2.add(std::sqrt(sum / D));
-                                                                     s.linf.add(1 / sigma.back());
-                                                                     s.ratio.add(volume);
-                                                                     s.total += e.measure * sum / D;
-                                                                 });
+                                                                     sum += 1 / (v * v);
+                                                                     volume *= v;
+                                                                 }
+                                                                 s.l2.add(std::sqrt(sum / D));
+                                                                 s.linf.add(1 / sigma.back());
+                                                                 s.ratio.add(volume);
+                                                                 s.total += e.measure * sum / D;
+                                                             });
     q.stretch_l2 = stretch.l2.result();
     q.stretch_linf = stretch.linf.result();
     q.area_ratio = stretch.ratio.result();

@@ -37,7 +37,6 @@ struct element_shape
     }
 };
 
-
 /// a / b; 0 for an element whose corners are all in one place
 inline double share(double a, double b)
 {
@@ -67,7 +66,7 @@ inline element_shape shape_of(const std::array<vec2, 3>& corners)
     const double det = edge[2].x * -edge[1].y + edge[2].y * edge[1].x;
     element_shape s{.min_angle = 180};
     s.mean_ratio = impl::share(2 * std::numbers::sqrt3 * det,
-                                 length[0] * length[0] + length[1] * length[1] + length[2] * length[2]);
+                               length[0] * length[0] + length[1] * length[1] + length[2] * length[2]);
     double largest = 0;
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -237,8 +236,9 @@ shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& si
     { return (c == 0 || owners[c - 1] != owners[c]) && (c + 1 == owners.size() || owners[c + 1] != owners[c]); };
     const auto corners =
         impl::shapes_of<Element>(simplices, x,
-                                   [&](std::size_t c, const auto& corner)
-                                   { return alone(c) ? impl::shape_of(corner) : impl::corner_shape(corner, regular[c]); });
+                                 [&](std::size_t c, const auto& corner) {
+                                     return alone(c) ? impl::shape_of(corner) : impl::corner_shape(corner, regular[c]);
+                                 });
     std::vector<impl::element_shape> shapes;
     std::vector<idx> ids;
     for (std::size_t c = 0; c < corners.size(); ++c)

@@ -108,7 +108,7 @@ mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<const id
                              "strip); cut the mesh open along a seam";
         case mesh_fault::non_manifold_facet:
             return impl::list_ids(Element::facet_name, Element::facet_names, ids,
-                                    static_cast<std::size_t>(Element::dimension)) +
+                                  static_cast<std::size_t>(Element::dimension)) +
                    " with three or more " + cells + "; remove the extra ones or separate them";
         case mesh_fault::non_manifold_vertex:
             return vertices() + " where parts touch that share no " + Element::facet_name + "; duplicate each vertex";

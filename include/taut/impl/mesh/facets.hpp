@@ -46,7 +46,6 @@ std::array<idx, Element::dimension> side_vertices(const mesh<Element>& m, idx si
     return v;
 }
 
-
 /// A side in the bucket of its smallest vertex: its other vertices in increasing order, then its number and direction.
 template <int D>
 struct side_key
@@ -172,23 +171,23 @@ facet_table facets(const mesh<Element>& m)
     f.twin.assign(sides, facet_table::boundary);
     std::atomic<bool> faulty{false};
     impl::parallel_for(m.points().size(),
-                 [&](std::size_t begin, std::size_t end)
-                 {
-                     for (std::size_t v = begin; v < end; ++v)
-                     {
-                         key *const first = keys.data() + start[v], *const last = keys.data() + start[v + 1];
-                         impl::sort_bucket<D>(first, last);
-                         impl::for_each_facet<D>(first, last,
-                                                   [&](const key* a, const key* b)
-                                                   {
-                                                       if (!impl::link<D>(f.twin, a, b)) faulty = true;
-                                                   });
-                     }
-                 });
+                       [&](std::size_t begin, std::size_t end)
+                       {
+                           for (std::size_t v = begin; v < end; ++v)
+                           {
+                               key *const first = keys.data() + start[v], *const last = keys.data() + start[v + 1];
+                               impl::sort_bucket<D>(first, last);
+                               impl::for_each_facet<D>(first, last,
+                                                       [&](const key* a, const key* b)
+                                                       {
+                                                           if (!impl::link<D>(f.twin, a, b)) faulty = true;
+                                                       });
+                           }
+                       });
     if (!faulty) return f;
     for (std::size_t v = 0; v < m.points().size(); ++v)
         impl::for_each_facet<D>(keys.data() + start[v], keys.data() + start[v + 1],
-                                  [&](const key* a, const key* b) { impl::note_fault<D>(f, a, b); });
+                                [&](const key* a, const key* b) { impl::note_fault<D>(f, a, b); });
     return f;
 }
 

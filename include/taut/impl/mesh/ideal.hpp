@@ -169,18 +169,18 @@ struct ideal_elements
         const double measure_scale = Element::measure_factor * (D == 2 ? f * f : f * f * f);
         std::atomic<bool> bad{false};
         impl::parallel_for(inverse.size(),
-                     [&](std::size_t begin, std::size_t end)
-                     {
-                         for (std::size_t c = begin; c < end; ++c)
-                         {
-                             const mat<D> W = impl::ideal_of(m, static_cast<idx>(c), unit);
-                             if (!(Element::flatness(W) > impl::flattest)) bad = true;
-                             double det = measure_scale;
-                             for (int k = 0; k < D; ++k) det *= W[k][k];
-                             inverse[c] = impl::invert_upper(W) / f;
-                             measure[c] = det;
-                         }
-                     });
+                           [&](std::size_t begin, std::size_t end)
+                           {
+                               for (std::size_t c = begin; c < end; ++c)
+                               {
+                                   const mat<D> W = impl::ideal_of(m, static_cast<idx>(c), unit);
+                                   if (!(Element::flatness(W) > impl::flattest)) bad = true;
+                                   double det = measure_scale;
+                                   for (int k = 0; k < D; ++k) det *= W[k][k];
+                                   inverse[c] = impl::invert_upper(W) / f;
+                                   measure[c] = det;
+                               }
+                           });
         if (!bad) return;
         auto [flat, inverted] = impl::bad_rest_cells(m);
         if (!flat.empty()) throw mesh_error(describe<Element>(mesh_fault::degenerate_cell, std::move(flat)));

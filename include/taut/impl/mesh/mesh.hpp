@@ -92,24 +92,24 @@ private:
         const auto n = static_cast<std::uint32_t>(vertex_count());
         std::atomic<bool> fault{false};
         impl::parallel_for(cells_.size(),
-                     [&](std::size_t begin, std::size_t end)
-                     {
-                         bool bad = false;
-                         for (std::size_t c = begin; c < end; ++c)
-                             for (std::size_t k = 0; k < cells_[c].size(); ++k)
-                             {
-                                 bad |= static_cast<std::uint32_t>(cells_[c][k]) >= n; // negative ones are large
-                                 for (std::size_t j = 0; j < k; ++j) bad |= cells_[c][j] == cells_[c][k];
-                             }
-                         if (bad) fault = true;
-                     });
+                           [&](std::size_t begin, std::size_t end)
+                           {
+                               bool bad = false;
+                               for (std::size_t c = begin; c < end; ++c)
+                                   for (std::size_t k = 0; k < cells_[c].size(); ++k)
+                                   {
+                                       bad |= static_cast<std::uint32_t>(cells_[c][k]) >= n; // negative ones are large
+                                       for (std::size_t j = 0; j < k; ++j) bad |= cells_[c][j] == cells_[c][k];
+                                   }
+                               if (bad) fault = true;
+                           });
         impl::parallel_for(points_.size(),
-                     [&](std::size_t begin, std::size_t end)
-                     {
-                         bool good = true;
-                         for (std::size_t v = begin; v < end; ++v) good &= is_finite(points_[v]);
-                         if (!good) fault = true;
-                     });
+                           [&](std::size_t begin, std::size_t end)
+                           {
+                               bool good = true;
+                               for (std::size_t v = begin; v < end; ++v) good &= is_finite(points_[v]);
+                               if (!good) fault = true;
+                           });
         return fault;
     }
 

@@ -80,7 +80,6 @@ mesh_order identity_order(const mesh<Element>& m)
     return {permutation::identity(m.points().size()), permutation::identity(m.cells().size())};
 }
 
-
 /// Morton code of a point of the cube [0, 2^21)^3: the bits of its coordinates, interleaved.
 inline std::uint64_t morton(const vec3& p)
 {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <taut/impl/mesh/boundary.hpp>
-#include <taut/impl/mesh/manifold.hpp>
 #include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/mesh/manifold.hpp>
 
 namespace taut
 {
@@ -43,7 +43,7 @@ std::vector<mesh_finding> check(const mesh<Element>& m, const facet_table& f, co
     const bool no_duplicates = duplicates.empty();
     report_any(mesh_fault::duplicate_cell, std::move(duplicates));
     report_any(impl::orientable(f, Element::corners) ? mesh_fault::inconsistent_orientation
-                                                       : mesh_fault::not_orientable,
+                                                     : mesh_fault::not_orientable,
                impl::clashing_cells(m, f));
     report_any(mesh_fault::non_manifold_facet, impl::crowded_facets(m, f));
     auto pinched = impl::pinched_vertices(m, f);

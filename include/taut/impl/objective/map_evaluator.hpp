@@ -106,7 +106,7 @@ private:
               elements(q, types.vector, impl::hessian_slots<D>::count * l.cell_stride),
               matrix(q, types.vector,
                      impl::pattern_of_cells(cells, static_cast<std::size_t>(l.vertex_count),
-                                      impl::lane_form::for_device(q.device()).slice),
+                                            impl::lane_form::for_device(q.device()).slice),
                      D),
               assemble(matrix, impl::assembly_lists(matrix.pattern(), D, cells, l.cell_stride))
         {

@@ -235,7 +235,7 @@ protected:
     /// What held coordinates that move by d do to the gradients of elements, which are those at the current point, in
     /// the model of `hessian`, not masked yet: g = the gradient at the others. f here, and by how much the model
     /// changes. One wait.
-    solve::model_change move_held(const real_buffer& hessian, const vector& d, vector& g)
+    solve::impl::model_change move_held(const real_buffer& hessian, const vector& d, vector& g)
     {
         const auto sum = enqueue_sum();
         gather_(corner_gradients_, g.data());

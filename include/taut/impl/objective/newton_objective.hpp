@@ -141,7 +141,7 @@ public:
 
     /// As linearize(x, false), where held coordinates are on their way to what aim() said: d = a share of what x lacks
     /// there and 0 elsewhere, g = the gradient at x + d in the model. f(x), and the change of the model along d.
-    solve::model_change linearize_towards(const point& x, double share, vector& d, vector& g)
+    solve::impl::model_change linearize_towards(const point& x, double share, vector& d, vector& g)
     {
         d.data().fill(0);
         this->held().gap(x, share, d);

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/objective/patches.hpp>
 #include <taut/impl/objective/element_arrays.hpp>
 #include <taut/impl/objective/element_hessian.hpp>
 #include <taut/impl/objective/element_kernels.hpp>
+#include <taut/impl/objective/patches.hpp>
 
 namespace taut::impl
 {

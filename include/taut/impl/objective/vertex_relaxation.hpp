@@ -10,9 +10,9 @@
 #include <vector>
 
 #include <taut/impl/compute/vector_space.hpp>
-#include <taut/impl/objective/relaxation_schedule.hpp>
 #include <taut/impl/objective/element_arrays.hpp>
 #include <taut/impl/objective/relaxation_kernels.hpp>
+#include <taut/impl/objective/relaxation_schedule.hpp>
 
 namespace taut::impl
 {

@@ -64,8 +64,8 @@ struct taken_cells
 /// side:  of a tile in cells; gap: least distance of two pieces in cells; before: what is there already
 /// quick: a piece does not look below where the last one of about its width and height found room
 inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses,
-                      std::span<const idx> order, idx side, idx tiles, double gap, double cells_per_length, bool quick,
-                      budget& limits, std::span<const taken_cells> before = {})
+                           std::span<const idx> order, idx side, idx tiles, double gap, double cells_per_length,
+                           bool quick, budget& limits, std::span<const taken_cells> before = {})
 {
     tile_layout out;
     out.spots.resize(pieces.size());

@@ -17,9 +17,9 @@
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/packing/layout.hpp>
 #include <taut/impl/packing/outlines.hpp>
+#include <taut/impl/packing/pack.hpp>
 #include <taut/impl/packing/pieces.hpp>
 #include <taut/impl/packing/shelves.hpp>
-#include <taut/impl/packing/pack.hpp>
 
 namespace taut::impl
 {
@@ -154,7 +154,7 @@ private:
         for (idx side = cells; side <= 4 * cells && !limits_.over();)
         {
             tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(side), cells_per_length_,
-                               quick, limits_, walls_in(side));
+                                    quick, limits_, walls_in(side));
             ++packed_.layouts;
             if (l.complete && std::max(l.width, l.height) <= side)
             {
@@ -194,7 +194,7 @@ private:
         {
             const double most = 1.02 * side + 1; // has its padding, too, if the layout is a little larger
             tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(most), cells_per_length_,
-                               quick, limits_);
+                                    quick, limits_);
             ++packed_.layouts;
             if (!l.complete)
             {
@@ -230,7 +230,7 @@ private:
             }
             const auto side = static_cast<idx>(least) - 1;
             tile_layout l = lay_out(pieces_, poses_, order, side, params_.tiles, gap_in_cells(1.02 * side + 1),
-                               cells_per_length_, n > 1500, limits_);
+                                    cells_per_length_, n > 1500, limits_);
             ++packed_.layouts;
             const double used = std::max(l.width, l.height);
             if (!l.complete || used > 1.002 * last || used > 1.02 * side + 1) continue;

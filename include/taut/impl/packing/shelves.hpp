@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/packing/pieces.hpp>
 #include <taut/impl/packing/packing_error.hpp>
+#include <taut/impl/packing/pieces.hpp>
 
 namespace taut::impl
 {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/mesh/manifold.hpp>
 #include <taut/impl/mesh/facets.hpp>
 #include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/mesh/manifold.hpp>
 
 /// Triangles that can be computed with, as a mesh whose vertices are places: those of the input at one place are one.
 namespace taut::impl

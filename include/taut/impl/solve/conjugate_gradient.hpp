@@ -20,7 +20,7 @@ public:
     explicit conjugate_rule(const conjugate_gradient_params& params) : params_(params) {}
 
     template <class Hessian>
-    momentum operator()(Hessian& h)
+    impl::momentum operator()(Hessian& h)
     {
         const double g_h_g = h.g_h_g();
         const double before = std::exchange(g_h_g_, g_h_g);
@@ -35,8 +35,8 @@ public:
             return {.on_step = 0, .restart = true};
         }
         const double y_h_g = h.y_h_g();
-        const double t = params_.beta == conjugacy::hestenes_stiefel ? y_h_g / h.newest_products().sy
-                                                                     : y_h_g / (before * h.newest_step());
+        const double t = params_.beta == impl::conjugacy::hestenes_stiefel ? y_h_g / h.newest_products().sy
+                                                                           : y_h_g / (before * h.newest_step());
         return {.on_step = t > 0 && std::isfinite(t) ? t : 0};
     }
 
@@ -50,12 +50,12 @@ private:
 /// iterate whatever the reason to stop. Throws parameter_error. Host waits as for lbfgs.
 template <objective Objective>
 report conjugate_gradient(Objective& f, typename Objective::point& x, const conjugate_gradient_params& params = {},
-                          const descent_params& common = {}, const observer& ask = {})
+                          const impl::descent_params& common = {}, const observer& ask = {})
 {
     params.validate();
     common.validate();
-    auto h = inverse_hessian(f, params.memory);
-    return descent(f, x, h, conjugate_rule(params), common, ask).run();
+    auto h = impl::inverse_hessian(f, params.memory);
+    return impl::descent(f, x, h, conjugate_rule(params), common, ask).run();
 }
 
 } // namespace taut::solve

@@ -14,7 +14,7 @@
 #include <optional>
 #include <utility>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// How a method uses the step before: d = -H g + on_step * s.
@@ -218,4 +218,4 @@ private:
     report report_;
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// An objective with every call of the tables in objective.hpp, which is what methods see: one that it lacks is made of
@@ -174,4 +174,4 @@ private:
     std::optional<point> trial_; // of values()
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -10,13 +10,13 @@ namespace taut::solve
 /// section 3.3); with the objective's preconditioner d = -gamma H0 g. For comparison, and for preconditioners so good
 /// that nothing else is needed. x ends at the best iterate. Throws parameter_error.
 template <objective Objective>
-report gradient_descent(Objective& f, typename Objective::point& x, const descent_params& common = {},
+report gradient_descent(Objective& f, typename Objective::point& x, const impl::descent_params& common = {},
                         const observer& ask = {})
 {
     common.validate();
     const memory_params none{.pairs = 0};
-    auto h = inverse_hessian(f, none);
-    return descent(f, x, h, no_momentum{}, common, ask).run();
+    auto h = impl::inverse_hessian(f, none);
+    return impl::descent(f, x, h, impl::no_momentum{}, common, ask).run();
 }
 
 } // namespace taut::solve

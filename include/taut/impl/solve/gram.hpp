@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// The inverse Hessian H_k of L-BFGS by inner products: the two-loop recursion only ever forms linear combinations of
@@ -261,4 +261,4 @@ gram_inverse_hessian<space_of<Objective>> inverse_hessian(Objective& f, const me
     return gram_inverse_hessian<space_of<Objective>>(f.space(), params, std::move(h0));
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

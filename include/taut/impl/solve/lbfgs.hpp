@@ -16,12 +16,12 @@ namespace taut::solve
 /// multi_dot: 3.
 template <objective Objective>
 report lbfgs(Objective& f, typename Objective::point& x, const lbfgs_params& params = {},
-             const descent_params& common = {}, const observer& ask = {})
+             const impl::descent_params& common = {}, const observer& ask = {})
 {
     params.validate();
     common.validate();
-    auto h = inverse_hessian(f, params.memory);
-    return descent(f, x, h, no_momentum{}, common, ask).run();
+    auto h = impl::inverse_hessian(f, params.memory);
+    return impl::descent(f, x, h, impl::no_momentum{}, common, ask).run();
 }
 
 } // namespace taut::solve

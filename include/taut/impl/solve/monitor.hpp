@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Why a run ended whose budget is over.
@@ -21,7 +21,10 @@ inline stop stop_of(const taut::impl::budget& limits)
 class monitor
 {
 public:
-    explicit monitor(observer ask, taut::impl::budget::seconds limit = taut::impl::budget::unlimited) : budget_(limit, std::move(ask)) {}
+    explicit monitor(observer ask, taut::impl::budget::seconds limit = taut::impl::budget::unlimited)
+        : budget_(limit, std::move(ask))
+    {
+    }
 
     double seconds() const { return budget_.total(); }
     int evaluations() const noexcept { return now_.evaluations; }
@@ -64,4 +67,4 @@ private:
     int gradients_ = 0;
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -356,7 +356,7 @@ private:
 
 } // namespace taut::solve::impl
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Minimises f from x by truncated Newton's method with the preconditioner of the objective. x ends at the best
@@ -371,4 +371,4 @@ template <objective Objective>
         return impl::newton_loop<Objective>(f, x, params, common, ask).run();
     }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

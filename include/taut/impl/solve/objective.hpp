@@ -90,11 +90,21 @@ concept has_hessian = has_precondition<O> &&
     f.hessian_product(v, out);
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// A value of f, and the change that a quadratic model of it expects along some step.
 struct model_change
 {
     double value, change;
 };
+
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 /// What it takes to bring coordinates of a point to prescribed values: `linearize_towards(x, share, d, g)` does what
 /// `linearize(x, false)` does, and puts `share` of what x lacks at the prescribed coordinates into d, which is 0
@@ -106,7 +116,7 @@ concept has_prescribed = has_hessian<O> &&
 {
     {
         f.linearize_towards(x, share, d, g)
-        } -> std::same_as<model_change>;
+        } -> std::same_as<impl::model_change>;
     f.put(x);
 };
 

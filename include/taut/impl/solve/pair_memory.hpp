@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// H0 of an objective: out = H0 v. Empty stands for the identity.
@@ -104,4 +104,4 @@ private:
     int spare_ = 0;
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

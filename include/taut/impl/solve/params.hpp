@@ -173,6 +173,11 @@ struct stopping_params
     }
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// What all descent methods share.
 struct descent_params
 {
@@ -196,6 +201,11 @@ struct descent_params
         if (!(linearize_after > 0)) throw parameter_error("linearize_after", "must be positive");
     }
 };
+
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 /// The factor gamma of H0 = gamma I (or gamma times the objective's own H0).
 enum class scaling
@@ -230,6 +240,11 @@ struct lbfgs_params
     void validate() const { memory.validate(); }
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// beta of the conjugate directions, in the inner product of the preconditioner H = H_{k+1}. Negative ones, which
 /// inexact searches that stop short produce, become 0 (Nocedal & Wright, 5.45, for either formula).
 enum class conjugacy
@@ -238,10 +253,15 @@ enum class conjugacy
     polak_ribiere     ///< y'H g_{k+1} / g_k'H g_k: "PR+"
 };
 
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
+
 /// The paper's preconditioned nonlinear conjugate gradient.
 struct conjugate_gradient_params
 {
-    conjugacy beta = conjugacy::hestenes_stiefel;
+    impl::conjugacy beta = impl::conjugacy::hestenes_stiefel;
 
     /// The preconditioner: m pairs of L-BFGS (the paper compares several m, Figure 7; its released code takes 1). 0 is
     /// the plain method.
@@ -313,6 +333,11 @@ struct newton_params
     }
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// How far Newton's method goes along a direction: the best of the full step and fractions of it. As in
 /// line_search_params.
 struct newton_search_params
@@ -342,6 +367,11 @@ struct newton_common_params
                 .rounding = search.rounding};
     }
 };
+
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 enum class method
 {
@@ -380,7 +410,7 @@ struct params
     /// Throws parameter_error where something is set that Newton's method has no use for.
     void require_newton_search() const
     {
-        const descent_params unset;
+        const impl::descent_params unset;
         if (line_search == newton_common().line_search() && first_length == unset.first_length &&
             linearize_after == unset.linearize_after)
             return;
@@ -389,7 +419,7 @@ struct params
                                              "they are, or choose another method");
     }
 
-    newton_common_params newton_common() const
+    impl::newton_common_params newton_common() const
     {
         return {.search = {.sufficient_decrease = line_search.wolfe.sufficient_decrease,
                            .barrier_fraction = line_search.barrier_fraction,
@@ -397,7 +427,7 @@ struct params
                 .stopping = stopping};
     }
 
-    descent_params common() const
+    impl::descent_params common() const
     {
         return {.line_search = line_search,
                 .stopping = stopping,

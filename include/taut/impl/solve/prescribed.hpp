@@ -64,6 +64,11 @@ struct prescribed_report
     int products = 0;       ///< Hessian products
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// Brings coordinates of a point to prescribed values, within the domain of f, while the others follow: Newton's steps
 /// with prescribed displacements (Dirichlet increments),
 ///
@@ -210,4 +215,4 @@ private:
     int slow_ = 0;          // steps in a row that brought little
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -47,6 +47,11 @@ struct report
     std::vector<history_entry> history;
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// Two runs as one, of which the second went on where the first had ended.
 inline report joined(report first, report next)
 {
@@ -71,6 +76,11 @@ inline report joined(report first, report next)
     next.value_start = first.value_start;
     return next;
 }
+
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 /// One line: `stop: gradient, 7 iterations, E 34.5 -> 7.446`.
 inline std::ostream& operator<<(std::ostream& stream, const report& r)

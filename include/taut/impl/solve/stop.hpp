@@ -23,12 +23,22 @@ enum class stop
     not_finite_start ///< value or gradient at the start is infinite or not a number
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// Whether a run ended near a minimum rather than by a limit, a failure or a request.
 constexpr bool converged(stop reason) noexcept
 {
     return reason == stop::gradient || reason == stop::decrement || reason == stop::settled ||
            reason == stop::decrease || reason == stop::step;
 }
+
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 constexpr std::string_view to_string(stop reason) noexcept
 {

@@ -32,6 +32,11 @@ struct step_record
     bool newton = false; ///< a step of Newton's method, of which few are worth much
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// The tests of stopping_params over a run, with their memory of the steps before.
 class stopping_test
 {
@@ -111,4 +116,4 @@ private:
     int decreases_ = 0, promises_ = 0, steps_ = 0, capped_ = 0;
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

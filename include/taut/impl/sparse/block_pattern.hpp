@@ -55,7 +55,6 @@ struct block_pattern
     }
 };
 
-
 /// Up to 16 different numbers >= 0, searched without a branch.
 class short_list
 {

@@ -41,8 +41,7 @@ public:
     }
 
 private:
-    static std::vector<vec2> solve(const barycentric_system& system,
-                                   const std::vector<impl::elimination_front>& fronts)
+    static std::vector<vec2> solve(const barycentric_system& system, const std::vector<impl::elimination_front>& fronts)
     {
         std::vector<block> pending(fronts.size()); // what a front leaves to its parent
         std::vector<block> rows(fronts.size());    // eliminated rows, kept for back substitution

@@ -42,7 +42,7 @@ public:
         fused_ = last.form().lanes > 1 && levels() > 1 && solves_coarsest() && levels_[levels() - 2].A.rows() <= few;
         if (fused_)
             small_cycle_ = impl::transfer_kernel(last.queue(), "small_cycle", type, last.block_size(),
-                                                   transfers_.back().K(), last.form());
+                                                 transfers_.back().K(), last.form());
         // Chebyshev iteration on [lambda_max / ratio, lambda_max] (Saad, Iterative Methods, algorithm 12.1).
         const double low = params.lambda_max / params.lambda_ratio, middle = (params.lambda_max + low) / 2,
                      half = (params.lambda_max - low) / 2, sigma = middle / half;

@@ -36,7 +36,7 @@ struct transfer_lists
     std::vector<idx> columns;    ///< at [k * fine_stride + row], for places k < K
     std::vector<double> weights; ///< alike
     std::vector<idx> transpose_offsets;
-    std::vector<idx> transpose;                   ///< places in `weights`
+    std::vector<idx> transpose;                 ///< places in `weights`
     std::optional<impl::product_groups> groups; ///< for the product on CPUs; elsewhere an item does a row
 
 private:
@@ -74,21 +74,21 @@ private:
         const auto C = static_cast<std::size_t>(coarse.slice);
         std::vector<impl::list_chunk> chunks(impl::chunk_count(P.coarse));
         impl::for_each_chunk(P.coarse,
-                               [&](std::size_t chunk, std::size_t begin, std::size_t end)
-                               {
-                                   auto& [items, sizes] = chunks[chunk];
-                                   for (std::size_t first = begin; first < end; first += C)
-                                   {
-                                       const std::size_t last = std::min(first + C, end), base = items.size();
-                                       std::size_t width = 0;
-                                       for (std::size_t J = first; J < last; ++J) width = std::max(width, t[J].size());
-                                       items.resize(base + width * C, -1);
-                                       for (std::size_t J = first; J < last; ++J)
-                                           for (std::size_t n = 0; n < t[J].size(); ++n)
-                                               items[base + n * C + J % C] = device_place(t[J][n]);
-                                       sizes.push_back(static_cast<idx>(width * C));
-                                   }
-                               });
+                             [&](std::size_t chunk, std::size_t begin, std::size_t end)
+                             {
+                                 auto& [items, sizes] = chunks[chunk];
+                                 for (std::size_t first = begin; first < end; first += C)
+                                 {
+                                     const std::size_t last = std::min(first + C, end), base = items.size();
+                                     std::size_t width = 0;
+                                     for (std::size_t J = first; J < last; ++J) width = std::max(width, t[J].size());
+                                     items.resize(base + width * C, -1);
+                                     for (std::size_t J = first; J < last; ++J)
+                                         for (std::size_t n = 0; n < t[J].size(); ++n)
+                                             items[base + n * C + J % C] = device_place(t[J][n]);
+                                     sizes.push_back(static_cast<idx>(width * C));
+                                 }
+                             });
         transpose_offsets = impl::slice_offsets(chunks, coarse.stride() / C);
         transpose = impl::joined(chunks);
     }

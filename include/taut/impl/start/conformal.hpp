@@ -32,7 +32,6 @@ struct conformal_start_params
     }
 };
 
-
 /// Conformal energy of each triangle, its area times the squared length of the part of S that is not a similarity, as a
 /// quadratic form of its corners.
 inline std::vector<front_cholesky::block> conformal_blocks(const ideal_elements<triangle>& ideal)

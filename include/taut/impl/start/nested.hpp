@@ -101,8 +101,7 @@ public:
                 return fail("the energy is not finite on level " + std::to_string(l));
             hard_ = is_hard(reports_.back().solve);
             if (hard_) return fail("level " + std::to_string(l) + " is hard");
-            auto finer =
-                impl::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv), {.fixed = still});
+            auto finer = impl::raise_map(levels_.hierarchy(), l - 1, levels_.points(), std::move(uv), {.fixed = still});
             stages_.add({.stage = "reinsert",
                          .level = l - 1,
                          .vertices = levels_.vertices(l - 1),

@@ -47,7 +47,6 @@ struct robust_start_params
     }
 };
 
-
 /// Vertices of a level that a direct solver still serves in fractions of a second.
 constexpr std::size_t largest_direct = 20000;
 
@@ -151,8 +150,8 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
     if (params.fixed_boundary) fixed = boundary_flags(m.points().size(), loops);
 
     constexpr impl::descent_plan plans[] = {{4, 8, barycentric_weights::uniform},
-                                              {2, 20, barycentric_weights::mean_value},
-                                              {3, 5, barycentric_weights::uniform}};
+                                            {2, 20, barycentric_weights::mean_value},
+                                            {3, 5, barycentric_weights::uniform}};
     constexpr double moderate = 1e4; // isometric energy that any solver can begin with
     start_map best;
     best.flips.flipped = m.cells().size() + 1;

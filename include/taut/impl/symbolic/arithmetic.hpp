@@ -8,7 +8,7 @@
 namespace taut
 {
 
-template <traceable T>
+template <impl::traceable T>
 class sym;
 
 } // namespace taut

@@ -140,7 +140,7 @@ namespace taut
 {
 
 /// cast<float>(y[i]): a template does not convert its argument by itself.
-template <traceable To, class Sym>
+template <impl::traceable To, class Sym>
 sym<To> cast(const impl::element_reference<Sym>& x)
 {
     return cast<To>(x.load());

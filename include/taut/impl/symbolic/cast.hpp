@@ -11,7 +11,7 @@ namespace taut
 /// A traced value in another precision: positions stay double, an element's formula may be float. It is always
 /// explicit. Derivatives pass through, in the type of each side. To an integer it truncates towards zero, and outside
 /// of the integer's range the device's result is undefined.
-template <traceable To, traceable From>
+template <impl::traceable To, impl::traceable From>
 sym<To> cast(sym<From> x)
 {
     return sym<To>::of(impl::build(impl::tape::current(), impl::opcode::cast, impl::scalar_type_of<To>, x.id()));
@@ -24,7 +24,7 @@ inline sym<double> cast(scalar_type to, sym<double> x)
 }
 
 /// The same on the host, for code that is a template on its scalar.
-template <traceable To, class From>
+template <impl::traceable To, class From>
     requires std::is_arithmetic_v<From>
 constexpr To cast(From x) noexcept
 {

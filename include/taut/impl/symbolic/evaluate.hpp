@@ -118,14 +118,15 @@ namespace taut
 {
 
 /// The value of a traced expression of the current tape: evaluate(f, {{x, 2.0}, {y, 3.0}}).
-template <traceable T>
+template <impl::traceable T>
 T evaluate(sym<T> f, std::initializer_list<impl::binding> bindings = {})
 {
-    return impl::evaluator(impl::tape::current(), {bindings.begin(), bindings.size()})(std::span<const sym<T>>(&f, 1)).front();
+    return impl::evaluator(impl::tape::current(), {bindings.begin(), bindings.size()})(std::span<const sym<T>>(&f, 1))
+        .front();
 }
 
 /// Several values at once, for bindings that a program collected.
-template <traceable T>
+template <impl::traceable T>
 std::vector<T> evaluate(const std::vector<sym<T>>& outputs, std::span<const impl::binding> bindings)
 {
     return impl::evaluator(impl::tape::current(), bindings)(std::span<const sym<T>>(outputs));

@@ -96,13 +96,13 @@ glm::vec<L, sym<T>, Q> max(const glm::vec<L, sym<T>, Q>& v, const glm::vec<L, sy
 }
 
 /// Precision changes component by component.
-template <traceable To, glm::length_t L, class T, glm::qualifier Q>
+template <impl::traceable To, glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<To>, Q> cast(const glm::vec<L, sym<T>, Q>& v)
 {
     return impl::map(v, [](sym<T> x) { return cast<To>(x); });
 }
 
-template <traceable To, glm::length_t C, glm::length_t R, class T, glm::qualifier Q>
+template <impl::traceable To, glm::length_t C, glm::length_t R, class T, glm::qualifier Q>
 glm::mat<C, R, sym<To>, Q> cast(const glm::mat<C, R, sym<T>, Q>& m)
 {
     glm::mat<C, R, sym<To>, Q> result;

@@ -38,26 +38,26 @@ public:
     /// taut_x; an empty one becomes a0, a1, ... by position. Throws parameter_error for any other.
     /// type: of the numbers in memory. Doubles may be f32 there; what is loaded is then a sym<double> in float, and so
     /// is all that is computed from it.
-    template <traceable T>
+    template <impl::traceable T>
     impl::in_array<T> in(std::string_view name = {}, scalar_type type = impl::scalar_type_of<T>)
     {
         return impl::in_array<T>(declare(name, impl::argument_kind::in, type), type);
     }
 
-    template <traceable T>
+    template <impl::traceable T>
     impl::out_array<T> out(std::string_view name = {}, scalar_type type = impl::scalar_type_of<T>)
     {
         return impl::out_array<T>(declare(name, impl::argument_kind::out, type), type);
     }
 
-    template <traceable T>
+    template <impl::traceable T>
     impl::inout_array<T> inout(std::string_view name = {}, scalar_type type = impl::scalar_type_of<T>)
     {
         return impl::inout_array<T>(declare(name, impl::argument_kind::inout, type), type);
     }
 
     /// Declares a number that may change from launch to launch, unlike a captured host value, which becomes a literal.
-    template <traceable T>
+    template <impl::traceable T>
     sym<T> scalar(std::string_view name = {}, scalar_type type = impl::scalar_type_of<T>)
     {
         const std::uint32_t position = declare(name, impl::argument_kind::scalar, type);
@@ -68,14 +68,16 @@ public:
     sym<idx> global_id(unsigned dimension = 0)
     {
         if (dimension > 2) throw parameter_error("dimension", "a range has the dimensions 0, 1 and 2");
-        return sym<idx>::of(tape_.intern({.op = impl::opcode::global_id, .type = scalar_type::i32, .payload = dimension}));
+        return sym<idx>::of(
+            tape_.intern({.op = impl::opcode::global_id, .type = scalar_type::i32, .payload = dimension}));
     }
 
     const std::vector<impl::kernel_argument>& arguments() const noexcept { return arguments_; }
     const impl::tape& recorded() const noexcept { return tape_; }
 
     /// The kernel as recorded so far. Its form depends on the device; see kernel_form.
-    impl::kernel_text finish(std::string name, impl::kernel_form form = impl::kernel_form::item, impl::kernel_use use = impl::kernel_use::often) const
+    impl::kernel_text finish(std::string name, impl::kernel_form form = impl::kernel_form::item,
+                             impl::kernel_use use = impl::kernel_use::often) const
     {
         require_identifier(name);
         return impl::emit(tape_, std::move(name), arguments_, form, use);

@@ -22,11 +22,16 @@ enum class scalar_type : std::uint8_t
     boolean
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Host types with a traced counterpart sym<T>.
 template <class T>
 concept traceable = std::same_as<T, float> || std::same_as<T, double> || std::same_as<T, idx>;
 
-} // namespace taut
+} // namespace taut::impl
 
 namespace taut::impl
 {
@@ -56,7 +61,6 @@ constexpr std::size_t size_of(scalar_type type) noexcept
 {
     return type == scalar_type::f64 ? 8 : 4;
 }
-
 
 /// Constants travel as bit patterns: literals then round-trip exactly, and -0, +0 and NaN stay apart.
 template <class T>

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/symbolic/kernel_text.hpp>
 #include <taut/impl/symbolic/literal.hpp>
 #include <taut/impl/symbolic/schedule.hpp>
-#include <taut/impl/symbolic/kernel_text.hpp>
 
 namespace taut::impl
 {

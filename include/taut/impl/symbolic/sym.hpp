@@ -20,7 +20,7 @@ namespace taut
 ///
 /// Operators: + - * / (and % of integers), comparisons, select(). Functions, found by their argument: min max abs
 /// floor sqrt cbrt exp log sin cos tan atan pow.
-template <traceable T>
+template <impl::traceable T>
 class sym : public impl::sym_arithmetic<T>, public impl::sym_math<T>
 {
 public:

@@ -24,7 +24,6 @@ public:
 
 class tape;
 
-
 /// The tape that operations of this thread go to. Set by tape_scope only.
 inline thread_local constinit tape* current_tape = nullptr;
 

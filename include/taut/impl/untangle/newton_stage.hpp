@@ -11,8 +11,8 @@
 
 #include <taut/impl/mesh/wanted_shapes.hpp>
 #include <taut/impl/start/laid.hpp>
-#include <taut/impl/untangle/gain_watch.hpp>
 #include <taut/impl/untangle/epsilon_schedule.hpp>
+#include <taut/impl/untangle/gain_watch.hpp>
 #include <taut/impl/untangle/stage.hpp>
 
 namespace taut::impl

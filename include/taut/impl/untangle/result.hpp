@@ -72,7 +72,7 @@ struct untangle_result
     double least_relative_det = 0; ///< smallest mapped / rest measure, divided by that of the whole; 1: a dilation
     std::string stage;             ///< that found the injective map; "initial" if there was nothing to do
     std::vector<impl::untangle_stage_report> stages; ///< those that ran, in their order, proofs and margin included
-    double seconds = 0;                        ///< of the whole run
+    double seconds = 0;                              ///< of the whole run
 
     /// True if the map is certified.
     explicit operator bool() const { return outcome == untangle_outcome::injective; }

@@ -119,8 +119,8 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
 /// The same with all stages that need no device.
 inline untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {})
 {
-    return untangle(problem, impl::host_stages(problem.outline_pinned()), impl::newton_maker<triangle>(impl::direct_newton),
-                    params);
+    return untangle(problem, impl::host_stages(problem.outline_pinned()),
+                    impl::newton_maker<triangle>(impl::direct_newton), params);
 }
 inline untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem,
                                              const untangle_params& params = {})

@@ -38,23 +38,33 @@ struct refine_params
     }
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// A problem on a mesh some of whose elements are split.
 template <class Element>
 struct refined_problem
 {
     untangle_problem<Element> problem;
-    impl::subdivision how = {};        ///< of the mesh that it was; empty: it is the same
+    impl::subdivision how = {};  ///< of the mesh that it was; empty: it is the same
     std::vector<idx> cells = {}; ///< of each element, that of the mesh that it was
     int rounds = 0;              ///< of splits
     std::string obstacle = {};   ///< the proof that no split refutes, or which limit was met; empty: none
 };
+
+} // namespace taut::impl
+
+namespace taut
+{
 
 /// What untangling came to, and on which mesh.
 template <class Element>
 struct refined_untangling
 {
     untangle_result<Element> result; ///< ids of elements are those of the refined mesh
-    refined_problem<Element> refined;
+    impl::refined_problem<Element> refined;
 };
 
 } // namespace taut
@@ -93,7 +103,6 @@ refined_problem<Element> refine_problem(const untangle_problem<Element>& p, cons
     return result;
 }
 
-
 /// Splits simplices of the problem as it is by now; nothing happens, and false, where that makes too many elements.
 template <class Element>
 bool split_further(refined_problem<Element>& now, const std::vector<std::vector<idx>>& simplices,
@@ -130,12 +139,11 @@ refined_problem<Element> refine_infeasible(const untangle_problem<Element>& prob
         else if (now.rounds >= params.rounds)
             now.obstacle = proof.reason() + "; so after " + std::to_string(now.rounds) + " rounds of splits";
         else if (!impl::split_further(now, splits.simplices, params))
-            now.obstacle = proof.reason() + "; splits would make more than " +
-                           impl::short_number(params.most_growth) + " times as many elements";
+            now.obstacle = proof.reason() + "; splits would make more than " + impl::short_number(params.most_growth) +
+                           " times as many elements";
         if (!now.obstacle.empty()) return now;
     }
 }
-
 
 /// The vertices within so many edges of cells. A flag a vertex.
 template <class Element>

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <taut/impl/atlas/chart_mesh.hpp>
-#include <taut/impl/atlas/symmetry/point_grid.hpp>
 #include <taut/impl/atlas/symmetry.hpp>
+#include <taut/impl/atlas/symmetry/point_grid.hpp>
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/mesh/describe.hpp>

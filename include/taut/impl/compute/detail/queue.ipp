@@ -63,7 +63,7 @@ namespace taut
 
 queue::queue(const taut::device& device, queue_options options)
     : state_(impl::open(device, std::move(options),
-                          [&] { return boost::compute::context(boost::compute::device(device.native())); }))
+                        [&] { return boost::compute::context(boost::compute::device(device.native())); }))
 {
 }
 
@@ -77,7 +77,7 @@ queue::queue(cl_command_queue native)
 {
     const auto adopted = impl::adopt([&] { return boost::compute::command_queue(native); });
     state_ = std::make_shared<impl::queue_state>(taut::device(adopted.get_device().id()), adopted.get_context(),
-                                                   adopted, impl::wants_quick_builds());
+                                                 adopted, impl::wants_quick_builds());
     const auto properties = adopted.get_info<cl_command_queue_properties>(CL_QUEUE_PROPERTIES);
     if (properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)
         state_->fail("adopting a command queue", "it is out of order; taut relies on the order of commands");

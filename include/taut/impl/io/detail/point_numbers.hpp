@@ -24,7 +24,8 @@ public:
         const auto key = taut::impl::bits_of(p);
         std::size_t slot = taut::impl::keyed_hash(key) & (slots_.size() - 1);
         for (; slots_[slot] >= 0; slot = (slot + 1) & (slots_.size() - 1))
-            if (taut::impl::bits_of(points_[static_cast<std::size_t>(slots_[slot])]) == key) return {slots_[slot], false};
+            if (taut::impl::bits_of(points_[static_cast<std::size_t>(slots_[slot])]) == key)
+                return {slots_[slot], false};
         slots_[slot] = static_cast<idx>(points_.size());
         points_.push_back(p);
         return {slots_[slot], true};

@@ -191,7 +191,8 @@ private:
     bool leads_in(std::size_t l, std::size_t r) const
     {
         const vec2 &a = x_[before_[l]], &b = x_[l], &c = x_[after_[r]], &x = x_[after_[l]];
-        const bool left_of_first = taut::impl::orient2d(a, b, x) > 0, left_of_second = taut::impl::orient2d(b, c, x) > 0;
+        const bool left_of_first = taut::impl::orient2d(a, b, x) > 0,
+                   left_of_second = taut::impl::orient2d(b, c, x) > 0;
         return taut::impl::orient2d(a, b, c) > 0 ? left_of_first && left_of_second : left_of_first || left_of_second;
     }
 
@@ -238,8 +239,11 @@ private:
     static bool enters(const std::array<vec2, 3>& t, const vec2& p, const vec2& q)
     {
         for (std::size_t k = 0; k < 3; ++k)
-            if (taut::impl::orient2d(t[k], t[(k + 1) % 3], p) <= 0 && taut::impl::orient2d(t[k], t[(k + 1) % 3], q) <= 0) return false;
-        const int first = taut::impl::orient2d(p, q, t[0]), second = taut::impl::orient2d(p, q, t[1]), third = taut::impl::orient2d(p, q, t[2]);
+            if (taut::impl::orient2d(t[k], t[(k + 1) % 3], p) <= 0 &&
+                taut::impl::orient2d(t[k], t[(k + 1) % 3], q) <= 0)
+                return false;
+        const int first = taut::impl::orient2d(p, q, t[0]), second = taut::impl::orient2d(p, q, t[1]),
+                  third = taut::impl::orient2d(p, q, t[2]);
         return std::min({first, second, third}) < 0 && std::max({first, second, third}) > 0;
     }
 

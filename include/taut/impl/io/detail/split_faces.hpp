@@ -197,12 +197,12 @@ private:
         find_faces();
         std::vector<char> bad(sizes_.size(), 0);
         taut::impl::parallel_for(bad.size(),
-                           [&](std::size_t begin, std::size_t end)
-                           {
-                               for (std::size_t f = begin; f < end; ++f)
-                                   bad[f] = is_polygon(f) && unusable_corner(f) == u(sizes_[f]) &&
-                                            neighbours(*this, f).crowded(triangles_of(f));
-                           });
+                                 [&](std::size_t begin, std::size_t end)
+                                 {
+                                     for (std::size_t f = begin; f < end; ++f)
+                                         bad[f] = is_polygon(f) && unusable_corner(f) == u(sizes_[f]) &&
+                                                  neighbours(*this, f).crowded(triangles_of(f));
+                                 });
         std::deque<std::size_t> open;
         for (std::size_t f = 0; f < bad.size(); ++f)
             if (bad[f]) open.push_back(f);
@@ -261,7 +261,7 @@ private:
     face_triangles split_;
     std::map<std::size_t, triangles> anew_; // of polygons that were split anew
     std::vector<idx> face_;                 // of each corner
-    taut::impl::csr around_;                            // corners at each vertex
+    taut::impl::csr around_;                // corners at each vertex
     ear_clipper clipper_;
     std::vector<vec3> polygon_;
 };

@@ -36,7 +36,6 @@ private:
     std::vector<std::size_t> ends_;
 };
 
-
 /// Appends a number as it is written, with an exponent that every program reads.
 inline void append_written(text_list& to, std::string_view number)
 {

@@ -57,15 +57,15 @@ void write_obj(atomic_file& out, const mesh<triangle>& surface, std::span<const 
 {
     impl::require_texcoords(uv, surface);
     impl::write_items(out, uv.size(),
-                        [&](std::string& text, std::size_t v)
-                        {
-                            const vec3& p = surface.points()[v];
-                            impl::append_line(text, "v", {p.x, p.y, p.z});
-                        });
+                      [&](std::string& text, std::size_t v)
+                      {
+                          const vec3& p = surface.points()[v];
+                          impl::append_line(text, "v", {p.x, p.y, p.z});
+                      });
     impl::write_texcoords(out, uv);
     impl::write_items(out, surface.cells().size(),
-                        [&](std::string& text, std::size_t c)
-                        { impl::append_face(text, surface.cells()[c], surface.cells()[c], false); });
+                      [&](std::string& text, std::size_t c)
+                      { impl::append_face(text, surface.cells()[c], surface.cells()[c], false); });
 }
 
 void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2> uv)
@@ -104,26 +104,26 @@ void write_moved(atomic_file& out, const surface_file& file, std::span<const vec
                                             " vertices; give one a vertex");
     if (!file.obj.bytes.empty()) return impl::write_with_points(out, file.obj.bytes, points);
     impl::write_items(out, points.size(),
-                        [&](std::string& text, std::size_t v)
-                        {
-                            const vec3& p = points[v];
-                            if (file.vertices.colours.empty()) return impl::append_line(text, "v", {p.x, p.y, p.z});
-                            const vec3& c = file.vertices.colours[v];
-                            impl::append_line(text, "v", {p.x, p.y, p.z, c.x, c.y, c.z});
-                        });
+                      [&](std::string& text, std::size_t v)
+                      {
+                          const vec3& p = points[v];
+                          if (file.vertices.colours.empty()) return impl::append_line(text, "v", {p.x, p.y, p.z});
+                          const vec3& c = file.vertices.colours[v];
+                          impl::append_line(text, "v", {p.x, p.y, p.z, c.x, c.y, c.z});
+                      });
     std::vector<std::size_t> first{0};
     for (const idx size : file.faces.sizes) first.push_back(first.back() + static_cast<std::size_t>(size));
     impl::write_items(out, file.faces.sizes.size(),
-                        [&](std::string& text, std::size_t f)
-                        {
-                            text += 'f';
-                            for (std::size_t k = first[f]; k < first[f + 1]; ++k)
-                            {
-                                text += ' ';
-                                impl::append_number(text, file.faces.corners[k] + 1);
-                            }
-                            text += '\n';
-                        });
+                      [&](std::string& text, std::size_t f)
+                      {
+                          text += 'f';
+                          for (std::size_t k = first[f]; k < first[f + 1]; ++k)
+                          {
+                              text += ' ';
+                              impl::append_number(text, file.faces.corners[k] + 1);
+                          }
+                          text += '\n';
+                      });
 }
 
 } // namespace taut::io

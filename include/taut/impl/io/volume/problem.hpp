@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/volume/builder.hpp>
 #include <taut/impl/io/prob.hpp>
+#include <taut/impl/io/volume/builder.hpp>
 
 namespace taut::io::impl
 {

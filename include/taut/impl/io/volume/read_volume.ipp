@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include <taut/impl/io/read_file.hpp>
+#include <taut/impl/io/read_volume.hpp>
 #include <taut/impl/io/volume/formats.hpp>
 #include <taut/impl/io/volume/gmsh2.hpp>
 #include <taut/impl/io/volume/gmsh4.hpp>
@@ -15,8 +17,6 @@
 #include <taut/impl/io/volume/tetgen.hpp>
 #include <taut/impl/io/volume/vtk.hpp>
 #include <taut/impl/io/volume/vtu.hpp>
-#include <taut/impl/io/read_file.hpp>
-#include <taut/impl/io/read_volume.hpp>
 
 namespace taut::io::impl
 {

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include <taut/impl/core/error.hpp>
-#include <taut/impl/io/volume/formats.hpp>
 #include <taut/impl/io/io_error.hpp>
 #include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/volume/formats.hpp>
 #include <taut/impl/io/write_volume.hpp>
 
 namespace taut::io::impl
@@ -285,7 +285,8 @@ inline std::string problem_text(const plain_mesh& m)
 
 /// Adds the parts of the cells of a block, and their labels behind the ones that there are.
 template <std::size_t N>
-void add_parts(const cell_block& block, const taut::impl::subdivision& how, cell_block& to, std::vector<idx>& of, idx number)
+void add_parts(const cell_block& block, const taut::impl::subdivision& how, cell_block& to, std::vector<idx>& of,
+               idx number)
 {
     for (std::size_t c = 0; c < block.size(); ++c, ++number)
     {
@@ -367,7 +368,7 @@ inline plain_mesh plain_subdivided(const volume_file& file, const taut::impl::su
 
 } // namespace taut::io::impl
 
-namespace taut::io
+namespace taut::io::impl
 {
 
 volume_file subdivided(const volume_file& file, const taut::impl::subdivision& how)
@@ -404,4 +405,4 @@ volume_file subdivided(const volume_file& file, const taut::impl::subdivision& h
                                   " is not written; convert it to MEDIT, gmsh, VTK or VTU");
 }
 
-} // namespace taut::io
+} // namespace taut::io::impl

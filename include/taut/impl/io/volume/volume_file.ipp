@@ -154,7 +154,7 @@ namespace taut::io
 mesh<tetrahedron> tetrahedra_of(const volume_file& file)
 {
     return impl::cells_as<tetrahedron>(file, cell_kind::tetrahedron,
-                                         "; this takes tetrahedra alone, split it into such");
+                                       "; this takes tetrahedra alone, split it into such");
 }
 
 mesh<triangle> triangles_of(const volume_file& file)
@@ -164,7 +164,7 @@ mesh<triangle> triangles_of(const volume_file& file)
 }
 
 template <class Element>
-corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span<const idx> edged)
+impl::corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span<const idx> edged)
 {
     if constexpr (Element::dimension == 2) impl::require_planar(file);
     std::vector<typename mesh<Element>::cell> simplices;
@@ -173,28 +173,29 @@ corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span
     std::vector<double> weights;
     bool overlapping = false;
     impl::for_each_cell(file, Element::dimension,
-                  [&](cell_kind kind, idx number, std::span<const idx> corners)
-                  {
-                      const auto regular_one = impl::regular_corner(kind, Element{});
-                      const auto table = taut::impl::corner_simplices(corners.size(), Element{});
-                      overlapping = overlapping || table.size() > 1;
-                      const std::size_t more = std::binary_search(edged.begin(), edged.end(), number)
-                                                   ? taut::impl::edge_tetrahedra(corners.size()).size()
-                                                   : 0;
-                      const double weight = regular_one.second * double(table.size()) / double(table.size() + more);
-                      const auto add = [&](const auto& t, const mat<Element::dimension>& edges)
-                      {
-                          auto& simplex = simplices.emplace_back();
-                          for (std::size_t k = 0; k < t.size(); ++k) simplex[k] = corners[t[k]];
-                          cells.push_back(number);
-                          regular.push_back(edges);
-                          weights.push_back(weight);
-                      };
-                      for (const auto& t : table) add(t, regular_one.first);
-                      if constexpr (Element::dimension == 3)
-                          for (const auto& t : taut::impl::edge_tetrahedra(corners.size()).first(more))
-                              add(t, impl::regular_edges(kind, t));
-                  });
+                        [&](cell_kind kind, idx number, std::span<const idx> corners)
+                        {
+                            const auto regular_one = impl::regular_corner(kind, Element{});
+                            const auto table = taut::impl::corner_simplices(corners.size(), Element{});
+                            overlapping = overlapping || table.size() > 1;
+                            const std::size_t more = std::binary_search(edged.begin(), edged.end(), number)
+                                                         ? taut::impl::edge_tetrahedra(corners.size()).size()
+                                                         : 0;
+                            const double weight =
+                                regular_one.second * double(table.size()) / double(table.size() + more);
+                            const auto add = [&](const auto& t, const mat<Element::dimension>& edges)
+                            {
+                                auto& simplex = simplices.emplace_back();
+                                for (std::size_t k = 0; k < t.size(); ++k) simplex[k] = corners[t[k]];
+                                cells.push_back(number);
+                                regular.push_back(edges);
+                                weights.push_back(weight);
+                            };
+                            for (const auto& t : table) add(t, regular_one.first);
+                            if constexpr (Element::dimension == 3)
+                                for (const auto& t : taut::impl::edge_tetrahedra(corners.size()).first(more))
+                                    add(t, impl::regular_edges(kind, t));
+                        });
     if (simplices.empty())
         throw mesh_error(mesh_fault::empty, {},
                          file.path + (Element::dimension == 2 ? ": no triangles or quads" : ": no volume cells") +
@@ -205,7 +206,7 @@ corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span
 
 } // namespace taut::io
 
-template taut::io::corner_simplices<taut::tetrahedron> taut::io::corner_simplices_of(const volume_file&,
-                                                                                     std::span<const taut::idx>);
-template taut::io::corner_simplices<taut::triangle> taut::io::corner_simplices_of(const volume_file&,
-                                                                                  std::span<const taut::idx>);
+template taut::io::impl::corner_simplices<taut::tetrahedron> taut::io::corner_simplices_of(const volume_file&,
+                                                                                           std::span<const taut::idx>);
+template taut::io::impl::corner_simplices<taut::triangle> taut::io::corner_simplices_of(const volume_file&,
+                                                                                        std::span<const taut::idx>);

@@ -39,7 +39,7 @@ public:
         while (rounds_ < most_rounds && left_ > 0 && run_.clock.proceed() && round())
         {
         }
-        if (run_.clock.over()) stop_ = solve::stop_of(run_.clock);
+        if (run_.clock.over()) stop_ = solve::impl::stop_of(run_.clock);
     }
 
     const map& result() const { return x_; }

@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include <taut/impl/map/session/session_steps.hpp>
 #include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/map/session/session_steps.hpp>
 
 namespace taut::impl
 {
@@ -49,7 +49,7 @@ private:
             last.x = std::move(first.uv);
             this->constrain();
             r.pins_held = true;
-            r.converged = solve::converged(first.report.solve.stop);
+            r.converged = solve::impl::converged(first.report.solve.stop);
             this->changed = false;
         }
         this->seconds_.start = clock.total();

@@ -319,7 +319,7 @@ protected:
         session_report& r = last.report;
         r.energy = found.value;
         r.gradient = found.gradient_norm;
-        r.converged = !on_way_ && solve::converged(found.stop);
+        r.converged = !on_way_ && solve::impl::converged(found.stop);
         auto did = stage_of("minimise", 0, 0, found);
         did.cut_by = corners_of(rest().cells(), found.capping);
         book(clock, &session_seconds::solve, std::move(did));

@@ -17,8 +17,8 @@
 #include <taut/impl/map/shape_path.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/mesh/incidence.hpp>
-#include <taut/impl/untangle/local_problem.hpp>
 #include <taut/impl/untangle/device/live_map.hpp>
+#include <taut/impl/untangle/local_problem.hpp>
 #include <taut/impl/untangle/untangle_declared.hpp>
 
 namespace taut::impl

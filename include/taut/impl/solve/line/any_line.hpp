@@ -18,7 +18,7 @@ public:
     {
     }
 
-    line_point start() const { return calls_->start(line_); }
+    impl::line_point start() const { return calls_->start(line_); }
     double bound() const { return calls_->bound(line_); }
     double noise() const { return calls_->noise(line_); }
     double ceiling() const { return calls_->ceiling(line_); }
@@ -27,13 +27,13 @@ public:
     void values(std::span<const double> a, std::span<double> out) { calls_->values(line_, a, out); }
     double value_gradient(double a) { return calls_->value_gradient(line_, a); }
     double slope() { return calls_->slope(line_); }
-    line_point best() const { return calls_->best(line_); }
+    impl::line_point best() const { return calls_->best(line_); }
     bool interrupted() const { return calls_->interrupted(line_); }
 
 private:
     struct calls
     {
-        line_point (*start)(void*);
+        impl::line_point (*start)(void*);
         double (*bound)(void*);
         double (*noise)(void*);
         double (*ceiling)(void*);
@@ -42,7 +42,7 @@ private:
         void (*values)(void*, std::span<const double>, std::span<double>);
         double (*value_gradient)(void*, double);
         double (*slope)(void*);
-        line_point (*best)(void*);
+        impl::line_point (*best)(void*);
         bool (*interrupted)(void*);
     };
 
@@ -53,7 +53,7 @@ private:
     }
 
     template <class Line>
-    static constexpr calls table = {[](void* l) { return line_point(as<Line>(l).start()); },
+    static constexpr calls table = {[](void* l) { return impl::line_point(as<Line>(l).start()); },
                                     [](void* l) { return double(as<Line>(l).bound()); },
                                     [](void* l) { return double(as<Line>(l).noise()); },
                                     [](void* l) { return double(as<Line>(l).ceiling()); },
@@ -63,7 +63,7 @@ private:
                                     { as<Line>(l).values(a, out); },
                                     [](void* l, double a) { return double(as<Line>(l).value_gradient(a)); },
                                     [](void* l) { return double(as<Line>(l).slope()); },
-                                    [](void* l) { return line_point(as<Line>(l).best()); },
+                                    [](void* l) { return impl::line_point(as<Line>(l).best()); },
                                     [](void* l) { return bool(as<Line>(l).interrupted()); }};
 
     void* line_;

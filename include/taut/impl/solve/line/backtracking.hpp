@@ -7,7 +7,7 @@
 #include <taut/impl/solve/line/bracket.hpp>
 #include <taut/impl/solve/line/wolfe_conditions.hpp>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// The longest step of the ladder first, r first, r^2 first, ... that has the Armijo condition (3.7a); the gradient is
@@ -36,4 +36,4 @@ search_result backtracking(Line& phi, double first, const wolfe_params& params, 
     return {phi.interrupted() ? search_status::interrupted : search_status::failed, at};
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <span>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// The triplet (x_a, x_b, x_c) of the paper's section 3.2: steps a < b < c with phi(b) below phi(a) and phi(c).
@@ -22,7 +22,7 @@ struct bracket_triplet
     double value = 0; ///< phi(b)
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl
 
 namespace taut::solve::impl
 {
@@ -97,7 +97,7 @@ bracket_triplet bracket_down(Line& phi, line_point at, double growth, int passes
 
 } // namespace taut::solve::impl
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Brackets a minimum of phi from a first trial of known value: a ladder of ever longer steps while the value falls,
@@ -113,4 +113,4 @@ bracket_triplet bracket(Line& phi, const line_point& first, double growth, int p
                                            : impl::bracket_down(phi, first, growth, passes);
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Where and how low.
@@ -106,4 +106,4 @@ brent_result brent(F&& f, double a, double b, double c, double fb, const brent_t
     }
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

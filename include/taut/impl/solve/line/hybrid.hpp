@@ -34,7 +34,7 @@ void minimize_line(Line& phi, const line_point& first, const exact_params& p, bo
 
 } // namespace taut::solve::impl
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// The paper's hybrid line search (section 3.2): the full step of a well-scaled direction if it has the strong Wolfe
@@ -73,4 +73,4 @@ search_result hybrid(Line& phi, double first, const wolfe_params& params, const 
     return backtracking(phi, full.step, params, 0.5, 60);
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

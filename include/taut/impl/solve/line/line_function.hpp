@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// A trial step a with phi(a) = f(x + a d) and, where it was asked for, phi'(a) = grad f(x + a d)'d.
@@ -31,6 +31,11 @@ struct search_result
     line_point at;
 };
 
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
+
 /// phi of a line search. Values outside the domain are +inf, never NaN, and so is every value once interrupted() is
 /// true: searches then run dry and their caller asks why.
 ///
@@ -51,7 +56,7 @@ concept line_function = requires(L& phi, double a, std::span<const double> steps
 {
     {
         phi.start()
-        } -> std::convertible_to<line_point>;
+        } -> std::convertible_to<impl::line_point>;
     {
         phi.bound()
         } -> std::convertible_to<double>;
@@ -73,11 +78,16 @@ concept line_function = requires(L& phi, double a, std::span<const double> steps
         } -> std::convertible_to<double>;
     {
         phi.best()
-        } -> std::convertible_to<line_point>;
+        } -> std::convertible_to<impl::line_point>;
     {
         phi.interrupted()
         } -> std::convertible_to<bool>;
 };
+
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
 
 /// Non-finite values are outside the domain.
 inline double finite_or_inf(double value) noexcept
@@ -104,4 +114,4 @@ search_result land(Line& phi, double step)
     return {std::isfinite(at.slope) ? search_status::accepted : search_status::failed, at};
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

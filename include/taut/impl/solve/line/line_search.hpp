@@ -14,6 +14,11 @@ enum class line_search_method : int
     backtracking  ///< Armijo only
 };
 
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
 /// The chosen search, from a first trial step. careful: the length of the direction is not to be trusted.
 template <line_function Line>
 search_result search(Line& phi, double first, const line_search_params& p, bool careful)
@@ -30,4 +35,4 @@ search_result search(Line& phi, double first, const line_search_params& p, bool 
     return hybrid(phi, first, p.wolfe, p.exact, careful);
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -12,7 +12,7 @@
 #include <span>
 #include <utility>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// The line x + a d through an objective. It owns nothing: the trial point and the trial gradient belong to the caller,
@@ -144,4 +144,4 @@ private:
     double trial_step_ = 0; // where the trial point is; 0: nowhere
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

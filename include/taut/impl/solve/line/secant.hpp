@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// A step with the approximate Wolfe conditions by secant steps on phi', for the last iterations of a run, where
@@ -51,4 +51,4 @@ search_result secant(Line& phi, double first, const wolfe_params& params, int ev
     return {search_status::failed, at};
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Minimiser of the cubic through two points with slopes, or of the parabola where only `a` has one; kept away from
@@ -84,4 +84,4 @@ search_result strong_wolfe(Line& phi, double first, const wolfe_params& params, 
     return {search_status::failed, low};
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

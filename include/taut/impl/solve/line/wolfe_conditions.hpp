@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// The conditions along one line.
@@ -62,4 +62,4 @@ private:
     double ceiling_, blur_, c1_, c2_;
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -138,7 +138,7 @@ private:
     newton_objective<Element> objective_;
     typename newton_objective<Element>::point x_;
     bool single_; ///< the precision of positions
-    std::optional<solve::prescribed_newton<newton_objective<Element>>> steps_;
+    std::optional<solve::impl::prescribed_newton<newton_objective<Element>>> steps_;
 };
 
 } // namespace taut::impl

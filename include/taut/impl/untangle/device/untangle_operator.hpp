@@ -14,8 +14,8 @@
 #include <vector>
 
 #include <taut/impl/compute/detail/few_functions.hpp>
-#include <taut/impl/compute/kernels/untangle.hpp>
 #include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/compute/kernels/untangle.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/untangle/device/operator_arrays.hpp>
@@ -78,7 +78,7 @@ public:
         const std::string source = impl::kernels::untangle;
         const std::string options =
             impl::few_functions + ("-DD=" + std::to_string(D) + " -DL=" + std::to_string(items_) +
-                                     " -DV=" + std::to_string(form.lanes) + " -DC=" + std::to_string(form.slice));
+                                   " -DV=" + std::to_string(form.lanes) + " -DC=" + std::to_string(form.slice));
         elements_ = {queue_, source, "untangle_elements", options};
         decide_ = {queue_, source, "untangle_decide", options};
         move_ = {queue_, source, "untangle_move", options};

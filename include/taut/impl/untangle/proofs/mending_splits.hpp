@@ -25,7 +25,6 @@ struct mending_splits
     std::string obstacle;                    ///< the proof that no split inside the mesh refutes; empty: there is none
 };
 
-
 /// Simplices of a mesh that may be split: those inside, as the boundary is the user's.
 template <class Element>
 class inner_simplices

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/mesh/boundary.hpp>
 #include <taut/impl/core/short_number.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 #include <taut/impl/untangle/proofs/infeasibility.hpp>
 #include <taut/impl/untangle/proofs/pinned_outline.hpp>
 #include <taut/impl/untangle/proofs/pinned_patches.hpp>
