@@ -47,7 +47,7 @@ io::impl::array_code random_code(dice& random, const io::impl::array_code& all, 
 /// A VTU file of one tetrahedron with arrays of any type, count and encoding, that may share their bytes.
 std::string generate_vtu(dice& random)
 {
-    namespace d = io::detail;
+    namespace d = io::impl;
     const bool big = random.one_in(2), wide = random.one_in(2);
     const std::string appended = std::string(random.pick({"raw", "raw", "base64"}));
     d::array_code all;

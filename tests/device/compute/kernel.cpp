@@ -306,7 +306,7 @@ TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
                                "{ x[get_global_id(0)] *= factor; }\n";
     for (const auto type : {taut::scalar_type::f32, taut::scalar_type::f64})
     {
-        const taut::kernel k(q, source, "scale", "-DREAL=" + std::string(spelling(type)), type);
+        const taut::kernel k(q, source, "scale", "-DREAL=" + std::string(taut::impl::spelling(type)), type);
         taut::impl::real_buffer x(q, type, std::vector<double>(64, 3.0));
         k(64, {{"factor", 0.1}, {"x", x}});
         CHECK(x.download()[63] == taut::test::as_real(type, 3 * taut::test::as_real(type, 0.1)));

@@ -27,7 +27,7 @@ element<double, Element::dimension> mapped_element(const mesh<Element>& m, const
 
 } // namespace taut::impl
 
-namespace taut::impl
+namespace taut
 {
 
 /// An energy's value at an element: +infinity beyond its barrier, where the element is flipped or flat.
@@ -36,11 +36,6 @@ double bounded(const Energy& energy, const element<double, D>& e)
 {
     return Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
 }
-
-} // namespace taut::impl
-
-namespace taut
-{
 
 /// An energy's value for every element, as bounded() has it.
 template <class Element, class Energy>

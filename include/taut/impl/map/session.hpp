@@ -134,6 +134,13 @@ private:
     std::unique_ptr<impl::session_body<Element>> body_;
 };
 
+// clang 14 takes no account of the constraints of constructors where it deduces Element.
+session(queue&, const mesh<triangle>&, const parameterize_params& = {})->session<triangle>;
+template <std::same_as<deform_params<triangle>> Params>
+session(queue&, const mesh<triangle>&, const Params&) -> session<triangle>;
+session(queue&, const mesh<tetrahedron>&, const deform_params<tetrahedron>& = {})->session<tetrahedron>;
+session(queue&, const thin_shell&, const shell_params& = {})->session<hinge>;
+
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
