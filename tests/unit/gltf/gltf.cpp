@@ -115,7 +115,7 @@ std::size_t require_kept(const io::gltf_model& before, const uv_list& uv, const 
         {
             REQUIRE(after.texcoord_cells[t][k] >= 0);
             CHECK(after.texcoords[static_cast<std::size_t>(after.texcoord_cells[t][k])] ==
-                  io::impl::texcoord_in_gltf(uv[t][k]));
+                  io::texcoord_in_gltf(uv[t][k]));
         }
     return added;
 }
@@ -127,7 +127,7 @@ std::size_t vertices_wanted(const io::gltf_model& model, const uv_list& uv)
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
         {
-            const vec2 x = io::impl::texcoord_in_gltf(uv[t][k]);
+            const vec2 x = io::texcoord_in_gltf(uv[t][k]);
             seen[model.vertices[t][k]].emplace(x.x, x.y);
         }
     std::size_t n = 0;
@@ -179,7 +179,7 @@ TEST_CASE("gltf: the program of the document")
         for (std::size_t k = 0; k < 3; ++k)
         {
             const vec3& p = model.points[static_cast<std::size_t>(model.triangles[t][k])];
-            uv[t][k] = io::impl::texcoord_in_gltf({0.5 + 0.1 * p.x, 0.5 - 0.1 * p.y}); // what the file will hold
+            uv[t][k] = io::texcoord_in_gltf({0.5 + 0.1 * p.x, 0.5 - 0.1 * p.y}); // what the file will hold
         }
     io::write_gltf(out, model, uv);
     // [model]
@@ -309,8 +309,8 @@ TEST_CASE("gltf: what is read back is what was said")
     for (const auto& corners : uv)
         for (const vec2& x : corners)
         {
-            const vec2 y = io::impl::texcoord_in_gltf(x);
-            CHECK(io::impl::texcoord_in_gltf(y) == y);
+            const vec2 y = io::texcoord_in_gltf(x);
+            CHECK(io::texcoord_in_gltf(y) == y);
             CHECK(std::abs(x.y - y.y) <= 0x1p-24 * x.y);
         }
     // The numbers in the file.
@@ -318,7 +318,7 @@ TEST_CASE("gltf: what is read back is what was said")
     const auto a = io::impl::accessor_of(back.source, *p.attribute("TEXCOORD_0"));
     const auto bytes = io::impl::all_elements(back.source, a, "");
     const auto v = io::impl::drawn_vertices(back.source, p)[0];
-    CHECK(io::impl::load_number(bytes, a, 2 * v + 1) == io::impl::texcoord_in_gltf(uv[0][0]).y);
+    CHECK(io::impl::load_number(bytes, a, 2 * v + 1) == io::texcoord_in_gltf(uv[0][0]).y);
 }
 
 TEST_CASE("gltf: triangles without texture coordinates lie in one point, and take none of their neighbours along")
@@ -352,7 +352,7 @@ TEST_CASE("gltf: fractions of unsigned shorts come back as they were")
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(back.texcoords[static_cast<std::size_t>(back.texcoord_cells[t][k])] ==
-                  io::impl::texcoord_in_gltf(uv[t][k], io::gltf_numbers::fractions));
+                  io::texcoord_in_gltf(uv[t][k], io::gltf_numbers::fractions));
     const auto a =
         back.source.document["accessors"][*io::impl::primitives_of(back.source).all[0].attribute("TEXCOORD_0")];
     CHECK(a["componentType"] == 5123);

@@ -79,14 +79,14 @@ enum class gltf_numbers
     fractions ///< of 65535, from 0 to 1: unsigned shorts, normalized
 };
 
+/// Texture coordinates as a glTF file holds them, and as they are read back bit for bit: the nearest such number.
+/// Certify these if the file is to be certain.
+vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers = gltf_numbers::floats);
+
 } // namespace taut::io
 
 namespace taut::io::impl
 {
-
-/// Texture coordinates as a glTF file holds them, and as they are read back bit for bit: the nearest such number.
-/// Certify these if the file is to be certain.
-vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers = gltf_numbers::floats);
 
 /// The files that hold the buffers of the document at a path; none of a .glb, or where they cannot be told.
 std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& path);

@@ -194,12 +194,22 @@ inline file_to_write file_of(const std::filesystem::path& path, std::string byte
     return {path, [bytes = std::move(bytes)](atomic_file& file) { file.write(bytes); }};
 }
 
+} // namespace taut::io::impl
+
+namespace taut::io
+{
+
 vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers)
 {
     if (numbers == gltf_numbers::floats) return {taut::impl::in_single(uv.x), taut::impl::in_single(uv.y)};
     const auto fraction = [](double x) { return std::round(std::clamp(x, 0.0, 1.0) * 65535) / 65535; };
     return {fraction(uv.x), fraction(uv.y)};
 }
+
+} // namespace taut::io
+
+namespace taut::io::impl
+{
 
 std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path& path, const gltf_source& source)
 {
