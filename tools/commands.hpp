@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "exit_codes.hpp"
-#include "outputs.hpp"
+#include "shared/exit_codes.hpp"
+#include "shared/outputs.hpp"
 
 namespace taut::tools
 {

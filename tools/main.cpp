@@ -22,13 +22,13 @@
 #include <taut/impl/mesh/mesh_error.hpp>
 #include <taut/version.hpp>
 
-#include "command_line.hpp"
 #include "commands.hpp"
-#include "failure.hpp"
-#include "help.hpp"
-#include "interrupt.hpp"
-#include "other_way.hpp"
-#include "writing.hpp"
+#include "shared/command_line.hpp"
+#include "shared/failure.hpp"
+#include "shared/help.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/other_way.hpp"
+#include "shared/writing.hpp"
 
 namespace taut::tools
 {

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "../../tools/edge_list.cpp"
-#include "../../tools/face_list.cpp"
+#include "../../tools/paste/face_list.cpp"
+#include "../../tools/shared/edge_list.cpp"
 #include "budget.hpp"
 #include "mutator.hpp"
 #include "require.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "atlas_options.hpp"
+#include "atlas/atlas_options.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,10 +7,10 @@
 
 #include <taut/impl/gltf/gltf.hpp>
 
-#include "../choices.hpp"
-#include "../failure.hpp"
-#include "../shared_options.hpp"
-#include "../text_table.hpp"
+#include "shared/choices.hpp"
+#include "shared/failure.hpp"
+#include "shared/shared_options.hpp"
+#include "shared/text_table.hpp"
 
 namespace taut::tools
 {

@@ -11,7 +11,7 @@
 #include <taut/impl/atlas/atlas_params.hpp>
 #include <taut/impl/io/read_surface.hpp>
 
-#include "atlas_source.hpp"
+#include "atlas/atlas_source.hpp"
 
 namespace taut::tools
 {

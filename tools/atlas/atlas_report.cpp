@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "atlas_report.hpp"
+#include "atlas/atlas_report.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -14,11 +14,11 @@
 #include <taut/impl/io/detail/obj_output.hpp>
 #include <taut/impl/mesh/ideal.hpp>
 
-#include "../assessment.hpp"
-#include "../repair_report.hpp"
-#include "../report_files.hpp"
-#include "../run_clock.hpp"
-#include "../text_table.hpp"
+#include "shared/assessment.hpp"
+#include "shared/repair_report.hpp"
+#include "shared/report_files.hpp"
+#include "shared/run_clock.hpp"
+#include "shared/text_table.hpp"
 
 namespace taut::tools
 {

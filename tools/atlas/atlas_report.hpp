@@ -11,8 +11,8 @@
 #include <taut/impl/io/atomic_file.hpp>
 #include <taut/impl/repair/repair_finding.hpp>
 
-#include "../exit_codes.hpp"
-#include "atlas_options.hpp"
+#include "atlas/atlas_options.hpp"
+#include "shared/exit_codes.hpp"
 
 namespace taut::tools
 {

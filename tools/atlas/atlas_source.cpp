@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "atlas_source.hpp"
+#include "atlas/atlas_source.hpp"
 
 #include <cmath>
 #include <limits>
@@ -11,8 +11,8 @@
 #include <taut/impl/io/write_obj.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
-#include "../failure.hpp"
-#include "../repair_report.hpp"
+#include "shared/failure.hpp"
+#include "shared/repair_report.hpp"
 
 namespace taut::tools
 {

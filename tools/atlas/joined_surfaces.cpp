@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "joined_surfaces.hpp"
+#include "atlas/joined_surfaces.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -11,7 +11,7 @@
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/mesh/facets.hpp>
 
-#include "atlas_source.hpp"
+#include "atlas/atlas_source.hpp"
 
 namespace taut::tools
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pinned_faces.hpp"
+#include "atlas/pinned_faces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 
 #include <taut/impl/atlas/chart_mesh.hpp>
 
-#include "../face_list.hpp"
-#include "../failure.hpp"
+#include "paste/face_list.hpp"
+#include "shared/failure.hpp"
 
 namespace taut::tools
 {

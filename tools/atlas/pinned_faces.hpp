@@ -6,7 +6,7 @@
 
 #include <taut/impl/mesh/facets.hpp>
 
-#include "atlas_source.hpp"
+#include "atlas/atlas_source.hpp"
 
 namespace taut::tools
 {

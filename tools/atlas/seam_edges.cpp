@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "seam_edges.hpp"
+#include "atlas/seam_edges.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 #include <taut/impl/io/read_file.hpp>
 
-#include "../edge_list.hpp"
-#include "../failure.hpp"
+#include "shared/edge_list.hpp"
+#include "shared/failure.hpp"
 
 namespace taut::tools
 {

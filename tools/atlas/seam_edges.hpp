@@ -6,8 +6,8 @@
 
 #include <taut/impl/mesh/facets.hpp>
 
-#include "atlas_options.hpp"
-#include "joined_surfaces.hpp"
+#include "atlas/atlas_options.hpp"
+#include "atlas/joined_surfaces.hpp"
 
 namespace taut::tools
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch_run.hpp"
+#include "batch/batch_run.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,12 +22,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "../exit_codes.hpp"
-#include "../failure.hpp"
-#include "../interrupt.hpp"
-#include "../outputs.hpp"
-#include "job_files.hpp"
-#include "kernel_cache.hpp"
+#include "batch/job_files.hpp"
+#include "batch/kernel_cache.hpp"
+#include "shared/exit_codes.hpp"
+#include "shared/failure.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/outputs.hpp"
 
 namespace taut::tools::batch
 {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "../child.hpp"
-#include "job.hpp"
-#include "result.hpp"
+#include "batch/job.hpp"
+#include "batch/result.hpp"
+#include "shared/child.hpp"
 
 namespace taut::tools::batch
 {

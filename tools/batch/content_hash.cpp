@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "content_hash.hpp"
+#include "batch/content_hash.hpp"
 
 #include <array>
 #include <cerrno>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "job.hpp"
+#include "batch/job.hpp"
 
 #include <algorithm>
 #include <charconv>

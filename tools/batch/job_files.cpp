@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "job_files.hpp"
+#include "batch/job_files.hpp"
 
 #include <chrono>
 
 #include <CLI/CLI.hpp>
 
-#include "../command_line.hpp"
-#include "../commands.hpp"
+#include "commands.hpp"
+#include "shared/command_line.hpp"
 
 namespace taut::tools::batch
 {

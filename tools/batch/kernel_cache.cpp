@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "kernel_cache.hpp"
+#include "batch/kernel_cache.hpp"
 
 #include <array>
 #include <cerrno>
@@ -11,8 +11,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "../failure.hpp"
-#include "../private_folder.hpp"
+#include "shared/failure.hpp"
+#include "shared/private_folder.hpp"
 
 namespace taut::tools::batch
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "result.hpp"
+#include "batch/result.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -17,9 +17,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "../exit_codes.hpp"
-#include "../failure.hpp"
-#include "content_hash.hpp"
+#include "batch/content_hash.hpp"
+#include "shared/exit_codes.hpp"
+#include "shared/failure.hpp"
 
 namespace taut::tools::batch
 {

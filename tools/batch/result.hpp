@@ -12,10 +12,10 @@
 
 #include <taut/impl/io/atomic_file.hpp>
 
-#include "../child.hpp"
-#include "../exit_codes.hpp"
-#include "job.hpp"
-#include "job_files.hpp"
+#include "batch/job.hpp"
+#include "batch/job_files.hpp"
+#include "shared/child.hpp"
+#include "shared/exit_codes.hpp"
 
 namespace taut::tools::batch
 {

@@ -10,10 +10,10 @@
 
 #include <taut/impl/core/error.hpp>
 
-#include "atlas_page.hpp"
-#include "chart_table.hpp"
-#include "report_page.hpp"
-#include "shown_mesh.hpp"
+#include "report/atlas_page.hpp"
+#include "report/chart_table.hpp"
+#include "report/report_page.hpp"
+#include "report/shown_mesh.hpp"
 
 namespace taut::report
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "chart_table.hpp"
+#include "report/chart_table.hpp"
 
 #include <algorithm>
 #include <cmath>

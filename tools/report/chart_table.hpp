@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "atlas_page.hpp"
+#include "report/atlas_page.hpp"
 
 namespace taut::report
 {

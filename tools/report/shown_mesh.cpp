@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "shown_mesh.hpp"
+#include "report/shown_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "browser.hpp"
+#include "view/browser.hpp"
 
 #include <cerrno>
 #include <csignal>

@@ -5,7 +5,7 @@
 
 #include <sys/types.h>
 
-#include "../private_folder.hpp"
+#include "shared/private_folder.hpp"
 
 namespace taut::view
 {

@@ -19,9 +19,9 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
-#include "gate.hpp"
-#include "messages.hpp"
-#include "server.hpp"
+#include "view/gate.hpp"
+#include "view/messages.hpp"
+#include "view/server.hpp"
 
 namespace taut::view
 {

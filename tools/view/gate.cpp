@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gate.hpp"
+#include "view/gate.hpp"
 
 #include <algorithm>
 #include <random>

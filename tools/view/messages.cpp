@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "messages.hpp"
+#include "view/messages.hpp"
 
 #include <bit>
 #include <cmath>

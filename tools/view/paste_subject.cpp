@@ -11,9 +11,9 @@
 #include <taut/impl/io/detail/obj_output.hpp>
 #include <taut/impl/io/read_surface.hpp>
 
-#include "../paste_check.hpp"
-#include "floats.hpp"
-#include "subjects.hpp"
+#include "paste/paste_check.hpp"
+#include "view/floats.hpp"
+#include "view/subjects.hpp"
 
 namespace taut::view
 {

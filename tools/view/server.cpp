@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server.hpp"
+#include "view/server.hpp"
 
 #include <chrono>
 #include <utility>
@@ -9,7 +9,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 
-#include "connection.hpp"
+#include "view/connection.hpp"
 
 namespace taut::view
 {

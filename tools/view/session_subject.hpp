@@ -15,7 +15,7 @@
 #include <taut/impl/map/session.hpp>
 #include <taut/impl/untangle/untangle.hpp>
 
-#include "subject.hpp"
+#include "view/subject.hpp"
 
 namespace taut::view
 {

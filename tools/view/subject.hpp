@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "messages.hpp"
+#include "view/messages.hpp"
 
 namespace taut::view
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "subjects.hpp"
+#include "view/subjects.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,13 +18,13 @@
 #include <taut/impl/map/parameterize.hpp>
 #include <taut/impl/mesh/thin_shell.hpp>
 
-#include "../failure.hpp"
-#include "../seams.hpp"
-#include "../volume/volume_case.hpp"
-#include "../volume/written_shape.hpp"
-#include "floats.hpp"
-#include "session_subject.hpp"
-#include "written.hpp"
+#include "shared/failure.hpp"
+#include "shared/seams.hpp"
+#include "view/floats.hpp"
+#include "view/session_subject.hpp"
+#include "view/written.hpp"
+#include "volume/volume_case.hpp"
+#include "volume/written_shape.hpp"
 
 namespace taut::view
 {

@@ -7,7 +7,7 @@
 #include <taut/impl/compute/queue.hpp>
 #include <taut/impl/io/read_surface.hpp>
 
-#include "subject.hpp"
+#include "view/subject.hpp"
 
 namespace taut::view
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "workbench.hpp"
+#include "view/workbench.hpp"
 
 #include <cstddef>
 #include <exception>

@@ -12,8 +12,8 @@
 #include <string>
 #include <thread>
 
-#include "messages.hpp"
-#include "subject.hpp"
+#include "view/messages.hpp"
+#include "view/subject.hpp"
 
 namespace taut::view
 {

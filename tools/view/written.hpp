@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string>
 
-#include "../private_folder.hpp"
+#include "shared/private_folder.hpp"
 
 namespace taut::view
 {

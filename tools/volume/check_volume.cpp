@@ -8,7 +8,7 @@
 #include <taut/impl/measure/describe_defects.hpp>
 #include <taut/impl/mesh/cell_corners.hpp>
 
-#include "text_table.hpp"
+#include "shared/text_table.hpp"
 #include "volume/shape_report.hpp"
 
 namespace taut::tools

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "check_report.hpp"
+#include "check/check_report.hpp"
 #include "volume/volume_case.hpp"
 
 namespace taut::tools

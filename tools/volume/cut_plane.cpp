@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "failure.hpp"
+#include "shared/failure.hpp"
 #include "volume/group_targets.hpp"
 
 namespace taut::tools

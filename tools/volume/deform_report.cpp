@@ -4,10 +4,10 @@
 #include <iostream>
 #include <sstream>
 
-#include "assessment.hpp"
-#include "run_clock.hpp"
-#include "stages.hpp"
-#include "text_table.hpp"
+#include "shared/assessment.hpp"
+#include "shared/run_clock.hpp"
+#include "shared/stages.hpp"
+#include "shared/text_table.hpp"
 #include "volume/shape_report.hpp"
 
 namespace taut::tools

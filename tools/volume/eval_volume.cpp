@@ -12,14 +12,14 @@
 #include <taut/impl/measure/describe_defects.hpp>
 #include <taut/impl/measure/quality.hpp>
 
-#include "assessment.hpp"
-#include "outputs.hpp"
-#include "report_files.hpp"
-#include "text_table.hpp"
+#include "shared/assessment.hpp"
+#include "shared/outputs.hpp"
+#include "shared/report_files.hpp"
+#include "shared/text_table.hpp"
+#include "shared/writing.hpp"
 #include "volume/shape_report.hpp"
 #include "volume/volume_case.hpp"
 #include "volume/volume_drawing.hpp"
-#include "writing.hpp"
 
 namespace taut::tools
 {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "exit_codes.hpp"
+#include "shared/exit_codes.hpp"
 
 namespace taut::tools
 {

@@ -15,7 +15,7 @@
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
-#include "failure.hpp"
+#include "shared/failure.hpp"
 
 namespace taut::tools
 {

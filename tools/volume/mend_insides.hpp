@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "text_table.hpp"
+#include "shared/text_table.hpp"
 #include "volume/volume_case.hpp"
 
 namespace taut::tools

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "volume/refined_case.hpp"
 
-#include "text_table.hpp"
+#include "shared/text_table.hpp"
 
 namespace taut::tools
 {

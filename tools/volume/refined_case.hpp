@@ -11,7 +11,7 @@
 #include <taut/impl/io/write_volume.hpp>
 #include <taut/impl/mesh/refine_elements.hpp>
 
-#include "failure.hpp"
+#include "shared/failure.hpp"
 #include "volume/volume_case.hpp"
 
 namespace taut::tools

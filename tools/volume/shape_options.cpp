@@ -7,9 +7,9 @@
 #include <taut/impl/energy/neo_hookean.hpp>
 #include <taut/impl/energy/shape.hpp>
 
-#include "choices.hpp"
-#include "shared_options.hpp"
-#include "shell_run.hpp"
+#include "deform/shell_run.hpp"
+#include "shared/choices.hpp"
+#include "shared/shared_options.hpp"
 #include "volume/group_targets.hpp"
 #include "volume/volume_case.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "volume/shape_report.hpp"
 
-#include "text_table.hpp"
+#include "shared/text_table.hpp"
 
 namespace taut::tools
 {

@@ -19,20 +19,20 @@
 #include <taut/impl/map/deform_refined.hpp>
 #include <taut/impl/map/smooth.hpp>
 
-#include "failure.hpp"
-#include "interrupt.hpp"
-#include "open_queue.hpp"
-#include "outputs.hpp"
-#include "progress.hpp"
-#include "report_files.hpp"
-#include "run_clock.hpp"
+#include "shared/failure.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/open_queue.hpp"
+#include "shared/outputs.hpp"
+#include "shared/progress.hpp"
+#include "shared/report_files.hpp"
+#include "shared/run_clock.hpp"
+#include "shared/writing.hpp"
 #include "volume/deform_report.hpp"
 #include "volume/group_targets.hpp"
 #include "volume/mend_insides.hpp"
 #include "volume/refined_case.hpp"
 #include "volume/volume_drawing.hpp"
 #include "volume/written_shape.hpp"
-#include "writing.hpp"
 
 namespace taut::tools
 {

@@ -12,9 +12,9 @@
 #include <taut/impl/io/read_volume.hpp>
 #include <taut/impl/io/write_volume.hpp>
 
-#include "failure.hpp"
-#include "outputs.hpp"
-#include "text_table.hpp"
+#include "shared/failure.hpp"
+#include "shared/outputs.hpp"
+#include "shared/text_table.hpp"
 
 namespace taut::tools
 {

@@ -11,10 +11,10 @@
 #include <taut/impl/io/cell_faces.hpp>
 #include <taut/impl/mesh/cell_corners.hpp>
 
-#include "failure.hpp"
-#include "outputs.hpp"
-#include "png.hpp"
-#include "text_table.hpp"
+#include "shared/failure.hpp"
+#include "shared/outputs.hpp"
+#include "shared/png.hpp"
+#include "shared/text_table.hpp"
 #include "volume/cut_plane.hpp"
 
 namespace taut::tools

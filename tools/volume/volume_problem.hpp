@@ -7,7 +7,7 @@
 #include <taut/impl/io/make_untangle_problem.hpp>
 #include <taut/impl/mesh/cell_corners.hpp>
 
-#include "untangle_report.hpp"
+#include "untangle/untangle_report.hpp"
 #include "volume/group_targets.hpp"
 #include "volume/volume_case.hpp"
 #include "volume/written_shape.hpp"

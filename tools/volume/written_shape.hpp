@@ -15,8 +15,8 @@
 #include <taut/impl/measure/describe_defects.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
-#include "failure.hpp"
-#include "text_table.hpp"
+#include "shared/failure.hpp"
+#include "shared/text_table.hpp"
 #include "volume/volume_case.hpp"
 
 namespace taut::tools

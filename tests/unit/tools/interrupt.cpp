@@ -9,8 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "../../../tools/exit_codes.hpp"
-#include "../../../tools/interrupt.cpp" // it is not in a library of its own
+#include "../../../tools/shared/exit_codes.hpp"
+#include "../../../tools/shared/interrupt.cpp" // it is not in a library of its own
 
 using namespace taut::tools;
 

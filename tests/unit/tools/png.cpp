@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "../../../tools/png.cpp" // the encoder is not in a library of its own
+#include "../../../tools/shared/png.cpp" // the encoder is not in a library of its own
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../../../tools/progress.hpp"
+#include "../../../tools/shared/progress.hpp"
 
 using taut::tools::parse_progress_mode;
 using taut::tools::progress;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <text_table.hpp>
+#include <shared/text_table.hpp>
 
 using namespace taut::tools;
 

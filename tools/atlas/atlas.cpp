@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <atlas/atlas_options.hpp>
+#include <atlas/atlas_source.hpp>
+#include <atlas/joined_surfaces.hpp>
+#include <atlas/pinned_faces.hpp>
+#include <atlas/seam_edges.hpp>
+#include <picture/render_picture.hpp>
+#include <picture/symmetric_distortion.hpp>
+#include <report/atlas_page.hpp>
+#include <taut/impl/atlas/atlas_report.hpp>
+#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/impl/atlas/symmetry.hpp>
+#include <taut/impl/gltf/gltf.hpp>
+#include <taut/impl/io/write_files.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+
+#include "commands.hpp"
+#include "shared/failure.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/layout_file.hpp"
+#include "shared/open_queue.hpp"
+#include "shared/outputs.hpp"
+#include "shared/png.hpp"
+#include "shared/progress.hpp"
+#include "shared/report_files.hpp"
+#include "shared/run_clock.hpp"
+#include "shared/shared_options.hpp"
+#include "shared/writing.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// Has the allocator keep what is freed for the next phase: getting large arrays from the system anew is a fifth of
+/// what an interrupted run still does.
+void keep_freed_memory()
+{
+#ifdef __GLIBC__
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, -1);
+#endif
+}
+
+/// What glTF makes of a coordinate in the plane of the atlas, whose v is -v there.
+template <io::gltf_numbers Numbers>
+vec2 in_gltf(vec2 x)
+{
+    const vec2 y = io::texcoord_in_gltf({x.x, -x.y}, Numbers);
+    return {y.x, -y.y};
+}
+
+/// Whether pinned corners stay as they are.
+bool holds_pinned(const atlas_params& params)
+{
+    for (std::size_t c = 0; c < params.pinned.size(); ++c)
+        if (params.pinned[c] != 0)
+            for (const vec2& x : params.initial[c])
+                if (params.stored(x) != x) return false;
+    return true;
+}
+
+/// One run of `taut atlas`, phase by phase.
+class atlas_run
+{
+public:
+    atlas_run(const atlas_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
+        : options_(options),
+          clock_(launch),
+          progress_(progress_of(options.progress, options.quiet), std::cerr),
+          place_of_report_(options.quiet ? nullptr : files.place_of_report())
+    {
+    }
+
+    exit_code operator()()
+    {
+        check(options_);
+        limit_time(options_.time_limit - clock_.now());
+        tell("read");
+        try
+        {
+            report_.read = clock_.timed([&] { read(); });
+            make();
+        }
+        catch (const mesh_error& e)
+        {
+            if (options_.repair || e.fault() == mesh_fault::empty || e.fault() == mesh_fault::too_large) throw;
+            std::string more = "; or let --repair mend it";
+            for (const auto& s : sources_)
+                if (!s->near_edges.empty()) more += "; " + s->near_edges;
+            throw mesh_error(e.fault(), e.ids(), e.what() + more);
+        }
+        write();
+        return report_.code;
+    }
+
+private:
+    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
+
+    void read()
+    {
+        for (std::size_t i = 0; i < options_.inputs.size(); ++i)
+        {
+            sources_.push_back(open_atlas_source(options_.inputs[i], to_source_options(options_)));
+            const auto& s = *sources_.back();
+            auto& told = report_.surfaces.emplace_back();
+            told.input = options_.inputs[i];
+            told.output = options_.outputs[options_.outputs.size() == 1 ? 0 : i];
+            told.vertices = s.file_vertices;
+            told.triangles = s.file_triangles;
+            told.mapped = s.surface().cell_count();
+            told.repairs.assign(s.repairs().begin(), s.repairs().end());
+            report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());
+            if (!s.near_edges.empty()) report_.notes.push_back(s.near_edges);
+            if (!s.texcoord_fault.empty() && (options_.keep_charts || options_.keep_seams || !options_.pinned.empty()))
+                throw unsuitable_input(s.texcoord_fault +
+                                       "; correct it, or leave out --charts keep, --keep-seams and --pin");
+            if (options_.inputs.size() > 1) require_valid(s.surface(), options_.inputs[i]);
+        }
+        joined_.emplace(join(sources_));
+    }
+
+    /// As make_atlas() does for all surfaces together, with the numbers of one file.
+    static void require_valid(const mesh<triangle>& m, const std::string& path)
+    {
+        try
+        {
+            validate(m, facets(m), atlas_requirements);
+        }
+        catch (const mesh_error& e)
+        {
+            throw mesh_error(e.fault(), e.ids(), path + ": " + e.what());
+        }
+    }
+
+    void make()
+    {
+        const auto& m = joined_->surface;
+        auto params = to_params(options_);
+        const auto f = facets(m);
+        const auto seams = seams_of(sources_, *joined_, f, options_);
+        params.charts.seams = seams;
+        const auto diagonals = diagonals_of(sources_, f);
+        params.charts.together = diagonals;
+        if (options_.keep_charts) params.initial = texcoords_of(sources_);
+        if (!options_.pinned.empty())
+        {
+            params.pinned = pinned_of(*sources_[0], f, options_.pinned);
+            params.initial = sources_[0]->known_texcoords();
+        }
+        // The certificate is of what the files will have.
+        if (params.origin.y < 0) store_in_gltf(params);
+        params.observer = [this](const atlas_progress& p)
+        {
+            keep(p.usable);
+            progress_.update(
+                {.phase = p.stage, .step = static_cast<int>(p.charts), .energy = p.value, .seconds = clock_.now()});
+            return !interrupted();
+        };
+        tell("device");
+        std::optional<queue> q;
+        report_.queue = clock_.timed([&] { q = open_queue(options_.device, false); });
+        report_.device = q->device().name();
+        report_.device_label = (std::ostringstream() << q->device()).str();
+        params.time_limit = clock_.left(options_.time_limit);
+        try
+        {
+            atlas_ = make_atlas(*q, m, params);
+        }
+        catch (const symmetry_error& e)
+        {
+            throw symmetry_error(e.normal(), e.offset(), vertices_of_files(sources_, *joined_, e.vertices()),
+                                 e.edges());
+        }
+        report_.atlas = atlas_->report;
+        report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
+        if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;
+        if (!*atlas_) throw no_valid_map(atlas_->report.reason);
+    }
+
+    /// Texture coordinates are floats, or fractions where these hold what is pinned as it is and floats do not.
+    void store_in_gltf(atlas_params& params)
+    {
+        params.stored = in_gltf<io::gltf_numbers::floats>;
+        if (holds_pinned(params)) return;
+        params.stored = in_gltf<io::gltf_numbers::fractions>;
+        numbers_ = io::gltf_numbers::fractions;
+        if (params.packing.tiles == 1 && holds_pinned(params)) // they end at 1
+        {
+            params.packing.rounding = std::max(params.packing.rounding, 0.5 / 65535);
+            return;
+        }
+        params.stored = in_gltf<io::gltf_numbers::floats>;
+        numbers_ = io::gltf_numbers::floats;
+        report_.notes.push_back("coordinates of pinned charts are rounded to single precision, as glTF has no other");
+    }
+
+    void write()
+    {
+        tell("write");
+        keep(true);
+        const double begin = clock_.now();
+        const auto note_time = [&]
+        {
+            report_.total = clock_.now();
+            report_.write = report_.total - begin - report_.draw;
+        };
+        const corner_maps maps(*joined_, *atlas_);
+        std::vector<io::file_to_write> files;
+        if (options_.outputs.size() < sources_.size())
+            files.push_back({options_.outputs[0],
+                             [&](io::atomic_file& file) { write_joined(file, options_.inputs, *joined_, maps); }});
+        else
+            for (std::size_t i = 0; i < sources_.size(); ++i)
+                for (auto& file : sources_[i]->files(options_.outputs[i], maps.of(i), numbers_, report_.notes))
+                    files.push_back(std::move(file));
+        const auto draw = [&](std::string& path, auto image)
+        { add_picture(files, path, report_.notes, clock_, report_.draw, image); };
+        draw(options_.picture, [this] { return picture(); });
+        draw(options_.render, [this] { return render(); });
+        draw(options_.report, [this] { return page(); });
+        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
+    }
+
+    std::string title() const
+    {
+        std::string names;
+        for (const auto& input : options_.inputs)
+            names += (names.empty() ? "" : ", ") + std::filesystem::path(input).filename().string();
+        return names;
+    }
+
+    /// The atlas in the squares from 0.
+    std::vector<vec2> shown() const
+    {
+        std::vector<vec2> uv = atlas_->uv;
+        for (vec2& x : uv) x -= origin_of(options_);
+        return uv;
+    }
+
+    std::string picture() const
+    {
+        const auto& cut = atlas_->charts.surface;
+        const auto uv = shown();
+        std::vector<vec2> sized = uv;
+        for (vec2& p : sized) p /= atlas_->layout.scale;
+        const auto distortion = io::symmetric_distortion(cut.points(), cut.cells(), sized);
+        const auto loops = boundary_loops(cut);
+        const io::layout_style style{.title = title(),
+                                     .energy = report_.atlas.distortion,
+                                     .note = std::to_string(report_.atlas.charts.size()) + " charts, " +
+                                             std::to_string(static_cast<int>(100 * report_.atlas.utilization)) +
+                                             " % of the square used"};
+        return layout_file(options_.picture, uv, cut.cells(), distortion, loops, style, {});
+    }
+
+    std::string render() const
+    {
+        const auto& cut = atlas_->charts.surface;
+        return encode_png(io::render_picture(cut.points(), cut.cells(), shown(), {.title = title()}));
+    }
+
+    std::string page() const
+    {
+        const auto& m = joined_->surface;
+        const auto corners = atlas_->corners();
+        const auto places = shown();
+        std::vector<std::array<vec2, 3>> uv(corners.size());
+        for (std::size_t c = 0; c < uv.size(); ++c)
+            for (std::size_t k = 0; k < 3; ++k) uv[c][k] = places[static_cast<std::size_t>(corners[c][k])];
+        std::vector<idx> chart(corners.size());
+        for (std::size_t k = 0; k + 1 < atlas_->charts.first_cell.size(); ++k)
+            for (idx c = atlas_->charts.first_cell[k]; c < atlas_->charts.first_cell[k + 1]; ++c)
+                chart[static_cast<std::size_t>(atlas_->charts.cell_origins[static_cast<std::size_t>(c)])] =
+                    static_cast<idx>(k);
+        const auto energy = triangle_energies(*atlas_);
+        report::atlas_page page{.title = title(),
+                                .command = as_command_line(options_),
+                                .points = m.points(),
+                                .cells = m.cells(),
+                                .uv = uv,
+                                .chart = chart,
+                                .energy = energy,
+                                .columns = {},
+                                .repairs = {},
+                                .stages = stages(report_),
+                                .numbers = numbers(report_, options_)};
+        for (const auto& s : report_.surfaces)
+            for (const auto& finding : s.repairs) page.repairs.push_back(finding.message());
+        return atlas_report_html(page);
+    }
+
+    atlas_options options_;
+    run_clock clock_;
+    progress progress_;
+    std::vector<std::unique_ptr<atlas_source>> sources_;
+    std::optional<joined_surfaces> joined_;
+    std::optional<atlas> atlas_;
+    io::gltf_numbers numbers_ = io::gltf_numbers::floats;
+    atlas_run_report report_;
+    const char* place_of_report_; ///< null: there is none
+};
+
+} // namespace
+
+command add_atlas(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<atlas_options>();
+    declare(*program.add_subcommand("atlas", "Cut any surface into charts, flatten them and pack them in a square"),
+            *options);
+    return [options, launch](const outputs& files)
+    {
+        keep_freed_memory();
+        return atlas_run(*options, files, launch)();
+    };
+}
+
+} // namespace taut::tools

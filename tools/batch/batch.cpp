@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <picture/format.hpp>
+
+#include "batch/batch_run.hpp"
+#include "batch/job.hpp"
+#include "batch/kernel_cache.hpp"
+#include "commands.hpp"
+#include "shared/failure.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/outputs.hpp"
+#include "shared/progress.hpp"
+#include "shared/run_clock.hpp"
+#include "shared/shared_options.hpp"
+#include "shared/text_table.hpp"
+#include "shared/writing.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct batch_options
+{
+    std::string manifest, out = standard_output, shard = "1/1", cache, progress;
+    int jobs = 1;
+    double memory_limit = std::numeric_limits<double>::infinity();
+    batch::run_options run;
+    bool quiet = false;
+};
+
+/// "152 jobs: 140 done, 3 of them failed, 12 left out as done before; 61.2 s"
+std::string summary(const batch::tally& t, double seconds)
+{
+    std::ostringstream out;
+    out << t.jobs << (t.jobs == 1 ? " job: " : " jobs: ") << t.done << " done";
+    if (t.failed > 0) out << ", " << t.failed << " of them failed";
+    if (t.skipped > 0) out << ", " << t.skipped << " left out as done before";
+    if (t.failed_before > 0) out << ", " << t.failed_before << " of these failed";
+    const std::size_t open = t.jobs - t.done - t.skipped;
+    if (open > 0) out << ", " << open << " still to do";
+    out << "; " << io::impl::format_number(std::round(seconds * 10) / 10, 6) << " s\n";
+    return out.str();
+}
+
+exit_code run(batch_options options, const outputs& files, const run_clock& clock)
+{
+    const auto part = batch::parse_shard(options.shard);
+    if (!part) throw usage_error("--shard " + options.shard + ": is no i/N with i from 1 to N");
+    if (options.run.resume && io::impl::is_stream(options.out))
+        throw usage_error("--resume needs the file of results: name it with --out");
+    const char* const place = options.quiet ? nullptr : files.place_of_report();
+
+    std::vector<batch::job> jobs = batch::read_manifest(options.manifest), own;
+    for (std::size_t k = 0; k < jobs.size(); ++k)
+        if (part->has(k)) own.push_back(std::move(jobs[k]));
+    options.run.caches = options.cache.empty() ? batch::default_caches() : std::filesystem::path(options.cache);
+    if (std::isfinite(options.memory_limit))
+        options.run.bounds.memory = static_cast<std::uint64_t>(options.memory_limit);
+    const auto wanted = static_cast<std::size_t>(options.jobs);
+    options.run.at_once = batch::most_jobs_at_once(wanted);
+    if (options.run.at_once == 0) throw usage_error("--jobs: too few files may be open for a job; raise `ulimit -n`");
+    if (options.run.at_once < wanted && !options.quiet)
+        std::cerr << "taut: note: --jobs " << wanted << ": so few files may be open that "
+                  << count(options.run.at_once, "job is", "jobs are")
+                  << " at work at once; `ulimit -n` says how many\n";
+    options.run.resume |= options.run.retry;
+
+    batch::result_file results(options.out);
+    progress shown(progress_of(options.progress, options.quiet), std::cerr);
+    keep(true); // from here on Ctrl-C ends the jobs first
+    const auto tell = [&](const batch::tally& t)
+    {
+        const std::string phase = std::to_string(t.running) + " at work, " + std::to_string(t.failed) + " failed";
+        shown.update({.phase = phase,
+                      .step = static_cast<int>(t.done + t.skipped),
+                      .most_steps = static_cast<int>(t.jobs),
+                      .seconds = clock.now()});
+    };
+    batch::tally t;
+    writing([&] { t = batch::run_jobs(own, results, options.run, tell); });
+    shown.finish();
+    if (place && has_reader(place)) writing([&] { io::write_file(place, summary(t, clock.now())); });
+    return t.failed + t.failed_before > 0 && !interrupted() ? exit_code::some_failed : exit_code::valid;
+}
+
+} // namespace
+
+command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<batch_options>();
+    auto& o = *options;
+    auto& app = *program.add_subcommand("batch", "Run many calls of this program, each held to its limits");
+    add_input(
+        app, "--manifest", o.manifest, "the manifest",
+        R"(The jobs, a JSON object a line: {"id": "a", "args": ["unwrap", "a.obj", "-o", "flat.obj"]}, and in it, )"
+        R"(if wanted, "time_limit": S and "memory_limit": BYTES)")
+        ->required()
+        ->type_name("FILE.jsonl");
+    add_output(app, "--out", o.out, {.otherwise = standard_output},
+               "Append the results, a JSON object a line; - is standard output")
+        ->type_name("FILE.jsonl");
+    app.add_option("--shard", o.shard, "Only part i of N of the jobs, i from 1 to N")->type_name("i/N");
+    app.add_flag("--resume", o.run.resume,
+                 "Leave out jobs that have a result in --out, where arguments and inputs are the same and the outputs "
+                 "exist");
+    app.add_flag("--retry", o.run.retry, "As --resume, but run jobs that failed again");
+    app.add_option("--jobs", o.jobs, "So many at once; they share the processors")
+        ->type_name("N")
+        ->check(number_that([](double x) { return x >= 1 && x <= 4096; }, "must be from 1 to 4096"))
+        ->capture_default_str();
+    add_time_limit(app, o.run.bounds.seconds,
+                   "End jobs that have no limit of their own after S seconds, with what they have");
+    app.add_option("--memory-limit", o.memory_limit, "End those that use more memory")
+        ->type_name("BYTES")
+        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
+    app.add_option("--grace", o.run.bounds.grace, "Time to write what there is, before a job is killed")
+        ->type_name("S")
+        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
+        ->capture_default_str();
+    app.add_option("--cache", o.cache, "Folder of compiled kernels, one below it for each job at work")
+        ->type_name("FOLDER");
+    add_progress(app, o.progress, o.quiet);
+    app.footer("exit codes: 0 all jobs have a valid map; 10 all were run, and some failed; 2, 3 as other commands;\n"
+               "  130, 143 interrupted: what was at work is done again with --resume");
+    return [options, launch](const outputs& files) { return run(*options, files, run_clock(launch)); };
+}
+
+} // namespace taut::tools

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "deform/shell_run.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/progress.hpp"
+#include "shared/run_clock.hpp"
+#include "shared/shared_options.hpp"
+#include "volume/shape_options.hpp"
+#include "volume/shape_run.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+exit_code run(const shape_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
+{
+    check(options);
+    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
+    const run_clock clock(launch);
+    limit_time(options.time_limit - clock.now());
+    progress progress(progress_of(options.progress, options.quiet), std::cerr);
+    if (!options.smoothing && names_surface(options.input))
+    {
+        if (options.refine) throw usage_error("--refine is of volumes and of meshes of the plane; leave it out");
+        if (options.zone > 0) throw usage_error("--zone is of SU2 files; leave it out");
+        return shell_run(options, clock, progress, place_of_report)();
+    }
+    if (options.thickness)
+        throw usage_error("--thickness is of surfaces in space (.obj, .off, .ply, .stl); leave it out");
+    progress.update({.phase = "read", .seconds = clock.now()});
+    auto file = read_volume_at_rest(options.input, options.rest, options.zone);
+    if (options.smoothing) file.rest.clear();
+    require_drawable(file, {options.picture, options.cut, options.smoothing});
+    require_mesh(file);
+    return with_case(file, [&]<class Element>(const volume_case<Element>& input)
+                     { return shape_run<Element>(options, clock, progress, place_of_report, input)(); });
+}
+
+} // namespace
+
+command add_deform(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<shape_options>();
+    declare_deform(
+        *program.add_subcommand(
+            "deform", "Deform a volume, a mesh of the plane, or a surface in space by what is held and moved"),
+        *options);
+    return [options, launch](const outputs& files) { return run(*options, files, launch); };
+}
+
+command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<shape_options>();
+    declare_smooth(*program.add_subcommand("smooth", "Move vertices to where the elements are best shaped"), *options);
+    return [options, launch](const outputs& files) { return run(*options, files, launch); };
+}
+
+} // namespace taut::tools

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/io/surface_file.hpp>
+#include <taut/impl/map/session_result.hpp>
+#include <taut/impl/map/shell_params.hpp>
+
+#include "shared/exit_codes.hpp"
+#include "shared/progress.hpp"
+#include "shared/run_clock.hpp"
+#include "volume/shape_options.hpp"
+
+namespace taut::tools
+{
+
+/// Whether a file is one of a surface in space, by its extension.
+bool names_surface(const std::string& path);
+
+/// One run of `taut deform` on a surface in space.
+class shell_run
+{
+public:
+    /// place_of_report: null if there is none. All else is referred to. Throws usage_error for options of volumes.
+    shell_run(const shape_options& options, run_clock clock, progress& progress, const char* place_of_report);
+
+    exit_code operator()();
+
+private:
+    /// Lengths of edges by those at rest.
+    struct edge_changes
+    {
+        double mean_square = 0, largest = 0; ///< root of the mean square of what is above or below 1; and its extreme
+    };
+
+    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
+    shell_params params(const thin_shell& shell, const constraints<hinge>& pins);
+    void take(const session_result<hinge>& found, const mesh<triangle>& surface, const constraints<hinge>& pins);
+    [[noreturn]] void refuse() const;
+    /// What --rest names. Throws unsuitable_input for another mesh.
+    mesh<triangle> shape_at_rest(const mesh<triangle>& surface) const;
+    void write(const io::surface_file& file, const mesh<triangle>& rest);
+    std::string picture(const mesh<triangle>& rest) const;
+    edge_changes changes(const mesh<triangle>& surface) const;
+    std::string json() const;
+    std::string text() const;
+
+    const shape_options& options_;
+    run_clock clock_;
+    progress& progress_;
+    const char* place_of_report_;
+    std::vector<vec3> points_; ///< of the result; empty if there is none
+    session_report run_;
+    edge_changes edges_;
+    std::size_t vertices_ = 0, triangles_ = 0, pins_ = 0, springs_ = 0;
+    double thickness_ = 0, read_ = 0, solve_ = 0, total_ = 0;
+    std::string device_;
+    exit_code code_ = exit_code::valid;
+};
+
+} // namespace taut::tools

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include <taut/impl/io/cut_seams.hpp>
+#include <taut/impl/io/read_surface.hpp>
+
+#include "commands.hpp"
+#include "shared/assessment.hpp"
+#include "shared/failure.hpp"
+#include "shared/report_files.hpp"
+#include "shared/shared_options.hpp"
+#include "shared/text_table.hpp"
+#include "shared/writing.hpp"
+#include "volume/eval_volume.hpp"
+#include "volume/volume_case.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct eval_options
+{
+    std::string input, map, picture, cut; ///< map and what follows: of volumes
+    io::surface_format format{};
+    bool json = false;
+    int zone = 0; ///< of a SU2 file of several; 0: none
+};
+
+exit_code evaluate(const eval_options& options)
+{
+    const bool volume = names_volume(options.input) || extension(options.input) == ".prob";
+    if (volume)
+        return evaluate_volume({options.map.empty() ? options.input : options.map,
+                                options.map.empty() ? std::string() : options.input, options.picture, options.cut,
+                                options.json, options.zone});
+    const auto refuse = [](const char* option, bool given)
+    {
+        if (given) throw usage_error(std::string(option) + " is of volume files; leave it out");
+    };
+    refuse("MAP", !options.map.empty());
+    refuse("--picture", !options.picture.empty());
+    refuse("--cut", !options.cut.empty());
+    if (options.zone > 0) throw usage_error("--zone is of SU2 files; leave it out");
+    const auto file = io::read_surface_file(options.input, options.format);
+    if (!file.texcoord_fault.empty())
+        throw unsuitable_input(file.texcoord_fault + "; correct it, or let `taut unwrap` make others");
+    if (file.texcoords.empty())
+        throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
+    const auto cut = io::cut_seams(file);
+    auto a = cut ? assess(cut->surface, cut->uv) : assess(file.surface, file.vertex_texcoords());
+    const auto& surface = cut ? cut->surface : file.surface;
+    take_polygons(a, find_convex_polygons(surface.cells(), file.faces.of_triangles(), surface.points()),
+                  cut ? cut->uv : file.vertex_texcoords());
+    const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
+    a.vertices = file.surface.vertex_count();
+    a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());
+    const auto& flips = a.quality.flips;
+
+    if (options.json)
+    {
+        nlohmann::ordered_json json;
+        json["schema"] = "taut.eval/1";
+        json["input"] = options.input;
+        json["vertices"] = a.vertices;
+        json["faces"] = flips.elements;
+        json["seam_vertices"] = seam_vertices;
+        json["flipped"] = flips.flipped;
+        json["flipped_ids"] = flips.ids;
+        json["branch_points"] = flips.branched;
+        json["branch_point_ids"] = flips.branch_ids;
+        add_polygons(json, a);
+        json["min_det"] = finite(flips.min_det);
+        json["max_det"] = finite(flips.max_det);
+        json["quality"] = to_json(a);
+        json["notes"] = a.notes;
+        write_standard_output(text_of(json));
+        return exit_code::valid;
+    }
+    for (const auto& note : a.notes) std::cerr << "taut: note: " << note << '\n';
+    labelled_lines lines;
+    lines.add("mesh", options.input + ": " + count(static_cast<std::size_t>(a.vertices), "vertex", "vertices") + ", " +
+                          count(flips.elements, "triangle", "triangles") +
+                          (seam_vertices > 0 ? ", " + count(seam_vertices, "vertex", "vertices") + " on seams" : ""));
+    describe_validity(lines, a);
+    std::ostringstream out;
+    out << lines;
+    print(out, a);
+    write_standard_output(out.str());
+    return exit_code::valid;
+}
+
+} // namespace
+
+command add_eval(CLI::App& program)
+{
+    const auto options = std::make_shared<eval_options>();
+    auto& app = *program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
+    add_input(
+        app, "IN", options->input, "the input",
+        "OBJ file with texture coordinates; seams are cut open; - is standard input. Or a volume (.mesh .msh .vtk "
+        ".vtu .node .su2), or a problem (.prob)")
+        ->required();
+    add_input(app, "MAP", options->map, "the map", "The volume IN after it was deformed: the same vertices and cells");
+    add_format(app, options->format);
+    add_drawing(app, options->picture, options->cut, "Draw a volume, or a mesh of the plane");
+    add_zone(app, options->zone);
+    app.add_flag("--json", options->json, "Print JSON");
+    app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");
+    return [options](const outputs&) { return evaluate(*options); };
+}
+
+} // namespace taut::tools

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <picture/render_picture.hpp>
+#include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/tessellate.hpp>
+#include <taut/impl/edit/write_feature_map.hpp>
+#include <taut/impl/edit/write_paste.hpp>
+#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/write_files.hpp>
+
+#include "commands.hpp"
+#include "paste/face_list.hpp"
+#include "paste/paste_check.hpp"
+#include "shared/failure.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/open_queue.hpp"
+#include "shared/outputs.hpp"
+#include "shared/report_files.hpp"
+#include "shared/run_clock.hpp"
+#include "shared/shared_options.hpp"
+#include "shared/text_table.hpp"
+#include "shared/writing.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct paste_options
+{
+    std::string source, target, region, output, map, stats, picture, device;
+    int at = -1, onto = -1, triangles = 0, texels = impl::feature_map_params{}.resolution;
+    double radius = 0, degrees = 0, reach = paste_params{}.reach;
+    paste_pose pose;
+    double time_limit = std::numeric_limits<double>::infinity();
+    bool quiet = false;
+};
+
+/// One run of `taut paste`.
+class paste_run
+{
+public:
+    paste_run(const paste_options& options, run_clock clock, const char* place_of_report)
+        : options_(options), clock_(clock), place_of_report_(place_of_report)
+    {
+    }
+
+    exit_code operator()()
+    {
+        read_seconds_ = clock_.timed(
+            [&]
+            {
+                source_.emplace(io::read_surface_file(options_.source));
+                target_.emplace(io::read_surface_file(options_.target));
+            });
+        for (const auto* file : {&*source_, &*target_}) // faces that stay keep theirs
+            if (!file->texcoord_fault.empty())
+                throw unsuitable_input(file->texcoord_fault + "; correct it, or leave the texture coordinates out");
+        const auto& surface = source_->surface;
+        if (options_.region.empty()) require_vertex("--at", options_.at, surface, options_.source);
+        require_vertex("--onto", options_.onto, target_->surface, options_.target);
+        feature part = make_feature(options_.region.empty() ? geodesic_disk(surface, options_.at, options_.radius)
+                                                            : region_of_faces(surface, read_faces(options_.region)));
+        region_ = part.region.vertices;
+        std::optional<queue> q;
+        device_seconds_ = clock_.timed([&] { q = open_queue(options_.device, false); });
+        device_ = q->device().name();
+        paste_params params{.pose = options_.pose, .reach = options_.reach};
+        params.pose.turn = options_.degrees * std::numbers::pi / 180;
+        const double softness = std::exchange(params.pose.softness, 0);
+        paste_seconds_ = clock_.timed(
+            [&]
+            {
+                paste_.emplace(*q, target_->surface, std::move(part), options_.onto, params);
+                soften(softness);
+            });
+        if (!options_.map.empty() || options_.triangles > 0) map_seconds_ = clock_.timed([&] { draw_map(*q); });
+        paste_->unfold(); // what is left of folds is told
+        quality_ = require_sound(*paste_);
+        meeting_ = paste_->self_intersections();
+        write();
+        return exit_code::valid;
+    }
+
+private:
+    static void require_vertex(const std::string& option, idx vertex, const mesh<triangle>& m, const std::string& path)
+    {
+        if (vertex < m.vertex_count()) return;
+        throw unsuitable_input(option + ' ' + std::to_string(vertex) + ": " + path + " has vertices 0 to " +
+                               std::to_string(m.vertex_count() - 1));
+    }
+
+    /// Where the feature has a map for that.
+    void soften(double softness)
+    {
+        if (softness == 0) return;
+        paste_pose to = paste_->pose();
+        to.softness = softness;
+        try
+        {
+            paste_->pose(to);
+        }
+        catch (const paste_error&) // the report tells which softness it has
+        {
+        }
+    }
+
+    /// The feature's map, and its tessellation if that is asked for.
+    void draw_map(queue& q)
+    {
+        const auto uv = parameterize_feature(q, *paste_);
+        if (!uv) throw no_valid_map("the feature has no map with its rim where it meets the target: " + uv.reason());
+        map_ = make_feature_map(q, paste_->part(), uv.uv, {.resolution = options_.texels});
+        if (options_.triangles == 0) return;
+        const auto before = paste_->part().region.surface;
+        paste_->refill(tessellate(q, paste_->part(), *map_, uv.uv, options_.triangles));
+        const auto& after = paste_->part().region.surface;
+        distance_ = std::max(largest_distance(before, after), largest_distance(after, before));
+    }
+
+    /// Of corners, middles of edges and centroids of one surface from another one.
+    static double largest_distance(const mesh<triangle>& from, const mesh<triangle>& to)
+    {
+        const taut::impl::surface_tree tree(to.points(), to.cells());
+        double largest = 0;
+        for (idx f = 0; f < from.cell_count(); ++f)
+        {
+            const auto x = from.rest(f);
+            for (const vec3& p : {x[0], x[1], x[2], (x[0] + x[1]) / 2.0, (x[1] + x[2]) / 2.0, (x[2] + x[0]) / 2.0,
+                                  (x[0] + x[1] + x[2]) / 3.0})
+                largest = std::max(largest, tree.nearest(p).distance);
+        }
+        return largest;
+    }
+
+    /// The map as an image, x, y and z from their smallest to their largest values as red, green and blue.
+    std::string preview() const
+    {
+        const auto& map = *map_;
+        vec3 low(std::numeric_limits<double>::infinity()), high = -low;
+        const auto at = [&](idx i, idx j)
+        {
+            const float* v = &map.values[4 * static_cast<std::size_t>(j * map.width + i)];
+            return vec3(double(v[0]), double(v[1]), double(v[2]));
+        };
+        for (idx j = 0; j < map.height; ++j)
+            for (idx i = 0; i < map.width; ++i)
+                if (map.covers(i, j)) low = glm::min(low, at(i, j)), high = glm::max(high, at(i, j));
+        io::image picture(map.width, map.height, {255, 255, 255});
+        for (idx j = 0; j < map.height; ++j)
+            for (idx i = 0; i < map.width; ++i)
+            {
+                if (!map.covers(i, j)) continue;
+                const vec3 c = 255.0 * (at(i, j) - low) / glm::max(high - low, vec3(1e-300));
+                picture(i, map.height - 1 - j) = {static_cast<std::uint8_t>(c.x), static_cast<std::uint8_t>(c.y),
+                                                  static_cast<std::uint8_t>(c.z)};
+            }
+        return encode_png(picture);
+    }
+
+    void write()
+    {
+        std::vector<io::file_to_write> files{
+            {options_.output, [&](io::atomic_file& file) { io::write_paste(file, *paste_, *target_, *source_); }}};
+        if (!options_.map.empty())
+            files.push_back({options_.map, [&](io::atomic_file& file)
+                             { file.write(extension(options_.map) == ".png" ? preview() : io::exr_of(*map_)); }});
+        if (!options_.picture.empty())
+            files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
+        if (!options_.stats.empty())
+            files.push_back({options_.stats, [&](io::atomic_file& file) { file.write(text_of(json())); }});
+        if (place_of_report_ && has_reader(place_of_report_))
+            files.push_back({place_of_report_, [&](io::atomic_file& file) { file.write(text()); }});
+        writing([&] { io::write_files(files); });
+    }
+
+    /// Source, target and result side by side, as who looks at the feature sees them; the feature in checks.
+    std::string picture() const
+    {
+        const auto& part = paste_->part();
+        std::vector<idx> in_result(static_cast<std::size_t>(part.region.surface.vertex_count()));
+        std::iota(in_result.begin(), in_result.end(), static_cast<idx>(paste_->points().size() - in_result.size()));
+        const vec3 front = paste_->transform().rotation * part.normal;
+        const auto up = io::guess_orientation(target_->surface.points(), target_->surface.cells()).up;
+        const auto source_up = io::guess_orientation(source_->surface.points(), source_->surface.cells()).up;
+        return encode_png(io::side_by_side({view(source_->surface, region_, part.normal, source_up, options_.source),
+                                            view(target_->surface, {}, front, up, options_.target),
+                                            view(paste_->surface(), in_result, front, up, "result")}));
+    }
+
+    /// One of them; marked: vertices between which triangles have checks.
+    static io::image view(const mesh<triangle>& m, const std::vector<idx>& marked, const vec3& front, vec3 up,
+                          const std::string& title)
+    {
+        if (std::abs(glm::dot(up, front)) > 0.8) up = std::abs(front.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        const vec3 right = glm::normalize(glm::cross(up, front)), above = glm::cross(front, right);
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        std::vector<vec2> uv(m.points().size(), vec2(none));
+        for (const idx v : marked)
+        {
+            if (v < 0) continue; // the middle of an edge, which the source does not have
+            const vec3& p = m.points()[static_cast<std::size_t>(v)];
+            uv[static_cast<std::size_t>(v)] = {glm::dot(p, right), glm::dot(p, above)};
+        }
+        const auto both =
+            io::render_picture(m.points(), m.cells(), uv, {.title = title, .checks = 16, .up = up, .front = front});
+        io::image one(both.width() / 2, both.height());
+        for (int y = 0; y < one.height(); ++y)
+            for (int x = 0; x < one.width(); ++x) one(x, y) = both(x, y);
+        return one;
+    }
+
+    nlohmann::ordered_json json() const
+    {
+        const auto& r = paste_->report();
+        const auto& s = r.seconds;
+        nlohmann::ordered_json json;
+        json["schema"] = "taut.paste/1";
+        json["source"] = options_.source;
+        json["target"] = options_.target;
+        json["output"] = options_.output;
+        json["device"] = device_;
+        json["source_triangles"] = source_->surface.cell_count();
+        json["target_triangles"] = target_->surface.cell_count();
+        json["vertices"] = paste_->points().size();
+        json["triangles"] = paste_->cells().size();
+        json["feature_triangles"] = r.feature_triangles;
+        json["rim_vertices"] = paste_->part().region.rim.size();
+        json["rim_radius"] = paste_->part().radius;
+        json["removed_triangles"] = r.removed_triangles;
+        json["gap_triangles"] = r.gap_triangles;
+        json["bent_vertices"] = r.bent_vertices;
+        json["softness"] = paste_->pose().softness;
+        json["softness_asked"] = options_.pose.softness;
+        json["correspondence"] = r.way;
+        json["controls"] = r.controls;
+        json["reciprocal_condition"] = r.reciprocal_condition;
+        if (map_)
+            json["map"] = {{"width", map_->width},
+                           {"height", map_->height},
+                           {"footprint", map_->footprint},
+                           {"round_trip", map_->round_trip},
+                           {"round_trip_rms", map_->round_trip_rms},
+                           {"distance", distance_}};
+        json["manifold"] = quality_.manifold;
+        json["boundary_edges"] = quality_.boundary_edges;
+        json["degenerate_triangles"] = quality_.degenerate;
+        json["folded_edges"] = quality_.folded;
+        json["self_intersections"] = meeting_.size();
+        const auto listed = std::min<std::size_t>(meeting_.size(), 100);
+        json["self_intersecting_triangles"] =
+            std::vector(meeting_.begin(), meeting_.begin() + static_cast<std::ptrdiff_t>(listed));
+        json["smallest_gap_angle"] = quality_.smallest_angle;
+        json["rim_angle_median"] = quality_.median_angle;
+        json["rim_angle_largest"] = quality_.largest_angle;
+        json["seconds"] = {{"read", read_seconds_},   {"device", device_seconds_},
+                           {"region", s.region},      {"map", s.map},
+                           {"land", s.land},          {"seam", s.seam},
+                           {"factor", s.factor},      {"transform", s.transform},
+                           {"paste", paste_seconds_}, {"feature_map", map_seconds_},
+                           {"total", clock_.now()}};
+        json["peak_memory_bytes"] = peak_memory();
+        return json;
+    }
+
+    std::string text() const
+    {
+        const auto& r = paste_->report();
+        const auto triangles = [](auto n) { return count(static_cast<std::uint64_t>(n), "triangle", "triangles"); };
+        labelled_lines lines;
+        lines.add("feature", options_.source + ": " + triangles(r.feature_triangles) + ", rim of " +
+                                 count(paste_->part().region.rim.size(), "vertex", "vertices"));
+        lines.add("target", options_.target + ": " + triangles(target_->surface.cell_count()) + ", " +
+                                triangles(r.removed_triangles) + " replaced, rim " + r.way);
+        lines.add("device", device_);
+        lines.add("result",
+                  triangles(paste_->cells().size()) + ", manifold, " +
+                      count(static_cast<std::uint64_t>(quality_.boundary_edges), "boundary edge", "boundary edges"));
+        lines.add("seam", "angle " + number(quality_.median_angle, 3) + " degrees (median), " +
+                              number(quality_.largest_angle, 3) + " at most");
+        if (const double taken = paste_->pose().softness; taken != options_.pose.softness)
+            lines.add("note", "softness " + number(taken, 3) + " instead of " + number(options_.pose.softness, 3) +
+                                  ", at which the seam would fold, or which finds no map");
+        for (const auto& [file, path] :
+             {std::pair(&*source_, &options_.source), std::pair(&*target_, &options_.target)})
+            for (const auto& note : file->notes) lines.add("note", *path + ": " + note);
+        for (const auto& note : notes_of(quality_, meeting_)) lines.add("note", note);
+        lines.add("time", duration(clock_.now()) + ": read " + duration(read_seconds_) + ", device " +
+                              duration(device_seconds_) + ", paste " + duration(paste_seconds_));
+        lines.add_written({options_.output, options_.map, options_.picture, options_.stats});
+        return (std::ostringstream() << lines).str();
+    }
+
+    const paste_options& options_;
+    run_clock clock_;
+    const char* place_of_report_; ///< null: there is none
+    std::optional<io::surface_file> source_, target_;
+    std::vector<idx> region_; ///< vertices of the source that the feature has
+    std::optional<paste> paste_;
+    std::optional<feature_map> map_;
+    seam_quality quality_;
+    std::vector<std::array<idx, 2>> meeting_; ///< triangles of the result, which did not in what it is made of
+    std::string device_;
+    double distance_ = 0; ///< of the tessellation from the feature, in units of the source
+    double read_seconds_ = 0, device_seconds_ = 0, paste_seconds_ = 0, map_seconds_ = 0;
+};
+
+exit_code run(const paste_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
+{
+    if (options.region.empty() == (options.at < 0 || !(options.radius > 0)))
+        throw usage_error("say what to cut out: --at V --radius R, or --region FILE, and not both");
+    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
+    const run_clock clock(launch);
+    limit_time(options.time_limit - clock.now());
+    return paste_run(options, clock, place_of_report)();
+}
+
+} // namespace
+
+command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<paste_options>();
+    auto& app = *program.add_subcommand("paste", "Cut a feature out of one surface and paste it on another");
+    const auto positive = number_that([](double x) { return x > 0 && std::isfinite(x); }, "is not positive");
+    add_input(app, "--source", options->source, "the source", "Surface that has the feature: OBJ, OFF, PLY or STL")
+        ->required();
+    app.add_option("--at", options->at, "Its vertex in the middle of the feature, from 0")
+        ->type_name("V")
+        ->check(whole_number());
+    app.add_option("--radius", options->radius, "How far the feature reaches along the surface, in units of the source")
+        ->type_name("R")
+        ->check(positive);
+    add_input(app, "--region", options->region, "the file of triangles",
+              "Instead of these: triangles of the source, from 0, that are the feature");
+    add_input(app, "--target", options->target, "the target", "Surface to paste it on")->required();
+    app.add_option("--onto", options->onto, "Its vertex where the middle of the rim goes, from 0")
+        ->required()
+        ->type_name("V")
+        ->check(whole_number());
+    app.add_option("--rotate", options->degrees, "Turn it about the normal of the target, counter-clockwise")
+        ->type_name("DEGREES")
+        ->check(number_that([](double x) { return std::isfinite(x); }, "is no angle"));
+    app.add_option("--scale", options->pose.scale, "Lengths in the result by those in the source")
+        ->type_name("S")
+        ->check(positive);
+    app.add_option(
+           "--softness", options->pose.softness,
+           "0: the feature keeps its shape, the target bends; 1: its rim is laid on the target, the feature bends")
+        ->type_name("0..1")
+        ->check(number_that([](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1"));
+    app.add_option("--reach", options->reach, "Radius of what may bend on the target, by that of the feature")
+        ->type_name("1.2..")
+        ->check(number_that([](double x) { return x >= 1.2 && std::isfinite(x); }, "is not 1.2 or more"));
+    add_output(app, "-o,--output", options->output, {.extensions = {".obj"}}, "Surface to write; - is standard output")
+        ->required()
+        ->type_name("OUT.obj");
+    app.add_option("--triangles", options->triangles, "Make the feature anew from its map, of about so many triangles")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100'000'000));
+    add_output(app, "--map", options->map, {.extensions = {".exr", ".png"}},
+               "Write the feature's map of positions: .exr floats, .png colours");
+    app.add_option("--texels", options->texels, "Texels along the longer side of the map")
+        ->type_name("8..8192")
+        ->check(CLI::Range(8, 8192));
+    add_stats(app, options->stats);
+    add_output(app, "--picture", options->picture, {.extensions = {".png"}}, "Draw source, target and result");
+    add_time_limit(app, options->time_limit, "Give up after S seconds");
+    add_device(app, options->device);
+    app.add_flag("-q,--quiet", options->quiet, "No report");
+    app.footer("exit codes: 0 written; 2 usage; 3 unreadable input; 4 unsuitable input: no disk, or no place for it;\n"
+               "  5 no device; 6 out of time; 9 device failure; 130 interrupted, 143 terminated");
+    return [options, launch](const outputs& files) { return run(*options, files, launch); };
+}
+
+} // namespace taut::tools

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "shared/other_way.hpp"
+
+#include <taut/impl/gltf/gltf.hpp>
+
+namespace taut::tools
+{
+
+std::string other_way(mesh_fault fault, std::string_view name)
+{
+    const bool view = name == "view";
+    if (name != "unwrap" && !view) return {};
+    switch (fault)
+    {
+    case mesh_fault::several_boundaries:
+        return view ? "or take it as it is with --holes" : "or take it as it is with --holes, or let --cut join them";
+    case mesh_fault::closed_surface:
+    case mesh_fault::handles:
+        return view ? "or deform it in space with --shell" : "or let --cut do so, or `taut atlas` make charts of it";
+    case mesh_fault::several_components:
+        return view ? "or let `taut atlas` make charts of it, which are looked at with its --report"
+                    : "or let `taut atlas` make charts of it";
+    case mesh_fault::empty:
+    case mesh_fault::too_large:
+        return {};
+    default:
+        return view ? std::string() : "`taut atlas --repair` mends what is no surface";
+    }
+}
+
+std::string other_way(const io::io_error& error, std::string_view name)
+{
+    if (name == "atlas" || !io::is_gltf(error.path())) return {};
+    return "models of glTF are for `taut atlas`, which writes any surface as .obj, too";
+}
+
+} // namespace taut::tools

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "shared/shared_options.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "shared/choices.hpp"
+#include "shared/failure.hpp"
+
+namespace taut::tools
+{
+
+CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
+{
+    return {[=](const std::string& text)
+            {
+                double x = 0;
+                if (!CLI::detail::lexical_cast(text, x) || std::isnan(x)) return text + " is no number";
+                return holds(x) ? std::string() : text + ' ' + otherwise;
+            },
+            ""};
+}
+
+CLI::Validator whole_number()
+{
+    return {[](const std::string& text)
+            {
+                int n = 0;
+                if (CLI::detail::lexical_cast(text, n) && n >= 0) return std::string();
+                return text + " is no whole number from 0 to " + std::to_string(std::numeric_limits<int>::max());
+            },
+            ""};
+}
+
+void add_format(CLI::App& app, io::surface_format& format)
+{
+    add_choice<io::surface_format>(app, "--format", format,
+                                   {{"auto", io::surface_format::automatic},
+                                    {"obj", io::surface_format::obj},
+                                    {"off", io::surface_format::off},
+                                    {"ply", io::surface_format::ply},
+                                    {"stl", io::surface_format::stl}},
+                                   "What IN is; auto: what its name says, for - (standard input) how it begins");
+}
+
+void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const std::string& help)
+{
+    add_output(app, "--picture", picture, {.extensions = {".png", ".svg"}}, help + ", coloured by distortion");
+    app.add_option("--cut", cut,
+                   "Show the inside of a volume in the picture: without the elements whose centre is beyond a plane "
+                   "across an axis, x, y, z or x:FRACTION of the extent, or nx,ny,nz,d: nx x + ny y + nz z = d")
+        ->type_name("PLANE");
+}
+
+void add_fix(CLI::App& app, std::vector<std::string>& groups)
+{
+    app.add_option("--fix", groups, "Keep the vertices of a group where they are; more than once, if need be")
+        ->type_name("GROUP");
+}
+
+void add_zone(CLI::App& app, int& zone)
+{
+    app.add_option("--zone", zone,
+                   "Of a SU2 file with several zones: the one that is meant, from 1; others stay as they are")
+        ->type_name("N")
+        ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+}
+
+void add_refine(CLI::App& app, bool& refine, std::string& map, const std::string& help)
+{
+    app.add_flag("--refine", refine, help);
+    add_output(app, "--refined-map", map, {.extensions = {".csv"}},
+               "With --refine: write which element of the input each element is a part of, as element,of")
+        ->needs("--refine");
+}
+
+void add_device(CLI::App& app, std::string& device)
+{
+    app.add_option(
+           "--device", device,
+           "Number or part of the name of an OpenCL device, see `taut devices`; without it, $TAUT_DEVICE counts")
+        ->type_name("D")
+        ->check(
+            CLI::Validator([](const std::string& text)
+                           { return text.empty() ? "there is no device without a name; leave the option out" : ""; },
+                           ""));
+}
+
+void add_time_limit(CLI::App& app, double& seconds, const std::string& help)
+{
+    app.add_option("--time-limit", seconds, help)
+        ->type_name("S")
+        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
+}
+
+void add_progress(CLI::App& app, std::string& progress, bool& quiet)
+{
+    add_choice<std::string>(app, "--progress", progress, {{"auto", "auto"}, {"json", "json"}, {"none", "none"}},
+                            "On standard error: a bar if it is a terminal, a JSON object a line, nothing");
+    app.add_flag("--quiet", quiet, "Print errors only, and what --progress asks for by name");
+}
+
+progress_mode progress_of(const std::string& progress, bool quiet)
+{
+    return quiet && progress == "auto" ? progress_mode::none : *parse_progress_mode(progress);
+}
+
+} // namespace taut::tools

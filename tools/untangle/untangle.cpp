@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include <taut/impl/io/make_untangle_problem.hpp>
+
+#include "commands.hpp"
+#include "deform/shell_run.hpp"
+#include "shared/failure.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/progress.hpp"
+#include "shared/run_clock.hpp"
+#include "shared/shared_options.hpp"
+#include "untangle/untangle_run.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+exit_code run(const untangle_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
+{
+    check(options);
+    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
+
+    const run_clock clock(launch);
+    limit_time(options.time_limit - clock.now());
+    progress progress(progress_of(options.progress, options.quiet), std::cerr);
+    progress.update({.phase = "read", .seconds = clock.now()});
+    untangle_report report;
+    const auto untangled =
+        [&]<class Element>(untangle_problem<Element> problem, const volume_case<Element>* input = nullptr)
+    {
+        return untangle_run<Element>(options, clock, progress, std::move(report), place_of_report,
+                                     input)(std::move(problem));
+    };
+    if (names_volume(options.input))
+    {
+        std::optional<io::volume_file> file;
+        report.seconds.read =
+            clock.timed([&] { file = read_volume_at_rest(options.input, options.rest, options.zone); });
+        require_name(options.output, *file);
+        require_drawable(*file, {options.picture, options.cut});
+        require_mesh(*file);
+        return with_case(*file, [&]<class Element>(const volume_case<Element>& input)
+                         { return untangled(problem_of(input, options, report), &input); });
+    }
+    if (names_surface(options.input))
+        throw io::io_error(options.input, "is a surface in space, of which no element is inverted; `taut deform` moves "
+                                          "one, `taut unwrap` maps it to the plane");
+    std::optional<decltype(io::impl::read_any_prob({}))> file;
+    report.seconds.read = clock.timed([&] { file = io::impl::read_any_prob(options.input); });
+    return std::visit(
+        [&]<class Element>(io::prob_file<Element>& read)
+        {
+            auto problem = make_untangle_problem(std::move(read));
+            const auto as_file = file_of(problem);
+            require_drawable(as_file, {options.picture, options.cut});
+            require_mesh(as_file);
+            return untangled(std::move(problem));
+        },
+        *file);
+}
+
+} // namespace
+
+command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point launch)
+{
+    const auto options = std::make_shared<untangle_options>();
+    declare(*program.add_subcommand("untangle",
+                                    "Make a map, or a volume, injective while some vertices stay where they are"),
+            *options);
+    return [options, launch](const outputs& files) { return run(*options, files, launch); };
+}
+
+} // namespace taut::tools

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "commands.hpp"
+#include "shared/failure.hpp"
+#include "shared/interrupt.hpp"
+#include "shared/open_queue.hpp"
+#include "shared/shared_options.hpp"
+#include "view/browser.hpp"
+#include "view/page_files.hpp"
+#include "view/server.hpp"
+#include "view/subjects.hpp"
+#include "view/workbench.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+struct view_options
+{
+    view::source from;
+    std::string device;
+    unsigned short port = 0;
+    double frame = 15; ///< milliseconds
+    bool no_browser = false;
+};
+
+/// Where that fails, there is the address that was printed.
+void open_browser(std::optional<view::browser>& browser, const std::string& url)
+{
+    try
+    {
+        browser.emplace(url);
+    }
+    catch (const std::exception& e)
+    {
+        std::cerr << "taut: note: the browser is not opened: " << e.what() << '\n';
+    }
+}
+
+exit_code serve(const view_options& options)
+{
+    queue q = tools::open_queue(options.device, false);
+    auto subject = view::make_subject(q, options.from);
+    std::optional<view::server> server;
+    try
+    {
+        server.emplace(options.port, view::page{view::page_html, view::page_script, view::page_style},
+                       encode(subject->model()));
+    }
+    catch (const std::exception& e)
+    {
+        throw usage_error("--port " + std::to_string(options.port) + ": " + e.what() + "; leave it out for a free one");
+    }
+    view::workbench bench(std::move(subject),
+                          {.show = [&](auto state) { server->show(std::move(state)); },
+                           .tell = [&](std::string m) { server->tell(std::move(m)); },
+                           .open = [&](std::string m) { server->open(std::move(m)); }},
+                          std::chrono::duration<double>(options.frame / 1000));
+    std::cout << server->url() << std::endl;
+    keep(true); // Ctrl-C ends it as it should be ended
+    std::optional<view::browser> browser;
+    if (!options.no_browser) open_browser(browser, server->url());
+    server->run([&](view::message m) { return bench.wish(std::move(m)); },
+                [&]
+                {
+                    if (browser) browser->look();
+                    return !interrupted();
+                });
+    return exit_code::valid;
+}
+
+} // namespace
+
+command add_view(CLI::App& program)
+{
+    const auto options = std::make_shared<view_options>();
+    auto& app =
+        *program.add_subcommand("view", "Work on a map or shape with a mouse, on a page that only this machine sees");
+    add_input(app, "IN", options->from.path, "the input", "Surface, volume or planar mesh")->required();
+    add_format(app, options->from.format);
+    add_input(app, "--pins", options->from.pins, "the pins", "First pins and springs, as for unwrap and deform")
+        ->type_name("FILE.csv");
+    auto& feature = options->from.feature;
+    auto* source = add_input(app, "--source", feature.source, "the source",
+                             "Surface whose feature is pasted on IN, as by `taut paste`");
+    app.add_option("--at", feature.at, "Its vertex in the middle of the feature, from 0")
+        ->type_name("V")
+        ->needs(source);
+    app.add_option("--radius", feature.radius, "How far the feature reaches along the surface, in units of the source")
+        ->type_name("R")
+        ->needs(source);
+    app.add_option("--onto", feature.onto, "The vertex of IN where it is at first, from 0")
+        ->type_name("V")
+        ->needs(source);
+    app.add_option("--scale", feature.scale, "Lengths in the result by those in the source")
+        ->type_name("S")
+        ->needs(source);
+    app.add_flag("--holes", options->from.holes, "Take surfaces with holes");
+    app.add_flag("--shell", options->from.shell, "Deform the surface in space, as a thin shell");
+    app.add_option("--port", options->port, "Port of 127.0.0.1; 0: a free one")
+        ->type_name("N")
+        ->check(CLI::Range(0, 65535))
+        ->capture_default_str();
+    app.add_option("--frame", options->frame, "Milliseconds of work between two pictures")
+        ->type_name("MS")
+        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
+        ->capture_default_str();
+    app.add_flag("--no-browser", options->no_browser, "Only print the address");
+    add_zone(app, options->from.zone);
+    add_device(app, options->device);
+    app.footer("exit codes: 0 ended by its page or Ctrl-C; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no "
+               "device;\n  6 no map to begin with; 9 device failure; 130 interrupted, 143 terminated");
+    return [options](const outputs&) { return serve(*options); };
+}
+
+} // namespace taut::tools
