@@ -40,8 +40,8 @@ inline solver_run run_library(taut::queue& q, const std::filesystem::path& path,
     const auto begin = clock::now();
     const auto m = taut::io::read_surface(path);
     run.seconds.read = std::chrono::duration<double>(clock::now() - begin).count();
-    p.time_limit = std::chrono::duration<double>(limits.seconds);
-    p.observer = [&](const taut::progress& at)
+    p.limits.time_limit = std::chrono::duration<double>(limits.seconds);
+    p.limits.observer = [&](const taut::progress& at)
     { return !(at.iterate && at.level == 0 && at.value <= limits.enough && at.value > 0); };
     const auto [uv, r] = taut::parameterize(q, m, p);
     const double wall = std::chrono::duration<double>(clock::now() - begin).count();

@@ -69,7 +69,7 @@ int run(const bench::options& options)
     if (options.quick) subjects = {subjects.front(), subjects.back()};
     parameterize_params params;
     params.holes = true;
-    params.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")));
+    params.limits.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")));
 
     queue q;
     auto report = bench::circumstances(q);

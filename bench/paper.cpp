@@ -48,7 +48,7 @@ nlohmann::ordered_json measure(queue& q, const std::string& name, const mesh<tri
     p.solve.conjugate_gradient.memory.pairs = how.pairs;
     p.solve.stopping.max_iterations = iterations;
     p.solve.stopping.gradient_tolerance = 0;
-    p.observer = [&](const taut::progress& at)
+    p.limits.observer = [&](const taut::progress& at)
     {
         (at.iteration == 0 && at.iterate ? u.first : u.last) = q.counters();
         return true;

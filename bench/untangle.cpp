@@ -246,11 +246,11 @@ try
 {
     const bench::options options(argc, argv, {"--limit", "--stages", "--optimize"});
     untangle_params params;
-    params.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")));
+    params.limits.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")));
     params.stages = split(options.value("--stages", ""), ',');
     queue q;
     auto report = bench::circumstances(q);
-    report["limit"] = params.time_limit.count();
+    report["limit"] = params.limits.time_limit.count();
     std::printf("taut %s %s on %s\n\n", TAUT_VERSION_STRING, TAUT_BENCH_COMMIT, q.device().name().c_str());
     untangle_bench bench(q, params, std::stoi(options.value("--optimize", options.quick ? "50" : "0")));
     std::vector<fs::path> files;

@@ -56,7 +56,7 @@ public:
         taut::deform_params<tetrahedra> params;
         params.constraints = pins_;
         params.initial = start_;
-        params.observer = [&](const taut::progress& p)
+        params.limits.observer = [&](const taut::progress& p)
         {
             if (p.iterate) run.history.push_back(watch.at(p.iteration, p.value));
             return true;

@@ -105,7 +105,7 @@ shell_params shell_run::params(const thin_shell& shell, const constraints<hinge>
 {
     thickness_ = options_.thickness.value_or(shell.mean_edge());
     shell_params p{.constraints = pins, .thickness = thickness_};
-    p.observer = [this](const taut::progress& at)
+    p.limits.observer = [this](const taut::progress& at)
     {
         keep(at.usable);
         if (at.iterate)
@@ -117,7 +117,7 @@ shell_params shell_run::params(const thin_shell& shell, const constraints<hinge>
         return !interrupted();
     };
     if (options_.tolerance) p.solve.stopping.gradient_tolerance = *options_.tolerance;
-    p.time_limit = clock_.left(options_.time_limit);
+    p.limits.time_limit = clock_.left(options_.time_limit);
     return p;
 }
 

@@ -162,7 +162,7 @@ private:
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         untangle_params params;
-        params.observer = [this](const taut::progress& p)
+        params.limits.observer = [this](const taut::progress& p)
         {
             if (p.iterate)
                 progress_.update(
@@ -170,7 +170,7 @@ private:
             return !interrupted();
         };
         // The limit is one for the whole run: what reading took is gone.
-        params.time_limit = clock_.left(options_.time_limit);
+        params.limits.time_limit = clock_.left(options_.time_limit);
         tell("untangle");
         keep(true); // the initial map, at least
         untangle_result<Element> result;
@@ -196,7 +196,7 @@ private:
     {
         const auto again = [&](const volume_case<Element>& edged, const std::vector<vec<D>>& from)
         {
-            params.time_limit = clock_.left(options_.time_limit);
+            params.limits.time_limit = clock_.left(options_.time_limit);
             untangle_report told; // it was before
             auto problem = problem_of(edged, options_, told);
             problem.initial = from;

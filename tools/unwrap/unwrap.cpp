@@ -123,7 +123,7 @@ private:
         auto params = to_params(options_);
         params.constraints = pins_;
         if (options_.start == start_kind::uv) params.initial = start_from_file();
-        params.observer = [this](const taut::progress& p)
+        params.limits.observer = [this](const taut::progress& p)
         {
             keep(p.usable);
             if (p.iterate)
@@ -143,7 +143,7 @@ private:
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         // The limit is one for the whole run: what reading took is gone.
-        params.time_limit = clock_.left(options_.time_limit);
+        params.limits.time_limit = clock_.left(options_.time_limit);
         tell("start");
         auto result = taut::parameterize(*q, surface(), params);
         report_.map = std::move(result.report);

@@ -182,7 +182,7 @@ parameterize_params to_params(const unwrap_options& o)
                                                                    : solve::method::lbfgs;
     if (o.tolerance) p.solve.stopping = {.gradient_tolerance = *o.tolerance}; // no less strict than that
     p.solve.stopping.max_iterations = o.iterations;
-    p.time_limit = std::chrono::duration<double>(o.time_limit);
+    p.limits.time_limit = std::chrono::duration<double>(o.time_limit);
     return p;
 }
 

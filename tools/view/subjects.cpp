@@ -92,7 +92,7 @@ public:
                                     [&](observer ask)
                                     {
                                         auto p = params_of(*this);
-                                        p.observer = std::move(ask);
+                                        p.limits.observer = std::move(ask);
                                         return std::make_unique<session<triangle>>(q, surface(), p);
                                     }),
           name_(base_name(from.path)),
@@ -195,7 +195,7 @@ public:
                [&](observer ask)
                {
                    auto p = opened::params();
-                   p.observer = std::move(ask);
+                   p.limits.observer = std::move(ask);
                    return std::make_unique<session<Element>>(q, input.simplices(), p);
                }),
           name_(base_name(from.path)),
@@ -268,7 +268,8 @@ public:
               [&](observer ask)
               {
                   return std::make_unique<session<hinge>>(
-                      q, shell, shell_params{.constraints = opened_shell::constraints, .observer = std::move(ask)});
+                      q, shell,
+                      shell_params{.constraints = opened_shell::constraints, .limits = {.observer = std::move(ask)}});
               }),
           name_(base_name(from.path)),
           faces_(as_corners(shell.surface().cells()))

@@ -132,7 +132,7 @@ private:
     template <class Params>
     Params limited(Params params)
     {
-        params.observer = [this](const taut::progress& p)
+        params.limits.observer = [this](const taut::progress& p)
         {
             keep(kept_ || p.usable);
             if (p.iterate)
@@ -144,7 +144,7 @@ private:
             return !interrupted();
         };
         if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
-        params.time_limit = clock_.left(options_.time_limit);
+        params.limits.time_limit = clock_.left(options_.time_limit);
         return params;
     }
 

@@ -371,7 +371,8 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
     const auto pins =
         taut::constraints(m).fix(bottom(m)).move(top(m), [](const vec3& p) { return p - vec3(0, 0, 1.8); });
     int asked = 0;
-    deform_params<tetrahedron> params{.constraints = pins, .observer = [&](const progress&) { return ++asked < 3; }};
+    deform_params<tetrahedron> params{.constraints = pins,
+                                      .limits = {.observer = [&](const progress&) { return ++asked < 3; }}};
     const auto r = deform(q, m, params);
     CHECK(r.report.outcome == outcome::stopped);
     CHECK(!r.report.pins_held);
@@ -380,7 +381,7 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
 
     // Before the first step it is the shape to begin with.
     bool usable = false;
-    params.observer = [&](const progress& p) { return usable = p.usable, false; };
+    params.limits.observer = [&](const progress& p) { return usable = p.usable, false; };
     const auto none = deform(q, m, params);
     CHECK(usable);
     CHECK(none.report.outcome == outcome::stopped);
@@ -389,7 +390,7 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
     CHECK(none.report.energy == doctest::Approx(2));
     CHECK(std::equal(none.x.begin(), none.x.end(), m.points().begin()));
     params.constraints = {};
-    params.time_limit = {};
+    params.limits.time_limit = {};
     const auto late = deform(q, m, params);
     CHECK(late.report.outcome == outcome::valid);
     CHECK(late.report.stopped);

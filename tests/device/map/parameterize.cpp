@@ -315,7 +315,7 @@ TEST_CASE("parameterize: parameters outside their domain are named")
     };
     CHECK(field_of({.precision = static_cast<precision>(9)}) == "precision");
     CHECK(field_of({.boundary = static_cast<boundary_mode>(7)}) == "boundary");
-    CHECK(field_of({.time_limit = -3s}) == "time_limit");
+    CHECK(field_of({.limits = {.time_limit = -3s}}) == "time_limit");
     CHECK(field_of({.start = static_cast<start_method>(9)}) == "start");
     CHECK(field_of({.start = start_method::barycentric, .barycentric = {.stretch_rounds = -1}}) == "stretch_rounds");
     CHECK(field_of({.solve = {.newton = {.relax_below = 2}}}) == "newton.relax_below");
@@ -335,9 +335,9 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map once there i
         const auto until = [&](auto&& goes_on)
         {
             asked = 0;
-            return parameterize(q, m, {.solve = endless, .observer = [&](const taut::progress& p) {
-                                           return goes_on(++asked, p.usable);
-                                       }});
+            return parameterize(q, m, {.solve = endless, .limits = {.observer = [&](const taut::progress& p) {
+                                                             return goes_on(++asked, p.usable);
+                                                         }}});
         };
         until([](int, bool usable) { return !usable; });
         const int first = asked; // question with a map in hand
@@ -360,7 +360,7 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map once there i
             CHECK(cancelled.reason() == "stopped before there was a map");
         }
 
-        const auto late = parameterize(q, m, {.solve = endless, .time_limit = 0s});
+        const auto late = parameterize(q, m, {.solve = endless, .limits = {.time_limit = 0s}});
         CHECK(late.report.outcome == outcome::stopped);
         CHECK(late.report.solve.stop == solve::stop::time);
         CHECK(late.uv.empty());

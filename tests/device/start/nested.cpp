@@ -146,11 +146,11 @@ TEST_CASE("nested: the report tells of every level")
     const auto m = test::bumpy(test::sized(96, 5), 0.25, 2);
     std::set<int> seen;
     const auto r = parameterize(q, m,
-                                {.observer = [&](const taut::progress& p)
-                                 {
-                                     if (p.iterate) seen.insert(p.level);
-                                     return true;
-                                 }});
+                                {.limits = {.observer = [&](const taut::progress& p)
+                                            {
+                                                if (p.iterate) seen.insert(p.level);
+                                                return true;
+                                            }}});
     check_converged(m, r);
     const auto& levels = r.report.levels;
     if (m.points().size() > 9000) REQUIRE(levels.size() >= 2);
@@ -359,14 +359,15 @@ TEST_CASE("nested: a caller who stops a run gets a certified map from the finest
             CAPTURE(level);
             CAPTURE(steps);
             int refused = 0;
-            const auto r = parameterize(q, m,
-                                        {.observer = [&](const taut::progress& p)
+            const auto r =
+                parameterize(q, m,
+                             {.limits = {.observer = [&](const taut::progress& p)
                                          {
                                              if (p.level != level || p.evaluations == 0 || p.iteration < steps)
                                                  return true;
                                              ++refused;
                                              return false;
-                                         }});
+                                         }}});
             if (refused > 0)
             {
                 CHECK(refused == 1);
@@ -388,14 +389,14 @@ TEST_CASE("nested: a stop in any phase leaves a certified map or none")
     const auto m = test::bumpy(test::sized(50, 5), 0.5, 3);
     int asked = 0, last = 0;
     const auto count = [&](const taut::progress&) { return ++asked, true; };
-    REQUIRE(parameterize(q, m, {.observer = count}));
+    REQUIRE(parameterize(q, m, {.limits = {.observer = count}}));
     for (int k = 0; k <= 10; ++k)
     {
         last = 1 + k * (asked - 2) / 10; // not the last one, which need not be minded
         bool usable = false;
         int now = 0;
         const auto stop = [&](const taut::progress& p) { return usable = p.usable, ++now < last; };
-        const auto r = parameterize(q, m, {.observer = stop});
+        const auto r = parameterize(q, m, {.limits = {.observer = stop}});
         if (usable) CHECK(r);
         CHECK(r.report.outcome == (r ? outcome::valid : outcome::stopped));
         CHECK(r.report.solve.stop == solve::stop::user);

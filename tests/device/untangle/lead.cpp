@@ -56,7 +56,7 @@ TEST_CASE("lead: without a positive shape at rest, or time, it gives up")
     queue q;
     untangle_params params;
     params.stages = {"lead"};
-    params.observer = [](const progress&) { return false; };
+    params.limits.observer = [](const progress&) { return false; };
     CHECK(untangle(q, problem, params).outcome == untangle_outcome::gave_up);
 
     auto points = problem.rest.points();

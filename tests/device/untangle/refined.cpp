@@ -72,7 +72,7 @@ TEST_CASE("untangle_refined: who says no is not asked again")
     queue q;
     untangle_params params;
     int asked = 0;
-    params.observer = [&](const progress&) { return ++asked < 0; };
+    params.limits.observer = [&](const progress&) { return ++asked < 0; };
     const auto r = untangle_refined(q, problem, params).result;
     CHECK(!r);
     CHECK(asked == 1);

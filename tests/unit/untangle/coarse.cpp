@@ -116,7 +116,7 @@ TEST_CASE("coarse untangling: what is infeasible is proved on the mesh itself, a
 {
     auto problem = scrambled(true);
     int asked = 0;
-    const auto stopped = untangle(problem, {.observer = [&](const progress&) { return ++asked < 3; }});
+    const auto stopped = untangle(problem, {.limits = {.observer = [&](const progress&) { return ++asked < 3; }}});
     check_typed(problem, stopped);
     CHECK(stopped.outcome == untangle_outcome::gave_up);
 

@@ -76,7 +76,7 @@ TEST_CASE("untangle: the stages that ran are reported from the proofs to the mar
     std::swap(problem.initial[100], problem.initial[180]);
     test::stage_watch watch;
     untangle_params params;
-    params.observer = watch.observer();
+    params.limits.observer = watch.observer();
     const auto result = untangle(problem, params);
     watch.check_complete(result.stages);
     REQUIRE(result);
@@ -177,14 +177,14 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     scramble(problem, 11, 1.0);
 
     untangle_params params;
-    params.time_limit = std::chrono::duration<double>(0);
+    params.limits.time_limit = std::chrono::duration<double>(0);
     const auto late = untangle(problem, params);
     check_typed(problem, late);
     CHECK(late.outcome == untangle_outcome::gave_up);
     CHECK(late.reason.find("time limit") != std::string::npos);
 
     params = {};
-    params.observer = [](const taut::progress&) { return false; };
+    params.limits.observer = [](const taut::progress&) { return false; };
     const auto cancelled = untangle(problem, params);
     check_typed(problem, cancelled);
     CHECK(cancelled.reason.find("cancelled") != std::string::npos);
@@ -192,7 +192,7 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     // The question comes within the first step, too, which is then not made.
     int asked = 0;
     params.stages = {"newton"};
-    params.observer = [&](const taut::progress&) { return ++asked < 3; };
+    params.limits.observer = [&](const taut::progress&) { return ++asked < 3; };
     const auto within = untangle(problem, params);
     check_typed(problem, within);
     CHECK(asked == 3);

@@ -215,8 +215,7 @@ protected:
                                        .placement = placement::as_solved,
                                        .holes = true,
                                        .no_overlap = true,
-                                       .time_limit = std::max(budget_.left(), budget::seconds(1e-6)),
-                                       .observer = asking("flatten")};
+                                       .limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("flatten")}};
             const mesh<triangle> chart(std::move(points), std::move(cells));
             if (!check(chart, {.one_boundary = false}).empty()) continue;
             const auto map = parameterize(queue_, chart, params);

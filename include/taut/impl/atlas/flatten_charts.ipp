@@ -209,10 +209,10 @@ private:
     void map_large(std::size_t k)
     {
         chart_report& report = result_.charts[k];
-        parameterize_params params{.initial = given(k), .holes = true, .time_limit = clock_.left()};
+        parameterize_params params{.initial = given(k), .holes = true, .limits = {.time_limit = clock_.left()}};
         // A chart that takes long on coarser levels already is none that could be flattened well.
         int steps = 0;
-        params.observer = [&](const progress& p)
+        params.limits.observer = [&](const progress& p)
         {
             steps += p.iterate ? 1 : 0;
             return steps <= 4 * params_.max_iterations && proceed();

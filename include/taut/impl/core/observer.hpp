@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <limits>
 #include <vector>
 
+#include <taut/impl/core/error.hpp>
 #include <taut/impl/core/linalg.hpp>
 
 namespace taut
@@ -33,5 +36,23 @@ struct progress
 /// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with
 /// the best iterate so far (solve::stop::user). It runs on the thread of the solver; an exception passes through.
 using observer = std::function<bool(const progress&)>;
+
+/// Limits of a run, the same for all entry points. A run that reaches one ends with the best valid result so far, or
+/// with none, which its outcome says.
+struct run_limits
+{
+    /// Wall-clock seconds of the whole call. Range >= 0.
+    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
+
+    /// Asked at every iterate and trial step, between phases and between the steps of long ones: false ends the run.
+    /// It runs on the thread that called; an exception passes through.
+    taut::observer observer = {};
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (!(time_limit.count() >= 0)) throw parameter_error("time_limit", "must not be negative");
+    }
+};
 
 } // namespace taut

@@ -72,16 +72,13 @@ struct deform_params
     /// overruled by time_limit below.
     solve::params solve = {};
 
-    /// Wall-clock limit of the whole call. When it is reached the best shape so far is returned.
-    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
-
-    /// Asked at every step and between phases whether to go on.
-    taut::observer observer = {};
+    /// Time and observer of the whole call.
+    run_limits limits = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
-        if (!(time_limit.count() >= 0)) throw parameter_error("time_limit", "must not be negative");
+        limits.validate();
         if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
             throw parameter_error("weights", "must be uniform or measure");
         if (precision != precision::automatic && precision != precision::fp64 && precision != precision::mixed &&

@@ -20,8 +20,8 @@ inline run_start untangled_start(const map_run& run, run_start start, std::vecto
     const bool bound = run.held.constrained() || run.params.boundary == boundary_mode::fixed;
     run.clock.has_result(bound); // the best map, even with defects
     auto how = run.params.untangling;
-    how.time_limit = run.clock.left();
-    how.observer = [&run](const progress&) { return run.clock.ask({.iterate = false}); };
+    how.limits.time_limit = run.clock.left();
+    how.limits.observer = [&run](const progress&) { return run.clock.ask({.iterate = false}); };
     auto problem = run.held.problem(run.in.surface, start.map.uv);
     if (!draft.empty() && certify<2>(run.in.surface.cells(), draft)) problem.draft = std::move(draft);
     auto found = untangle(run.queue, problem, how);

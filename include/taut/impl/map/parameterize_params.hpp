@@ -90,17 +90,13 @@ struct parameterize_params
     /// end a run that has only settled.
     solve::params solve = {.stopping = {.settled_tolerance = 1e-4}};
 
-    /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned, or none (`stopped`).
-    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
-
-    /// Asked at every iterate and trial step, between phases and between the steps of long ones, whether to go on.
-    /// progress::usable: whether there is a map that would be returned.
-    taut::observer observer = {};
+    /// Time and observer of the whole call. progress::usable: whether there is a map that would be returned.
+    run_limits limits = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
-        if (!(time_limit.count() >= 0)) throw parameter_error("time_limit", "must not be negative");
+        limits.validate();
         if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
             throw parameter_error("weights", "must be uniform or measure");
         if (boundary != boundary_mode::free && boundary != boundary_mode::fixed)

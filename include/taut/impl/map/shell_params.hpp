@@ -33,12 +33,12 @@ struct shell_params
 
     /// As in deform_params.
     solve::params solve = {};
-    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
-    taut::observer observer = {};
+    run_limits limits = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
+        limits.validate();
         if (thickness && (!(*thickness > 0) || !std::isfinite(*thickness)))
             throw parameter_error("thickness", "must be positive and finite");
     }

@@ -62,12 +62,12 @@ struct smooth_params
     taut::precision precision = precision::automatic;
     untangle_params untangling = {};
     solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
-    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
-    taut::observer observer = {};
+    run_limits limits = {};
 
     /// Throws parameter_error that names the field; deform_params says the rest.
     void validate() const
     {
+        limits.validate();
         if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
         if (!(flat >= 0 && flat < 1)) throw parameter_error("flat", "must be in [0, 1)");
     }
@@ -127,9 +127,9 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
     how.precision = params.precision;
     how.untangling = params.untangling;
     how.solve = params.solve;
-    how.time_limit = params.time_limit;
-    if (params.observer)
-        how.observer = [&ask = params.observer, restored](progress p)
+    how.limits.time_limit = params.limits.time_limit;
+    if (params.limits.observer)
+        how.limits.observer = [&ask = params.limits.observer, restored](progress p)
         {
             const auto restore = [&](auto& seen)
             {

@@ -96,8 +96,8 @@ private:
             part.held[i] = problem.held[v];
         }
         untangle_params how;
-        how.time_limit = std::chrono::duration<double>(state.seconds_left());
-        how.observer = [&state](const progress& p) { return state.proceed(p); };
+        how.limits.time_limit = std::chrono::duration<double>(state.seconds_left());
+        how.limits.observer = [&state](const progress& p) { return state.proceed(p); };
         how.first_round = steps;
         how.rounds = 1;
         untangle_state<triangle> coarse(part, how, newton_maker<triangle>(impl::direct_newton));

@@ -15,11 +15,8 @@ namespace taut
 /// How to untangle. Every field has a sensible default.
 struct untangle_params
 {
-    /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned. Range >= 0.
-    std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()};
-
-    /// Asked after every iteration: go on? iteration, value (fewest inverted elements so far) and seconds are set.
-    taut::observer observer = {};
+    /// Time and observer of the whole call. iteration, value (fewest inverted elements so far) and seconds are set.
+    run_limits limits = {};
 
     /// Names of the stages to run, in this order; empty: all that the dimension and the device allow
     /// (stages.hpp).
@@ -38,7 +35,7 @@ struct untangle_params
     /// Throws parameter_error that names the field; the names of stages are looked up by untangle().
     void validate() const
     {
-        if (!(time_limit.count() >= 0)) throw parameter_error("time_limit", "must not be negative");
+        limits.validate();
         if (first_round < 1) throw parameter_error("first_round", "must be at least 1");
         if (rounds < 1) throw parameter_error("rounds", "must be at least 1");
         if (margin_steps < 0) throw parameter_error("margin_steps", "must not be negative");

@@ -41,7 +41,7 @@ public:
                    newton_maker<Element> newton)
         : problem_(problem),
           newton_(std::move(newton)),
-          budget_(params.time_limit, params.observer),
+          budget_(params.limits.time_limit, params.limits.observer),
           best_(problem.initial),
           flips_(certified(best_))
     {

@@ -208,7 +208,7 @@ void untangle_around(const queue& q, untangle_problem<Element> p, untangle_param
         if (found.flips.flipped == 0 || !clock.in_time()) return;
         p.initial = found.map;
         const auto part = part_of(p, within_rings(p.rest, found.ids, rings));
-        how.time_limit = clock.left();
+        how.limits.time_limit = clock.left();
         auto local = untangle(q, part ? part->problem : p, how);
         found.stages.insert(found.stages.end(), local.stages.begin(), local.stages.end());
         auto map = part ? found.map : std::move(local.map);
@@ -235,20 +235,20 @@ template <class Element>
 refined_untangling<Element> untangle_refined(const queue& q, const untangle_problem<Element>& problem,
                                              const untangle_params& params = {}, const refine_params& refine = {})
 {
-    const impl::budget clock(params.time_limit);
+    const impl::budget clock(params.limits.time_limit);
     bool refused = false;
     auto how = params;
-    if (params.observer)
-        how.observer = [&](const progress& p)
+    if (params.limits.observer)
+        how.limits.observer = [&](const progress& p)
         {
-            refused = refused || !params.observer(p);
+            refused = refused || !params.limits.observer(p);
             return !refused;
         };
     auto now = impl::refine_infeasible(problem, refine);
     const auto left = [&](const untangle_result<Element>& found)
     { return found.outcome == untangle_outcome::gave_up && !refused && clock.in_time(); };
     const bool splits = refine.rounds > 0;
-    how.time_limit = clock.left();
+    how.limits.time_limit = clock.left();
     if (splits)
     {
         how.stages = impl::quick_stages<Element>(params, {"harmonic", "operator"});
@@ -262,7 +262,7 @@ refined_untangling<Element> untangle_refined(const queue& q, const untangle_prob
     {
         how.stages = {problem.outline_pinned() ? "newton" : "lead"};
         how.rounds = 1;
-        how.time_limit = clock.left();
+        how.limits.time_limit = clock.left();
         impl::untangle_again(q, now, how, found);
     }
     how.stages = params.stages;
@@ -277,7 +277,7 @@ refined_untangling<Element> untangle_refined(const queue& q, const untangle_prob
     }
     if (found.outcome == untangle_outcome::gave_up)
     {
-        how.time_limit = clock.left();
+        how.limits.time_limit = clock.left();
         impl::untangle_again(q, now, how, found);
     }
     found.seconds = clock.total();

@@ -44,7 +44,8 @@ inline laid_feature lay_feature(queue& q, const surface_region& region, std::spa
                                 const landing_place& place, std::span<const vec2> rim_uv,
                                 std::chrono::duration<double> limit)
 {
-    const auto map = parameterize(q, region.surface, {.constraints = rim_pins(region, rim_uv), .time_limit = limit});
+    const auto map =
+        parameterize(q, region.surface, {.constraints = rim_pins(region, rim_uv), .limits = {.time_limit = limit}});
     if (!map)
         throw paste_error("the feature has no map with its rim on the target, which a soft seam needs: " +
                           map.reason() + "; choose softness 0, or another vertex, radius or scale");

@@ -62,8 +62,8 @@ private:
     {
         auto [plane, how] = scaffolded_.around(x_);
         how.solve.stopping.max_iterations = std::min(most_steps, left_);
-        how.time_limit = run_.clock.left();
-        how.observer = observer();
+        how.limits.time_limit = run_.clock.left();
+        how.limits.observer = observer();
         session_result<triangle> moved;
         try
         {

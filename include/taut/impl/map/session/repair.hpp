@@ -69,7 +69,7 @@ std::optional<std::vector<vec<Element::dimension>>> repaired(const queue& q, con
 {
     constexpr int D = Element::dimension;
     const budget clock(limits.time);
-    how.observer = limits.ask;
+    how.limits.observer = limits.ask;
     for (const double width : {1.0, 2.0})
     {
         const auto part = part_of(problem, around_moved(problem, width));
@@ -77,7 +77,7 @@ std::optional<std::vector<vec<Element::dimension>>> repaired(const queue& q, con
         auto pull = how;
         if (D == 2) pull.stages = {"pull"}; // makes no branch points, and ends soon
         pull.rounds = 1;
-        pull.time_limit = clock.left();
+        pull.limits.time_limit = clock.left();
         const auto found = untangle(q, part->problem, pull);
         if (!found) continue;
         auto map = problem.draft;
@@ -88,7 +88,7 @@ std::optional<std::vector<vec<Element::dimension>>> repaired(const queue& q, con
     }
     if (!limits.whole || !clock.in_time()) return std::nullopt;
     how.rounds = 1;
-    how.time_limit = clock.left();
+    how.limits.time_limit = clock.left();
     auto found = untangle(q, problem, how);
     if (!found) return std::nullopt;
     return std::move(found.map);

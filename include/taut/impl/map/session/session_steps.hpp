@@ -83,8 +83,8 @@ protected:
         : base(std::move(q)),
           solve_(params.solve),
           untangling_(params.untangling),
-          observer_(params.observer),
-          limit_(params.time_limit)
+          observer_(params.limits.observer),
+          limit_(params.limits.time_limit)
     {
         if (solve_.method != solve::method::automatic && solve_.method != solve::method::newton)
             throw parameter_error("solve.method", "must be automatic or newton: a session makes Newton's steps");
@@ -175,8 +175,8 @@ protected:
         if constexpr (D == 3 && Element::oriented)
         {
             auto how = untangling_;
-            how.time_limit = clock.left();
-            how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
+            how.limits.time_limit = clock.left();
+            how.limits.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
             const draft_maker maker(queue_, how, queue_.device().has_fp64() ? precision::mixed : precision::fp32);
             auto found = maker.draft(problem(last.x, true));
             clock.stages.append(found.stages);
@@ -272,8 +272,8 @@ protected:
     untangle_result<Element> untangled(run_clock& clock, const map& x)
     {
         auto how = untangling_;
-        how.time_limit = clock.left();
-        how.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
+        how.limits.time_limit = clock.left();
+        how.limits.observer = [&clock](const progress&) { return clock.ask({.iterate = false}); };
         auto found = untangle(queue_, problem(x, false), how);
         clock.stages.append(found.stages);
         return found;

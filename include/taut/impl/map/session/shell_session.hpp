@@ -38,8 +38,7 @@ private:
                 .initial = params.initial,
                 .precision = params.precision,
                 .solve = params.solve,
-                .time_limit = params.time_limit,
-                .observer = params.observer};
+                .limits = params.limits};
     }
 
     certificate certified(const map& x) const override

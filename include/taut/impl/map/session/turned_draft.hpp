@@ -114,7 +114,7 @@ public:
     using problem = untangle_problem<tetrahedron>;
 
     draft_maker(const queue& q, const untangle_params& how, precision arithmetic)
-        : queue_(q), how_(how), clock_(how.time_limit), arithmetic_(arithmetic)
+        : queue_(q), how_(how), clock_(how.limits.time_limit), arithmetic_(arithmetic)
     {
         how_.rounds = 1;
         how_.stages = {"lead"}; // others leave elements next to flat, which cut the steps that follow
@@ -196,7 +196,7 @@ private:
     std::vector<vec3> untangled(const problem& p, mended_draft& booked) const
     {
         auto how = how_;
-        how.time_limit = clock_.left();
+        how.limits.time_limit = clock_.left();
         auto result = untangle(queue_, p, how);
         booked.stages.insert(booked.stages.end(), result.stages.begin(), result.stages.end());
         return result ? std::move(result.map) : std::vector<vec3>();
@@ -209,7 +209,7 @@ private:
         live.constrain(p.held, {}, {});
         const solve::stopping_params enough{
             .gradient_tolerance = gradient, .max_iterations = steps, .time_limit = clock_.left()};
-        found.steps += live.minimize({.stopping = enough}, how_.observer).iterations;
+        found.steps += live.minimize({.stopping = enough}, how_.limits.observer).iterations;
         found.x = live.coordinates();
     }
 
