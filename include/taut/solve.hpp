@@ -8,4 +8,3 @@
 #include <taut/impl/solve/host_objective.hpp>
 #include <taut/impl/solve/host_space.hpp>
 #include <taut/impl/solve/minimize.hpp>
-#include <taut/impl/solve/prescribed.hpp>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// The inverse Hessian H_k of L-BFGS by the two-loop recursion, every product a `dot` of its own: the reference that
@@ -162,4 +162,4 @@ report minimize_by_two_loops(Objective& f, typename Objective::point& x, const p
     return descent(f, x, h, no_momentum{}, p.common(), none).run();
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -318,8 +318,8 @@ TEST_CASE("parameterize: parameters outside their domain are named")
     CHECK(field_of({.limits = {.time_limit = -3s}}) == "time_limit");
     CHECK(field_of({.start = static_cast<start_method>(9)}) == "start");
     CHECK(field_of({.start = start_method::barycentric, .barycentric = {.stretch_rounds = -1}}) == "stretch_rounds");
-    CHECK(field_of({.solve = {.newton = {.relax_below = 2}}}) == "newton.relax_below");
-    CHECK(field_of({.solve = {.line_search = {.shrink = 0.4}}}) == "line_search");
+    CHECK(field_of({.solve = {.tuning = {.newton = {.relax_below = 2}}}}) == "newton.relax_below");
+    CHECK(field_of({.solve = {.line_search = {.tuning = {.shrink = 0.4}}}}) == "line_search");
 }
 
 TEST_CASE("parameterize: stopping for any reason leaves a valid map once there is one")

@@ -60,7 +60,7 @@ struct disturbed
           x(f.make_point())
     {
         f.upload(levels.order().vertices.apply(barycentric_map(surface).uv), x);
-        least = solve::minimize(f, x, {.newton = {.eliminate_below = 0}}).value;
+        least = solve::minimize(f, x, {.tuning = {.newton = {.eliminate_below = 0}}}).value;
         jitter();
     }
 

@@ -104,7 +104,7 @@ TEST_CASE("untangle: random pins on random disks end honestly, and those of a va
         }
         if (number % 50 == 0) std::fill(problem.initial.begin(), problem.initial.end(), vec2(0.0));
         untangle_params params; // a fraction of the effort that is usual
-        params.first_round = 30;
+        params.tuning.first_round = 30;
         params.rounds = 1;
         const auto result = untangle(problem, params);
         test::check_typed(problem, result);

@@ -102,7 +102,7 @@ TEST_CASE("barrier: batched trial steps are used where the objective has them")
 {
     reciprocal<true> f({1, 100, 1e4});
     std::vector<double> x{1e-3, 5, 1e-4};
-    const auto r = minimize(f, x, {.first_length = 1e-8}); // far too short: a ladder of longer steps
+    const auto r = minimize(f, x, {.tuning = {.first_length = 1e-8}}); // far too short: a ladder of longer steps
     CHECK(r.stop == stop::gradient);
     CHECK(f.passes > 0);
     CHECK(f.outside == 0);
@@ -169,7 +169,7 @@ TEST_CASE("barrier: infinite gradients at finite values are refused")
                          return x[0] > 0 ? std::pow(x[0] - 1e-3, 2) : -1.0;
                      });
     std::vector<double> x{1};
-    const auto r = minimize(f, x, {.first_length = 100});
+    const auto r = minimize(f, x, {.tuning = {.first_length = 100}});
     CHECK(std::isfinite(r.gradient_norm));
     CHECK(x[0] > 0);
 }

@@ -56,12 +56,12 @@ TEST_CASE("conjugate gradient: plain and with exact searches it solves a quadrat
                              return value;
                          });
         std::vector<double> x = functions::noise(30);
-        const auto r =
-            minimize(f, x,
-                     {.method = method::conjugate_gradient,
-                      .conjugate_gradient = {.beta = beta, .memory = {.pairs = 0}},
-                      .line_search = {.wolfe = {.curvature = 0.001}, .exact = {.tolerance = 1e-9, .evaluations = 60}},
-                      .stopping = {.gradient_tolerance = 1e-6}});
+        const auto r = minimize(f, x,
+                                {.method = method::conjugate_gradient,
+                                 .conjugate_gradient = {.beta = beta, .memory = {.pairs = 0}},
+                                 .line_search = {.wolfe = {.curvature = 0.001},
+                                                 .tuning = {.exact = {.tolerance = 1e-9, .evaluations = 60}}},
+                                 .stopping = {.gradient_tolerance = 1e-6}});
         CHECK(r.stop == stop::gradient);
         CHECK(r.iterations >= 5);
         CHECK(r.iterations <= 6); // one for the inexactness of Brent

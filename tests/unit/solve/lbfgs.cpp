@@ -189,8 +189,10 @@ TEST_CASE("lbfgs: saddles and concave starts do not mislead it")
     for (const auto method : searches)
     {
         std::vector<double> x{1e-6, 1e-5};
-        const auto r = minimize(
-            f, x, {.line_search = {.method = method}, .stopping = {.gradient_tolerance = 1e-4}, .first_length = 1e-6});
+        const auto r = minimize(f, x,
+                                {.line_search = {.method = method},
+                                 .stopping = {.gradient_tolerance = 1e-4},
+                                 .tuning = {.first_length = 1e-6}});
         CHECK(converged(r.stop));
         CHECK(x[0] == doctest::Approx(1).epsilon(1e-6));
         if (method == line_search_method::backtracking) CHECK(r.skipped_pairs > 0); // short steps in the concave part

@@ -511,15 +511,16 @@ TEST_CASE("newton: of a line search it takes what it has a use for, and refuses 
     // The full step is the best one, and gains a quarter of what the slope promises.
     CHECK(run({}).history[1].step == 1);
     CHECK(run({.line_search = {.wolfe = {.sufficient_decrease = 0.45}}}).history[1].step == doctest::Approx(0.5));
-    CHECK(run({.line_search = {.barrier_fraction = 0.5, .rounding = 1e-13}}).history[1].step == 1); // no barrier
+    CHECK(run({.line_search = {.barrier_fraction = 0.5, .tuning = {.rounding = 1e-13}}}).history[1].step ==
+          1); // no barrier
     for (const auto m : {method::automatic, method::newton})
     {
         CHECK_THROWS_AS(run({.method = m, .line_search = {.method = line_search_method::strong_wolfe}}),
                         taut::parameter_error);
         CHECK_THROWS_AS(run({.method = m, .line_search = {.wolfe = {.curvature = 0.5}}}), taut::parameter_error);
-        CHECK_THROWS_AS(run({.method = m, .first_length = 2}), taut::parameter_error);
+        CHECK_THROWS_AS(run({.method = m, .tuning = {.first_length = 2}}), taut::parameter_error);
     }
-    CHECK_NOTHROW(run({.method = method::lbfgs, .line_search = {.shrink = 0.4}}));
+    CHECK_NOTHROW(run({.method = method::lbfgs, .line_search = {.tuning = {.shrink = 0.4}}}));
 }
 
 TEST_CASE("newton: whatever ends a run, the report is of the point that it leaves")

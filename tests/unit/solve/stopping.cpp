@@ -178,7 +178,7 @@ TEST_CASE("stopping: a failing line search restarts with steepest descent once, 
 
 TEST_CASE("stopping: small decreases count when they come in a row")
 {
-    stopping_test test({.gradient_tolerance = 0, .decrease_tolerance = 1e-3, .decrease_count = 2}, 1e-14);
+    stopping_test test({.gradient_tolerance = 0, .decrease_tolerance = 1e-3, .tuning = {.decrease_count = 2}}, 1e-14);
     CHECK_FALSE(test.start(1).has_value());
     step_record k{.iteration = 1, .value_before = 10, .value = 9.999, .gradient = 0.5, .length = 1, .capped = false};
     CHECK_FALSE(test.after(k).has_value());
@@ -191,7 +191,7 @@ TEST_CASE("stopping: small decreases count when they come in a row")
 
 TEST_CASE("stopping: decreases along capped steps do not mean convergence, but many of them mean a barrier")
 {
-    stopping_test test({.gradient_tolerance = 0, .decrease_tolerance = 1e-3, .barrier_count = 4}, 1e-14);
+    stopping_test test({.gradient_tolerance = 0, .decrease_tolerance = 1e-3, .tuning = {.barrier_count = 4}}, 1e-14);
     test.start(1);
     const step_record k{
         .iteration = 1, .value_before = 10, .value = 9.999, .gradient = 0.5, .length = 1, .capped = true};
@@ -212,7 +212,7 @@ TEST_CASE("stopping: decreases lost in rounding do not count while the gradient 
 
 TEST_CASE("stopping: two promises in a row of next to nothing above the base mean convergence, one does not")
 {
-    stopping_test test({.gradient_tolerance = 1e-6, .base = 4}, 1e-14);
+    stopping_test test({.gradient_tolerance = 1e-6, .tuning = {.base = 4}}, 1e-14);
     test.start(1);
     step_record k{.iteration = 1, .value_before = 14.1, .value = 14, .gradient = 1e-4, .length = 1};
     CHECK_FALSE(test.after(k).has_value()); // nothing promised
@@ -231,7 +231,7 @@ TEST_CASE("stopping: two promises in a row of next to nothing above the base mea
 
 TEST_CASE("stopping: a run has settled where five Newton steps together gain next to nothing near a minimum")
 {
-    const stopping_params params{.settled_tolerance = 1e-3, .base = 4};
+    const stopping_params params{.settled_tolerance = 1e-3, .tuning = {.base = 4}};
     const step_record little{.iteration = 1, .value_before = 14, .value = 13.999, .gradient = 1e-2, .newton = true};
     /// Steps until it ends, of at most nine: `others` first, then like k, each from where the last one ended.
     const auto steps = [&](const step_record& k, const stopping_params& p, std::vector<step_record> others = {})
@@ -277,7 +277,7 @@ TEST_CASE("stopping: a run has settled where five Newton steps together gain nex
     CHECK(steps(other, params) == 10);
     CHECK(steps(little, params, {other, other, other, other}) == 5); // only the last one matters
 
-    CHECK(steps(little, {.settled_tolerance = 1e-6, .base = 4}) == 10);
+    CHECK(steps(little, {.settled_tolerance = 1e-6, .tuning = {.base = 4}}) == 10);
     CHECK(steps(little, {}) == 10);
     CHECK_FALSE(stopping_params{}.settled_tolerance > 0);
 }

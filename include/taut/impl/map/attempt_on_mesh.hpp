@@ -75,7 +75,8 @@ inline taut::observer observer_of(const map_run& run, const run_start& start, st
 inline solve::params limited(const map_run& run, int max_iterations)
 {
     auto p = run.params.solve;
-    if (p.stopping.base == 0) p.stopping.base = energy::rest_value<triangle::dimension>(run.params.energy);
+    if (p.stopping.tuning.base == 0)
+        p.stopping.tuning.base = energy::rest_value<triangle::dimension>(run.params.energy);
     p.stopping.max_iterations = max_iterations;
     p.stopping.time_limit = std::max(run.clock.left(), std::chrono::duration<double>(1e-9));
     return p;

@@ -59,9 +59,8 @@ inline run_start made_start(const map_run& run)
         return start;
     }
     if (auto other = other_start(run)) return *std::move(other);
-    auto how = run.params.barycentric;
-    how.proceed = [&run] { return run.clock.proceed(); };
-    start.map = barycentric_map(run.in.surface, run.in.sides, how);
+    start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric, elimination_solver(),
+                                [&run] { return run.clock.proceed(); });
     return fitted_start(run, std::move(start), false);
 }
 

@@ -59,7 +59,7 @@ public:
           rule_(std::move(rule)),
           params_(params),
           monitor_(ask, params.stopping.time_limit),
-          rounding_(std::max(f_.rounding(), params.line_search.rounding)),
+          rounding_(std::max(f_.rounding(), params.line_search.tuning.rounding)),
           test_(params.stopping, rounding_, 10, f_.size(0)),
           trial_(f.make_point()),
           d_(f.space().make()),
@@ -117,7 +117,7 @@ private:
         const auto slope = [&](double a) { return h_.propose(a, d_, g_, g_new_); };
         const line_search_params& p = params_.line_search;
         objective_line phi(f_, {x_, d_, trial_, g_new_}, slope, {0, value_, d.slope},
-                           {bound, lowest_, rounding_ * f_.size(lowest_), p.batch}, monitor_);
+                           {bound, lowest_, rounding_ * f_.size(lowest_), p.tuning.batch}, monitor_);
         any_line line(phi);
         const search_result found = search(line, std::min(1.0, bound), p, h_.fresh());
 

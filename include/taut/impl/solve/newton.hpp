@@ -336,7 +336,7 @@ private:
     double rounding_;
     monitor monitor_;
     stopping_test test_;
-    solve::pcg<space_of<Objective>> pcg_;
+    solve::impl::pcg<space_of<Objective>> pcg_;
     point previous_, full_; // full_: x_ + d_ and its gradient, in advance
     vector g_, d_, last_g_, last_d_, full_gradient_;
     pcg_result model_;

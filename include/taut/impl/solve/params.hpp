@@ -2,6 +2,7 @@
 #pragma once
 
 #include <taut/impl/core/error.hpp>
+#include <taut/impl/solve/tuning.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -31,39 +32,6 @@ struct wolfe_params
     }
 };
 
-/// The exact part of the paper's line search.
-struct exact_params
-{
-    /// Relative tolerance of Brent's method on the step. Range (0, 1); below 1.5e-8 it means 1.5e-8.
-    double tolerance = 1e-6;
-
-    /// Evaluations of Brent's method. Range >= 0; more only where values are much cheaper than gradients.
-    int evaluations = 8;
-
-    /// The same two for the first iteration and after a restart, where the length of the direction means little.
-    double first_tolerance = 1e-16;
-    int first_evaluations = 30;
-
-    /// Factor between trial steps while a minimum is bracketed. Range > 1.
-    double growth = 4;
-
-    /// Passes of bracketing, each one evaluation, or one batch of them. Range >= 1.
-    int bracket_passes = 30;
-
-    friend bool operator==(const exact_params&, const exact_params&) = default;
-
-    void validate() const
-    {
-        if (!(tolerance > 0 && tolerance < 1)) throw parameter_error("exact.tolerance", "must be in (0, 1)");
-        if (!(first_tolerance > 0 && first_tolerance < 1))
-            throw parameter_error("exact.first_tolerance", "must be in (0, 1)");
-        if (evaluations < 0) throw parameter_error("exact.evaluations", "must not be negative");
-        if (first_evaluations < 0) throw parameter_error("exact.first_evaluations", "must not be negative");
-        if (!(growth > 1)) throw parameter_error("exact.growth", "must be above 1");
-        if (bracket_passes < 1) throw parameter_error("exact.bracket_passes", "must be at least 1");
-    }
-};
-
 enum class line_search_method : int; // solve/line/line_search.hpp has their names, and includes them
 
 /// Of the descent methods. Newton's method has a search of its own, which takes wolfe.sufficient_decrease,
@@ -74,39 +42,22 @@ struct line_search_params
     line_search_method method{};
 
     wolfe_params wolfe = {};
-    exact_params exact = {};
 
     /// No trial step is longer than this part of the step to the barrier (objectives with max_step). Range (0, 1);
     /// 0.9 to 0.99 are sensible: nearer to 1 the energy at the end of the step explodes.
     double barrier_fraction = 0.9;
 
-    static constexpr int most_batch = 16;
-
-    /// Trial steps in one pass where the objective has `values`. Range 1..most_batch.
-    int batch = 6;
-
-    /// Gradients that strong_wolfe, or values that backtracking may take. Range >= 1.
-    int max_evaluations = 30;
-
-    /// Factor between the steps of backtracking. Range (0, 1).
-    double shrink = 0.5;
-
-    /// Relative rounding error of a value. A rise by less is no rise, and such small decreases are judged by slopes.
-    /// Range [0, 1e-3). An objective that computes in float says so by its own rounding(), and the larger one holds.
-    double rounding = 1e-14;
+    /// Not for users: what tests and measurements set.
+    impl::line_tuning tuning = {};
 
     friend bool operator==(const line_search_params&, const line_search_params&) = default;
 
     void validate() const
     {
         wolfe.validate();
-        exact.validate();
         if (!(barrier_fraction > 0 && barrier_fraction < 1))
             throw parameter_error("line_search.barrier_fraction", "must be in (0, 1)");
-        if (batch < 1 || batch > most_batch) throw parameter_error("line_search.batch", "must be in 1..16");
-        if (max_evaluations < 1) throw parameter_error("line_search.max_evaluations", "must be at least 1");
-        if (!(shrink > 0 && shrink < 1)) throw parameter_error("line_search.shrink", "must be in (0, 1)");
-        if (!(rounding >= 0 && rounding < 1e-3)) throw parameter_error("line_search.rounding", "must be in [0, 1e-3)");
+        tuning.validate();
     }
 };
 
@@ -117,14 +68,14 @@ struct stopping_params
     /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
     ///
     /// A gradient is long where f is steep, not where much is left to gain. Newton's method stops, too, where the
-    /// Hessian promises, `decrease_count` times in a row, a decrease of at most 1e-2 gradient_tolerance * |f - base|:
+    /// Hessian promises, twice in a row, a decrease of at most 1e-2 gradient_tolerance * |f - base|:
     /// Newton's decrement, which is the same in all units and scalings (Boyd & Vandenberghe 2004, 9.5).
     double gradient_tolerance = 1e-6;
 
-    /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f - base|. A decrease along a
-    /// step that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only where the
-    /// gradient has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop
-    /// where the value, not the point, matters.
+    /// Stop after two (tuning.decrease_count) decreases in a row of at most decrease_tolerance * |f - base|. A decrease
+    /// along a step that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only
+    /// where the gradient has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it
+    /// (1e-6) to stop where the value, not the point, matters.
     double decrease_tolerance = 1e-14;
 
     /// Newton's method: stop where five steps in a row, each of which ended at a relative gradient of at most 1e-2,
@@ -135,26 +86,18 @@ struct stopping_params
     /// that say nothing else.
     double settled_tolerance = 0;
 
-    /// A value that f cannot fall below, or 0. What is left above it, not the value itself, then tells what a decrease
-    /// is worth.
-    double base = 0;
-
-    /// Range >= 1. One small decrease is often an accident of the line search.
-    int decrease_count = 2;
-
-    /// Stop after `decrease_count` uncapped steps in a row of at most step_tolerance * the longest step of the run.
+    /// Stop after two uncapped steps in a row of at most step_tolerance * the longest step of the run.
     /// Range [0, 1); off by default.
     double step_tolerance = 0;
-
-    /// Stop with stop::barrier after so many steps in a row that a barrier cut and that gained less than
-    /// decrease_tolerance. Range >= 1.
-    int barrier_count = 10;
 
     /// Range >= 0.
     int max_iterations = 10000;
 
     /// Range > 0; infinite by default. The current evaluation is always finished.
     std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()};
+
+    /// Not for users: what tests and measurements set.
+    impl::stopping_tuning tuning = {};
 
     void validate() const
     {
@@ -166,8 +109,7 @@ struct stopping_params
         fraction(decrease_tolerance, "stopping.decrease_tolerance");
         fraction(settled_tolerance, "stopping.settled_tolerance");
         fraction(step_tolerance, "stopping.step_tolerance");
-        if (decrease_count < 1) throw parameter_error("stopping.decrease_count", "must be at least 1");
-        if (barrier_count < 1) throw parameter_error("stopping.barrier_count", "must be at least 1");
+        tuning.validate();
         if (max_iterations < 0) throw parameter_error("stopping.max_iterations", "must not be negative");
         if (!(time_limit.count() > 0)) throw parameter_error("stopping.time_limit", "must be positive");
     }
@@ -278,61 +220,6 @@ struct conjugate_gradient_params
     }
 };
 
-/// How exactly a Newton system is solved.
-struct pcg_params
-{
-    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000. Newton's method doubles it, up to
-    /// eightfold, after each full step along the Hessian itself whose system took them all.
-    int max_steps = 40;
-
-    /// Steps between two looks at the result, at most; each look is a host wait. The first system is looked at after
-    /// two, each further one after as many as the one before was found to need. Range 1..8.
-    int block = 6;
-
-    /// Go on while the last step brought more than this part of what the steps brought on average (Nash & Sofer 1990,
-    /// "Assessing a search direction within a truncated-Newton method"); of later blocks, their mean step. Range (0,
-    /// 1). Lower it for more exact directions.
-    double gain = 0.25;
-
-    void validate() const
-    {
-        if (max_steps < 1 || max_steps > 1000) throw parameter_error("pcg.max_steps", "must be in 1..1000");
-        if (block < 1 || block > 8) throw parameter_error("pcg.block", "must be in 1..8");
-        if (!(gain > 0 && gain < 1)) throw parameter_error("pcg.gain", "must be in (0, 1)");
-    }
-};
-
-/// Newton's method with inexact directions.
-struct newton_params
-{
-    pcg_params pcg = {};
-
-    /// The Hessian itself takes the place of its positive semi-definite stand-in once an iteration lowers the value by
-    /// less than this part: near a minimum it halves the iterations, far from one it misleads. Range [0, 1).
-    double exact_below = 1e-5;
-
-    /// After a step shorter than this the objective is asked to relax what cut it short. Range [0, 1].
-    double relax_below = 0.5;
-
-    /// From this iteration on, and once one lowers the value by less than that part, the objective is asked to minimise
-    /// by itself where a step has brought a gradient that the model did not expect; earlier, the whole is too far from
-    /// where its parts belong. Ranges >= 1 and >= 0; 0: never.
-    int eliminate_from = 10;
-    double eliminate_below = 1e-3;
-    /// And only if what was not expected is longer than this part of the gradient before. Range > 0.
-    double eliminate_above = 0.3;
-
-    void validate() const
-    {
-        pcg.validate();
-        if (!(exact_below >= 0 && exact_below < 1)) throw parameter_error("newton.exact_below", "must be in [0, 1)");
-        if (!(relax_below >= 0 && relax_below <= 1)) throw parameter_error("newton.relax_below", "must be in [0, 1]");
-        if (!(eliminate_from >= 1)) throw parameter_error("newton.eliminate_from", "must be at least 1");
-        if (!(eliminate_below >= 0)) throw parameter_error("newton.eliminate_below", "must be at least 0");
-        if (!(eliminate_above > 0)) throw parameter_error("newton.eliminate_above", "must be above 0");
-    }
-};
-
 } // namespace taut::solve
 
 namespace taut::solve::impl
@@ -344,7 +231,7 @@ struct newton_search_params
 {
     double sufficient_decrease = wolfe_params{}.sufficient_decrease;
     double barrier_fraction = line_search_params{}.barrier_fraction;
-    double rounding = line_search_params{}.rounding;
+    double rounding = line_tuning{}.rounding;
 };
 
 /// What Newton's method has in common with the others.
@@ -364,7 +251,7 @@ struct newton_common_params
     {
         return {.wolfe = {.sufficient_decrease = search.sufficient_decrease},
                 .barrier_fraction = search.barrier_fraction,
-                .rounding = search.rounding};
+                .tuning = {.rounding = search.rounding}};
     }
 };
 
@@ -388,19 +275,18 @@ enum class method
 struct params
 {
     solve::method method = solve::method::automatic;
-    newton_params newton = {};
     lbfgs_params lbfgs = {};
     conjugate_gradient_params conjugate_gradient = {};
     line_search_params line_search = {};
     stopping_params stopping = {};
 
-    double first_length = 1;       ///< as in descent_params
-    double linearize_after = 0.03; ///< as in descent_params
+    /// Not for users: what tests and measurements set.
+    impl::tuning tuning = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
-        newton.validate();
+        tuning.newton.validate();
         lbfgs.validate();
         conjugate_gradient.validate();
         common().validate();
@@ -411,11 +297,11 @@ struct params
     void require_newton_search() const
     {
         const impl::descent_params unset;
-        if (line_search == newton_common().line_search() && first_length == unset.first_length &&
-            linearize_after == unset.linearize_after)
+        if (line_search == newton_common().line_search() && tuning.first_length == unset.first_length &&
+            tuning.linearize_after == unset.linearize_after)
             return;
         throw parameter_error("line_search", "Newton's method takes wolfe.sufficient_decrease, barrier_fraction and "
-                                             "rounding alone; leave the rest, first_length and linearize_after as "
+                                             "rounding alone; leave the rest as "
                                              "they are, or choose another method");
     }
 
@@ -423,7 +309,7 @@ struct params
     {
         return {.search = {.sufficient_decrease = line_search.wolfe.sufficient_decrease,
                            .barrier_fraction = line_search.barrier_fraction,
-                           .rounding = line_search.rounding},
+                           .rounding = line_search.tuning.rounding},
                 .stopping = stopping};
     }
 
@@ -431,8 +317,8 @@ struct params
     {
         return {.line_search = line_search,
                 .stopping = stopping,
-                .first_length = first_length,
-                .linearize_after = linearize_after};
+                .first_length = tuning.first_length,
+                .linearize_after = tuning.linearize_after};
     }
 };
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// What preconditioned conjugate gradients found.
@@ -360,4 +360,4 @@ private:
     small K_;
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -14,7 +14,7 @@
 #include <taut/impl/solve/params.hpp>
 #include <taut/impl/solve/pcg.hpp>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// How prescribed coordinates are brought to their values.
@@ -64,7 +64,7 @@ struct prescribed_report
     int products = 0;       ///< Hessian products
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl
 
 namespace taut::solve::impl
 {
@@ -205,7 +205,7 @@ private:
     Objective& prescribed_;
     full_objective<Objective> f_;
     prescribed_params params_;
-    solve::pcg<space_of<Objective>> pcg_;
+    solve::impl::pcg<space_of<Objective>> pcg_;
     point next_;
     vector d_, g_, follow_;                                   // d; the gradient that the others see; d of the others
     double radius_ = std::numeric_limits<double>::infinity(); // of d at what is prescribed

@@ -65,7 +65,7 @@ public:
         const double decrease = k.value_before - k.value;
         const bool lost = decrease <= rounding_ * scale;
         const bool small = params_.decrease_tolerance > 0 &&
-                           (lost || decrease <= params_.decrease_tolerance * std::abs(k.value - params_.base));
+                           (lost || decrease <= params_.decrease_tolerance * std::abs(k.value - params_.tuning.base));
         since_low_ = k.gradient < 0.99 * lowest_gradient_ ? 0 : since_low_ + 1;
         lowest_gradient_ = std::min(lowest_gradient_, k.gradient);
         const bool falling = lost && since_low_ < patience_;
@@ -78,14 +78,15 @@ public:
             ++decreases_;
         const bool short_step = params_.step_tolerance > 0 && k.length <= params_.step_tolerance * longest_;
         steps_ = short_step && !k.capped ? steps_ + 1 : 0;
-        promises_ =
-            k.promised <= promise * params_.gradient_tolerance * std::abs(k.value - params_.base) ? promises_ + 1 : 0;
+        promises_ = k.promised <= promise * params_.gradient_tolerance * std::abs(k.value - params_.tuning.base)
+                        ? promises_ + 1
+                        : 0;
 
-        if (promises_ >= params_.decrease_count) return stop::decrement;
+        if (promises_ >= params_.tuning.decrease_count) return stop::decrement;
         if (settled(k)) return stop::settled;
-        if (decreases_ >= params_.decrease_count) return stop::decrease;
-        if (steps_ >= params_.decrease_count) return stop::step;
-        if (capped_ >= params_.barrier_count) return stop::barrier;
+        if (decreases_ >= params_.tuning.decrease_count) return stop::decrease;
+        if (steps_ >= params_.tuning.decrease_count) return stop::step;
+        if (capped_ >= params_.tuning.barrier_count) return stop::barrier;
         if (k.iteration >= params_.max_iterations) return stop::iterations;
         return std::nullopt;
     }
@@ -100,7 +101,7 @@ private:
         near_ = k.newton && k.gradient <= settled_gradient ? near_ + 1 : 0;
         const double gain = values_[steps_seen_ % values_.size()] - k.value;
         return params_.settled_tolerance > 0 && near_ >= values_.size() && std::isinf(k.promised) &&
-               gain <= params_.settled_tolerance * std::abs(k.value - params_.base);
+               gain <= params_.settled_tolerance * std::abs(k.value - params_.tuning.base);
     }
 
     bool small_gradient(double gradient) const { return gradient == 0 || gradient <= params_.gradient_tolerance; }

@@ -78,7 +78,7 @@ inline bool better(const start_map& a, const start_map& b, double factor = 1)
 /// Throws mesh_error (closed_surface, degenerate_cell), parameter_error, `error` (weights, solver).
 template <class Solver = elimination_solver>
 start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const barycentric_params& params,
-                          Solver solver = {})
+                          Solver solver = {}, const std::function<bool()>& proceed = {})
 {
     const auto loops = boundary_loops(m, f);
     if (loops.empty())
@@ -115,7 +115,7 @@ start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const b
     start_map result;
     for (int round = 0; round <= params.stretch_rounds; ++round)
     {
-        if (round > 0 && params.proceed && !params.proceed()) break;
+        if (round > 0 && proceed && !proceed()) break;
         if (round > 0) impl::weaken_stretched(pull, m, ideal, next.uv);
         const auto system = make_barycentric_system(points, cells, fixed, next.uv, params.weights, pull);
         const std::vector<vec2> x = solver(system);

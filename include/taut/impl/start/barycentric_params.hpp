@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
-
 namespace taut
 {
 
@@ -49,9 +47,6 @@ struct barycentric_params
     /// itself; one to three commonly lower the distortion of a deep surface ten to a hundred times. It ends early when
     /// a round gains less than 5 %, and the best map is kept.
     int stretch_rounds = 0;
-
-    /// Asked before each further round: go on? Without it every round is made.
-    std::function<bool()> proceed = {};
 };
 
 } // namespace taut

@@ -31,7 +31,7 @@ struct nested_params
     std::function<std::vector<directed_spring<2>>(std::size_t level)> springs = {};
     /// `base` is set to the energy at rest: surfaces that are nearly developable are worth the digits above it.
     solve::stopping_params stopping = {
-        .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .decrease_count = 1, .max_iterations = 100};
+        .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .max_iterations = 100, .tuning = {.decrease_count = 1}};
     /// Levels with at most so many vertices wait for this many small decreases in a row instead: iterations are cheap
     /// there, and extreme shapes (long tubes) pause on their way.
     std::size_t small_vertices = 4000;
@@ -74,7 +74,7 @@ public:
     nested_iteration(const mesh_levels<triangle>& levels, level_solver<triangle>& solver, nested_params params)
         : levels_(levels), solver_(solver), params_(std::move(params))
     {
-        params_.stopping.base = solver.energy_at_rest();
+        params_.stopping.tuning.base = solver.energy_at_rest();
     }
 
     /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
@@ -124,7 +124,7 @@ public:
 private:
     bool is_hard(const solve::report& r) const
     {
-        const double rest = params_.stopping.base;
+        const double rest = params_.stopping.tuning.base;
         return params_.hard_from > 0 && r.iterations >= params_.hard_from && rest > 0 &&
                r.value > nested_params::hard_above * rest;
     }
@@ -148,7 +148,8 @@ private:
         level_solver<triangle>::level level(solver_, std::move(host), uv, asked);
         if (relax && params_.stopping.max_iterations > 0) level.relax();
         auto stopping = params_.stopping;
-        if (levels_.vertices(l) <= params_.small_vertices) stopping.decrease_count = params_.small_decrease_count;
+        if (levels_.vertices(l) <= params_.small_vertices)
+            stopping.tuning.decrease_count = params_.small_decrease_count;
         stages_.add({.stage = "prepare", .level = l, .vertices = levels_.vertices(l)});
         auto r = level.minimize({.method = solve::method::newton, .stopping = stopping}, ask);
         auto did = stage_of("minimise", l, levels_.vertices(l), r);

@@ -179,9 +179,9 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
         if (done || (!best.uv.empty() && !proceed())) break;
         try
         {
-            done = keep_better(barycentric_map(
-                surface, f,
-                {.boundary = params.boundary, .weights = weights, .stretch_rounds = 10, .proceed = params.proceed}));
+            done = keep_better(barycentric_map(surface, f,
+                                               {.boundary = params.boundary, .weights = weights, .stretch_rounds = 10},
+                                               {}, params.proceed));
         }
         catch (const error&)
         {

@@ -98,7 +98,7 @@ private:
         untangle_params how;
         how.limits.time_limit = std::chrono::duration<double>(state.seconds_left());
         how.limits.observer = [&state](const progress& p) { return state.proceed(p); };
-        how.first_round = steps;
+        how.tuning.first_round = steps;
         how.rounds = 1;
         untangle_state<triangle> coarse(part, how, newton_maker<triangle>(impl::direct_newton));
         if (!coarse.injective() && !find_infeasibility(part))
@@ -110,7 +110,7 @@ private:
             coarse.ended("proofs", coarse.injective() ? "" : "infeasible");
         if (coarse.injective())
         {
-            impl::improve_margin(coarse, how.margin_steps);
+            impl::improve_margin(coarse, how.tuning.margin_steps);
             coarse.ended("margin", "");
         }
         state.append(coarse.stages(), l);

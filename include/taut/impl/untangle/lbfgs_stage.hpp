@@ -42,7 +42,7 @@ public:
             params.method = solve::method::lbfgs;
             params.stopping.max_iterations = inner;
             params.stopping.time_limit = std::chrono::duration<double>(std::max(1e-3, state.seconds_left()));
-            params.first_length = 0.01;
+            params.tuning.first_length = 0.01;
             const solve::report report = solve::minimize(objective, x_, params);
             state.stepped(report.value_start, report.value, 0);
             if (!std::isfinite(report.value)) return false;

@@ -8,6 +8,7 @@
 
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/core/observer.hpp>
+#include <taut/impl/untangle/tuning.hpp>
 
 namespace taut
 {
@@ -22,23 +23,18 @@ struct untangle_params
     /// (stages.hpp).
     std::vector<std::string> stages = {};
 
-    /// The stages take turns, with so many iterations each in the first round and twice as many in each further one.
-    /// Range >= 1.
-    int first_round = 150;
     /// After so many rounds without success it gives up, whatever time is left. Range >= 1.
     int rounds = 5;
 
-    /// After success at most so many steps of Newton's method on a barrier energy, to move the map away from the edge
-    /// of what is injective; 0 leaves it there. Range >= 0.
-    int margin_steps = 20;
+    /// Not for users: what tests and measurements set.
+    impl::untangle_tuning tuning = {};
 
     /// Throws parameter_error that names the field; the names of stages are looked up by untangle().
     void validate() const
     {
         limits.validate();
-        if (first_round < 1) throw parameter_error("first_round", "must be at least 1");
         if (rounds < 1) throw parameter_error("rounds", "must be at least 1");
-        if (margin_steps < 0) throw parameter_error("margin_steps", "must not be negative");
+        tuning.validate();
     }
 };
 

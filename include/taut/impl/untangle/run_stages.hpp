@@ -19,7 +19,7 @@ std::string run_stages(untangle_state<Element>& state, const untangle_stages<Ele
                        const untangle_params& params)
 {
     std::vector<char> exhausted(stages.size(), 0);
-    int iterations = params.first_round;
+    int iterations = params.tuning.first_round;
     for (int round = 0; round < params.rounds; ++round)
     {
         for (std::size_t s = 0; s < stages.size(); ++s)

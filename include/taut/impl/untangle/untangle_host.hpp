@@ -90,7 +90,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
         if constexpr (Element::dimension == 2)
             if (result.stage != "initial")
             {
-                impl::improve_margin(state, params.margin_steps);
+                impl::improve_margin(state, params.tuning.margin_steps);
                 state.ended("margin", "");
             }
     }

@@ -224,7 +224,7 @@ protected:
         const double gap = std::max(held_.gap(from, way).distance * lengths_, std::numeric_limits<double>::min());
         double mark = clock.total();
         bool feasible = true;
-        const auto proceed = [&](const solve::prescribed_report& at)
+        const auto proceed = [&](const solve::impl::prescribed_report& at)
         {
             step_seconds_ = clock.total() - std::exchange(mark, clock.total());
             // Where it is hard to go on there may be no way.

@@ -34,7 +34,7 @@ public:
     template <line_function Line>
     ladder(Line& phi, double from, double factor)
     {
-        const auto batch = std::size_t(std::clamp(phi.batch(), 1, line_search_params::most_batch));
+        const auto batch = std::size_t(std::clamp(phi.batch(), 1, line_tuning::most_batch));
         for (double a = from; rungs_ < batch && (factor < 1 || a < phi.bound());)
         {
             a = std::min(a * factor, phi.bound());
@@ -48,7 +48,7 @@ public:
     line_point operator[](std::size_t i) const { return {.step = step_[i], .value = value_[i]}; }
 
 private:
-    std::array<double, line_search_params::most_batch> step_{}, value_{};
+    std::array<double, line_tuning::most_batch> step_{}, value_{};
     std::size_t rungs_ = 0;
 };
 

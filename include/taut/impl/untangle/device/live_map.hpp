@@ -67,10 +67,11 @@ public:
     }
 
     /// Brings held coordinates, gap away in the worst case, to what aim() said.
-    solve::prescribed_report follow(double gap, const std::function<bool(const solve::prescribed_report&)>& proceed)
+    solve::impl::prescribed_report follow(double gap,
+                                          const std::function<bool(const solve::impl::prescribed_report&)>& proceed)
     {
         // Shapes in space are stretched on purpose, and a jam shows by crawling.
-        if (!steps_) steps_.emplace(objective_, solve::prescribed_params{.most_cost = D == 2 ? 10.0 : 1e4});
+        if (!steps_) steps_.emplace(objective_, solve::impl::prescribed_params{.most_cost = D == 2 ? 10.0 : 1e4});
         return steps_->run(x_, gap, proceed);
     }
 

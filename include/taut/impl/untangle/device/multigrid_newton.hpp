@@ -156,7 +156,7 @@ private:
 
     newton_objective<Element> objective_;
     device_vectors space_;
-    solve::pcg<device_vectors> pcg_;
+    solve::impl::pcg<device_vectors> pcg_;
     typename newton_objective<Element>::point x_;
     typename newton_objective<Element>::vector g_, d_;
 };
