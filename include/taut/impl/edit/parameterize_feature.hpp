@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <span>
 
 #include <taut/impl/edit/paste.hpp>
@@ -26,12 +25,10 @@ namespace taut
 /// the paste, with any other vertices that are named, and the rest is mapped as isometrically as that allows, without
 /// flips. The rim is a simple polygon, so without other pins there is a map; where these contradict it, the outcome is
 /// infeasible, and report.ids names the triangles or vertices. Throws constraint_error, device_error.
-inline map_result parameterize_feature(queue& q, const paste& p, std::span<const impl::feature_pin> pins = {})
-{
-    const auto& region = p.part().region;
-    auto wanted = impl::rim_pins(region, p.rim_uv());
-    for (const auto& pin : pins) wanted.pin(pin.vertex, pin.at);
-    return parameterize(q, region.surface, {.constraints = wanted});
-}
+map_result parameterize_feature(queue& q, const paste& p, std::span<const impl::feature_pin> pins = {});
 
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/edit/parameterize_feature.ipp>
+#endif

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/rbf.hpp>
+#include <taut/impl/edit/rbf_system.hpp>
 #include <taut/impl/edit/rbf_evaluator.hpp>
 
 namespace taut::impl
@@ -35,7 +35,7 @@ public:
             rbf_basis basis)
         : moving_(moving.size()),
           all_(moving.size() + staying.size()),
-          solver_(rbf(joined(std::move(moving), staying), {.basis = basis})),
+          solver_(rbf_system(joined(std::move(moving), staying), {.basis = basis})),
           evaluate_(q, solver_->solve(std::vector<vec3>(all_, vec3(0.0))), bent)
     {
     }
@@ -52,7 +52,7 @@ public:
     std::vector<vec3> operator()(const rbf_field& field) { return evaluate_(field); }
 
     explicit operator bool() const { return solver_.has_value(); }
-    const rbf& solver() const { return *solver_; }
+    const rbf_system& solver() const { return *solver_; }
     std::size_t moving() const { return moving_; }
 
 private:
@@ -63,7 +63,7 @@ private:
     }
 
     std::size_t moving_ = 0, all_ = 0;
-    std::optional<rbf> solver_;
+    std::optional<rbf_system> solver_;
     rbf_evaluator evaluate_;
 };
 

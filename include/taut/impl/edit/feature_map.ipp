@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <taut/impl/compute/buffer.hpp>
+#include <taut/impl/compute/detail/few_functions.hpp>
+#include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/compute/kernels/feature_map.hpp>
+#include <taut/impl/core/csr.hpp>
+#include <taut/impl/edit/feature_map.hpp>
+
+namespace taut::impl
+{
+
+inline std::vector<float> floats_of(std::span<const vec2> points)
+{
+    std::vector<float> numbers;
+    for (const vec2& p : points) numbers.insert(numbers.end(), {static_cast<float>(p.x), static_cast<float>(p.y)});
+    return numbers;
+}
+
+constexpr idx map_tile = 16; ///< texels along the side of a tile
+
+/// The triangles whose box meets each tile.
+inline csr triangles_by_tile(std::span<const vec2> corners, idx across, idx down)
+{
+    std::vector<std::vector<idx>> rows(static_cast<std::size_t>(across * down));
+    for (std::size_t f = 0; 3 * f < corners.size(); ++f)
+    {
+        const vec2 &a = corners[3 * f], &b = corners[3 * f + 1], &c = corners[3 * f + 2];
+        const vec2 low = glm::min(a, glm::min(b, c)) - 0.5, high = glm::max(a, glm::max(b, c)) + 0.5;
+        const auto tile_of = [](double x, idx most) { return std::clamp(static_cast<idx>(x) / map_tile, 0, most - 1); };
+        for (idx j = tile_of(low.y, down); j <= tile_of(high.y, down); ++j)
+            for (idx i = tile_of(low.x, across); i <= tile_of(high.x, across); ++i)
+                rows[static_cast<std::size_t>(j * across + i)].push_back(static_cast<idx>(f));
+    }
+    csr tiles{{0}, {}};
+    for (const auto& row : rows)
+    {
+        tiles.items.insert(tiles.items.end(), row.begin(), row.end());
+        tiles.offsets.push_back(static_cast<idx>(tiles.items.size()));
+    }
+    if (tiles.items.empty()) tiles.items.push_back(0);
+    return tiles;
+}
+
+std::vector<vec3> sample(queue& q, const feature_map& map, std::span<const vec2> points)
+{
+    if (points.empty()) return {};
+    std::vector<vec2> at;
+    for (const vec2& p : points) at.push_back(map.in_texels(p));
+    const buffer<float> texels(q, map.values), places(q, impl::floats_of(at));
+    buffer<float> positions(q, 3 * points.size());
+    const kernel run(q, impl::kernels::feature_map, "map_sample", impl::few_functions);
+    run({padded(points.size(), 64), 64}, {{"count", static_cast<idx>(points.size())},
+                                          {"width", map.width},
+                                          {"height", map.height},
+                                          {"texels", texels},
+                                          {"points", places},
+                                          {"positions", positions}});
+    const auto numbers = positions.download();
+    std::vector<vec3> result;
+    for (std::size_t n = 0; n < points.size(); ++n)
+        result.emplace_back(double(numbers[3 * n]), double(numbers[3 * n + 1]), double(numbers[3 * n + 2]));
+    return result;
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv,
+                             const impl::feature_map_params& params)
+{
+    params.validate();
+    const auto& surface = part.region.surface;
+    if (uv.size() != surface.points().size())
+        throw parameter_error("uv", std::to_string(uv.size()) + " places for " +
+                                        std::to_string(surface.points().size()) + " vertices; give one a vertex");
+    vec2 low = uv[0], high = uv[0];
+    for (const vec2& p : uv)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    feature_map map;
+    const vec2 extent = high - low;
+    map.texel = std::max(extent.x, extent.y) / static_cast<double>(params.resolution - 2 * params.margin);
+    map.low = low - map.texel * params.margin;
+    map.width = static_cast<idx>(std::ceil(extent.x / map.texel)) + 2 * params.margin;
+    map.height = static_cast<idx>(std::ceil(extent.y / map.texel)) + 2 * params.margin;
+
+    const mat3 to_frame = glm::transpose(part.frame());
+    std::vector<vec2> corners;
+    std::vector<float> positions;
+    double area = 0, area_in_map = 0;
+    for (idx f = 0; f < surface.cell_count(); ++f)
+    {
+        const auto x = surface.rest(f);
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            corners.push_back(
+                map.in_texels(uv[static_cast<std::size_t>(surface.cells()[static_cast<std::size_t>(f)][k])]));
+            const vec3 p = to_frame * (x[k] - part.centre);
+            positions.insert(positions.end(),
+                             {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        }
+        const vec2 a = corners.end()[-2] - corners.end()[-3], b = corners.end()[-1] - corners.end()[-3];
+        area += glm::length(glm::cross(x[1] - x[0], x[2] - x[0]));
+        area_in_map += std::abs(a.x * b.y - a.y * b.x);
+    }
+    map.footprint = std::sqrt(area / area_in_map);
+
+    const idx across = (map.width + impl::map_tile - 1) / impl::map_tile;
+    const idx down = (map.height + impl::map_tile - 1) / impl::map_tile;
+    const impl::csr tiles = impl::triangles_by_tile(corners, across, down);
+    const std::size_t count = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
+    const buffer<idx> starts(q, tiles.offsets), items(q, tiles.items);
+    const buffer<float> places(q, impl::floats_of(corners)), values(q, positions);
+    buffer<float> texels(q, 4 * count), next(q, 4 * count);
+    const kernel cover(q, impl::kernels::feature_map, "map_cover", impl::few_functions),
+        go_on(q, impl::kernels::feature_map, "map_continue", impl::few_functions);
+    const range all(impl::padded(count, 64), 64);
+    cover(all, {{"width", map.width},
+                {"height", map.height},
+                {"tile", impl::map_tile},
+                {"tiles_across", across},
+                {"starts", starts},
+                {"items", items},
+                {"uv", places},
+                {"positions", values},
+                {"texels", texels}});
+    for (idx round = 0; round < params.margin; ++round)
+    {
+        go_on(all, {{"width", map.width}, {"height", map.height}, {"from", texels}, {"to", next}});
+        texels.swap(next);
+    }
+    map.values = texels.download();
+
+    const auto sampled = impl::sample(q, map, uv);
+    for (std::size_t v = 0; v < sampled.size(); ++v)
+    {
+        const double d = glm::distance(sampled[v], to_frame * (surface.points()[v] - part.centre));
+        map.round_trip = std::max(map.round_trip, d);
+        map.round_trip_rms += d * d / static_cast<double>(sampled.size());
+    }
+    map.round_trip_rms = std::sqrt(map.round_trip_rms);
+    return map;
+}
+
+} // namespace taut
