@@ -16,7 +16,9 @@
 #include <taut/atlas/atlas_report.hpp>
 #include <taut/atlas/detail/atlas_summary.hpp>
 #include <taut/atlas/detail/crossing_charts.hpp>
+#include <taut/atlas/detail/cutting/short_cutting.hpp>
 #include <taut/atlas/detail/round_polygon.hpp>
+#include <taut/atlas/detail/seams/straighten.hpp>
 #include <taut/atlas/detail/seen_patches.hpp>
 #include <taut/atlas/detail/surface_part.hpp>
 #include <taut/atlas/detail/symmetry/symmetric_half.hpp>
@@ -42,8 +44,10 @@ public:
             keep_charts();
         else if (params_.symmetric)
             mirror_charts();
-        else
+        else if (params_.prefer == chart_preference::packing)
             make_charts();
+        else
+            cut_short();
         join_polygons();
     }
 
@@ -108,6 +112,63 @@ protected:
             cut_unfinished(std::move(laid), made.crosses);
         report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
         if (report_.complete) mend(unfit());
+    }
+
+    /// Charts along short seams.
+    void cut_short()
+    {
+        usable_ = true;
+        budget limits(std::max(budget_.left(), budget::seconds(1e-6)), asking("charts"));
+        short_cutting cutting(mesh_, facets_,
+                              {.bound = params_.charts.mean_distortion,
+                               .seams = params_.charts.seams,
+                               .together = params_.charts.together,
+                               .part = params_.prefer == chart_preference::seams},
+                              limits);
+        cutting.run();
+        seam_ = cutting.seams();
+        segment_rest(cutting.unfound());
+        report_.complete = report_.complete && budget_.in_time();
+        if (!report_.complete)
+        {
+            cut_unfinished({std::vector<vec2>(facets_.twin.size()),
+                            std::vector<double>(mesh_.cells().size(), std::numeric_limits<double>::infinity())},
+                           std::vector<char>(mesh_.cells().size(), 1));
+            return;
+        }
+        straighten(mesh_, facets_, seam_, params_.charts.seams, params_.charts.together, limits);
+        charts_.emplace(cut_charts(mesh_, facets_, seam_));
+        auto flat = flatten(*charts_, {}, std::numeric_limits<int>::max());
+        energy_.clear();
+        for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
+        flat_ = std::move(flat.uv);
+        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
+        if (report_.complete) mend(unfit());
+    }
+
+    /// Has segment() cut some triangles, one flag each.
+    void segment_rest(const std::vector<char>& wanted)
+    {
+        std::vector<idx> triangles, number(mesh_.points().size(), -1);
+        for (std::size_t c = 0; c < wanted.size(); ++c)
+            if (wanted[c]) triangles.push_back(static_cast<idx>(c));
+        if (triangles.empty()) return;
+        const surface_part part = part_of(mesh_, triangles, seam_, number);
+        const auto f = facets(part.charts.surface);
+        std::vector<char> together(params_.charts.together.empty() ? 0 : f.twin.size(), 0);
+        for (std::size_t s = 0; s < together.size(); ++s) together[s] = params_.charts.together[part.origin(s)];
+        auto params = params_.charts;
+        params.seams = {};
+        params.together = together;
+        params.least_fill = 0;
+        params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
+        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
+        params.observer = asking("charts");
+        const auto maps = [this](const chart_mesh& charts, std::span<const vec2> start)
+        { return flatten(charts, start, std::numeric_limits<int>::max()); };
+        const auto made = segment_surface(part.charts.surface, f, maps_by(maps), params);
+        for (std::size_t s = 0; s < made.seam.size(); ++s)
+            if (made.seam[s]) seam_[part.origin(s)] = 1;
     }
 
     /// The charts of a run that has ended; those that have no map yet, or none that is any good, as they are seen.

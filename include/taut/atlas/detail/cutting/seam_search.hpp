@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/atlas/cut_to_disk.hpp>
+#include <taut/atlas/detail/cutting/over_cut.hpp>
+#include <taut/atlas/detail/cutting/part_charts.hpp>
+#include <taut/atlas/detail/cutting/sew_tips.hpp>
+#include <taut/start/barycentric_map.hpp>
+
+namespace taut::detail
+{
+
+/// How seams of one surface are looked for.
+struct search_setting
+{
+    double bound = 4.1;       ///< of the mean energy
+    double over = 0.75;       ///< what the map of the surface that is cut too often may take of what is allowed
+    double least_weight = 0.3; ///< of ways, where the potential is greatest
+    std::size_t patch = 100;  ///< triangles that follow a zip at once
+    bool part = true;         ///< charts that lie on themselves are parted
+    std::function<bool()> proceed = {};
+};
+
+/// Short seams of a connected surface within a bound of distortion, from above: it is cut more than needed along ways
+/// to the extremes of a potential of its curvature and mapped; then seams are sewn up from their tips, the cheapest
+/// first, and charts parted where they lie on themselves.
+class seam_search
+{
+public:
+    seam_search(const rest_surface& rest, const search_setting& setting) : rest_(rest), setting_(setting) {}
+
+    /// False if there is no map to begin with.
+    bool run()
+    {
+        if (!cut()) return false;
+        if (!(flat_.energy <= setting_.bound)) return false;
+        sew(false);
+        if (setting_.part) part();
+        return true;
+    }
+
+    const flat_surface& result() const { return flat_; }
+    double price() const { return seam_price(rest_, flat_.seam); }
+
+    /// The last result, sewn up to another bound.
+    bool adjust(double bound)
+    {
+        setting_.bound = bound;
+        if (flat_.energy > bound)
+        {
+            const auto fits = [bound](const flat_surface& f) { return f.energy <= bound; };
+            const auto last = std::find_if(trail_.rbegin(), trail_.rend(), fits);
+            if (last == trail_.rend()) return false;
+            flat_ = *last;
+            trail_.erase(last.base(), trail_.end());
+        }
+        sew(parted_);
+        if (setting_.part) part();
+        return true;
+    }
+
+private:
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    bool proceed() const { return !setting_.proceed || setting_.proceed(); }
+
+    /// The surface cut too often, and its map.
+    bool cut()
+    {
+        flat_.seam = disk_cutting(rest_.surface, rest_.facets).loops();
+        over_cutting more(rest_, setting_.least_weight);
+        constexpr int most = 100;
+        double stop = 0.7;
+        for (int turn = 0; turn < 12 && proceed(); ++turn, stop *= 0.8)
+        {
+            const int added = more.run(flat_.seam, stop, most);
+            if (turn > 0 && added == 0) continue;
+            number_fans(rest_, flat_);
+            if (flat_.uv.empty() && !start()) return false;
+            relax(rest_, flat_, 60, 1e-4);
+            if (flat_.energy <= 4 + setting_.over * (setting_.bound - 4)) break;
+        }
+        return flat_.energy < infinite;
+    }
+
+    bool start()
+    {
+        const cut_surface cut = cut_surface::of(rest_, flat_);
+        const mesh<triangle> m(cut.points, cut.cells);
+        try
+        {
+            const auto f = facets(m);
+            const auto map = barycentric_map(m, f, {.stretch_rounds = 1});
+            if (!map.flips) return false;
+            flat_.uv.resize(flat_.fan.size());
+            for (std::size_t corner = 0; corner < flat_.fan.size(); ++corner)
+                flat_.uv[corner] = map.uv[rest_surface::u(cut.cells[corner / 3][corner % 3])];
+        }
+        catch (const error&)
+        {
+            return false;
+        }
+        return true;
+    }
+
+    void sew(bool keep_apart)
+    {
+        const sewing how{.bound = setting_.bound,
+                         .patch = setting_.patch,
+                         .keep_apart = keep_apart,
+                         .proceed = setting_.proceed,
+                         .told = [this](const flat_surface& f) { trail_.push_back(f); }};
+        tip_sewing(rest_, flat_, how).run();
+    }
+
+    void part()
+    {
+        constexpr int turns = 3;
+        for (int turn = 0; turn < turns && proceed() && border_crossings(rest_, flat_, 1) > 0; ++turn)
+        {
+            if (part_charts(rest_, flat_, {}) == 0) break;
+            relax(rest_, flat_, 8, 1e-5);
+            trail_.clear();
+            trail_.push_back(flat_);
+            parted_ = true;
+            sew(true);
+        }
+    }
+
+    const rest_surface& rest_;
+    search_setting setting_;
+    flat_surface flat_;
+    std::vector<flat_surface> trail_; // states within the bound, of ever fewer seams
+    bool parted_ = false;
+};
+
+} // namespace taut::detail
