@@ -16,6 +16,7 @@
 #include <taut/atlas/atlas_report.hpp>
 #include <taut/atlas/detail/atlas_summary.hpp>
 #include <taut/atlas/detail/crossing_charts.hpp>
+#include <taut/atlas/detail/cutting/fine_sewing.hpp>
 #include <taut/atlas/detail/cutting/short_cutting.hpp>
 #include <taut/atlas/detail/round_polygon.hpp>
 #include <taut/atlas/detail/seams/straighten.hpp>
@@ -136,14 +137,154 @@ protected:
                            std::vector<char>(mesh_.cells().size(), 1));
             return;
         }
-        straighten(mesh_, facets_, seam_, params_.charts.seams, params_.charts.together, limits);
+        flatten_within_bound(cutting, limits);
+        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
+    }
+
+    /// Flattens the charts of short seams. What they have of distortion is found out only then, and seams are sewn up
+    /// or opened again until the bound holds.
+    void flatten_within_bound(short_cutting& cutting, budget& limits)
+    {
+        const double bound = params_.charts.mean_distortion, allowed = bound - 4;
+        const bool large = mesh_.cells().size() > 30'000; // one more map costs more than what it may save
+        constexpr int turns = 8;
+        std::optional<laid_charts> best;
+        for (int turn = 0; turn < turns && report_.complete; ++turn)
+        {
+            laid_charts now = lay_short(cutting, limits);
+            if (!report_.complete && best) break;
+            for (const char bad : now.bad) now.plain.push_back(bad == 0);
+            const auto crossing = std::count(now.bad.begin(), now.bad.end(), char(1));
+            const double apart = crossing > 0 ? 0.02 * allowed : 0; // what keeping borders apart costs, about
+            double excess = now.mean + apart - bound;
+            if (excess <= 0 && crossing > 0)
+            {
+                keep_apart(now.bad);
+                now.energy = energy_;
+                now.flat = flat_;
+                now.mean = mean_energy();
+                excess = now.mean - bound;
+            }
+            now.holds = now.mean <= bound && excess <= 0;
+            if (getenv("TAUT_DEBUG")) fprintf(stderr, "turn %d: charts %d seam %.3f E %.4f excess %.4f bad %d  %.2f s\n", turn, (int)charts_->charts(), now.length, now.mean, excess, (int)std::count(now.bad.begin(), now.bad.end(), char(1)), budget_.total());
+            const double mean = now.mean;
+            const bool holds = now.holds;
+            if (!best || now.better_than(*best)) best = std::move(now);
+            if (holds && (large || turn > 1 || mean > bound - 0.2 * allowed)) break;
+            if (!(mean < std::numeric_limits<double>::infinity())) break;
+            // Ever more cautious, so that it holds in the end.
+            cutting.adjust(holds ? 0.8 * (bound - mean) : -excess - 0.02 * (1 + turn) * allowed);
+            seam_ = cutting.seams();
+        }
+        seam_ = std::move(best->seam);
+        charts_.emplace(std::move(best->charts));
+        flat_ = std::move(best->flat);
+        energy_ = std::move(best->energy);
+        if (report_.complete && best->holds) sew_up(best->plain, limits);
+        if (!report_.complete || std::count(best->bad.begin(), best->bad.end(), char(1)) == 0) return;
+        if (!best->holds) keep_apart(best->bad);
+        mend_rest(best->bad);
+    }
+
+    /// A surface cut and flattened.
+    struct laid_charts
+    {
+        std::vector<char> seam;
+        chart_mesh charts;
+        std::vector<vec2> flat;
+        std::vector<double> energy;
+        std::vector<char> bad;   // charts without a map, or that overlap themselves
+        std::vector<char> plain; // charts that had a map that did not from the beginning
+        double length, mean;
+        bool holds; // the bound, and the charts are fit
+
+        bool better_than(const laid_charts& other) const
+        {
+            if (holds != other.holds) return holds;
+            return holds ? length < other.length : mean < other.mean;
+        }
+    };
+
+    /// Cuts the surface along its seams, straightened, and flattens it.
+    laid_charts lay_short(const short_cutting& cutting, budget& limits)
+    {
+        straighten(mesh_, facets_, seam_, params_.charts.seams, params_.charts.together, limits, cutting.prices(),
+                   {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
         charts_.emplace(cut_charts(mesh_, facets_, seam_));
         auto flat = flatten(*charts_, {}, std::numeric_limits<int>::max());
         energy_.clear();
         for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
         flat_ = std::move(flat.uv);
-        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
+        return {seam_, *charts_, flat_, energy_, unfit(), {}, length_of_seams(mesh_, facets_, seam_), mean_energy(), false};
+    }
+
+    /// Sews up some charts, one flag each, until the bound of all is reached.
+    void sew_up(const std::vector<char>& wanted, budget& limits)
+    {
+        std::vector<idx> some;
+        std::vector<char> flags(mesh_.cells().size(), 0);
+        double others = 0, own = 0; // energy, area
+        for (std::size_t k = 0; k < wanted.size(); ++k)
+        {
+            const double area = chart_area(k);
+            wanted[k] ? own += area : others += area * energy_[k];
+            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
+                flags[u(charts_->cell_origins[i])] = wanted[k];
+        }
+        for (std::size_t c = 0; c < flags.size(); ++c)
+            if (flags[c]) some.push_back(static_cast<idx>(c));
+        if (some.empty()) return;
+        double all = own;
+        for (std::size_t k = 0; k < wanted.size(); ++k) all += wanted[k] ? 0 : chart_area(k);
+        const double bound = (params_.charts.mean_distortion * all - others) / own;
+        auto laid = triangles_as_laid();
+        if (!sew_laid(mesh_, {seam_, laid.uv, some}, params_.charts.seams, bound,
+                      [&limits] { return limits.proceed(); }))
+            return;
+        cut(laid);
+        const ideal_elements<triangle> ideal(charts_->surface);
+        for (std::size_t k = 0; k < energy_.size(); ++k)
+            energy_[k] = area_and_energy(*charts_, k, flat_, ideal).second;
+    }
+
+    double chart_area(std::size_t k) const
+    {
+        double area = 0;
+        for (idx c = charts_->first_cell[k]; c < charts_->first_cell[k + 1]; ++c)
+        {
+            const auto x = charts_->surface.rest(c);
+            area += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
+        }
+        return area;
+    }
+
+    /// Has segment() cut the charts, one flag each, that have no map or overlap themselves.
+    void mend_rest(const std::vector<char>& bad)
+    {
+        std::vector<char> wanted(mesh_.cells().size(), 0);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
+                wanted[u(charts_->cell_origins[i])] = bad[k];
+        segment_rest(wanted);
+        charts_.emplace(cut_charts(mesh_, facets_, seam_));
+        auto flat = flatten(*charts_, {}, std::numeric_limits<int>::max());
+        energy_.clear();
+        for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
+        flat_ = std::move(flat.uv);
         if (report_.complete) mend(unfit());
+    }
+
+    /// Area mean over all charts.
+    double mean_energy() const
+    {
+        double sum = 0, area = 0;
+        for (std::size_t k = 0; k < energy_.size(); ++k)
+        {
+            const double own = chart_area(k);
+            sum += own * energy_[k];
+            area += own;
+        }
+        return sum / area;
     }
 
     /// Has segment() cut some triangles, one flag each.
@@ -258,6 +399,13 @@ protected:
     /// Keeps the borders of these charts apart, and takes those apart for which that does not succeed.
     void mend(std::vector<char> bad)
     {
+        keep_apart(bad);
+        if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
+    }
+
+    /// Maps these charts anew with their borders kept apart. Clears the flags of those for which that succeeds.
+    void keep_apart(std::vector<char>& bad)
+    {
         constexpr idx most = 32; // one by one: more would take long
         const double begin = budget_.total();
         idx mended = 0, tried = 0;
@@ -297,7 +445,6 @@ protected:
                 " mapped anew with its border kept apart");
         }
         report_.seconds.flatten += budget_.total() - begin;
-        if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
     }
 
     /// These charts become patches that lie as they are seen; charts that are to be kept cannot.

@@ -49,6 +49,7 @@ public:
     }
 
     const flat_surface& result() const { return flat_; }
+    const search_setting& setting() const { return setting_; }
     double price() const { return seam_price(rest_, flat_.seam); }
 
     /// The last result, sewn up to another bound.

@@ -20,6 +20,7 @@ struct sewing
     double bound = 4.1;       ///< of the mean energy
     std::size_t patch = 100;  ///< triangles around a tip that follow at once
     bool keep_apart = false;  ///< no zip after which charts meet themselves more often than before
+    bool whole = true;        ///< the whole map follows now and then; false: patches alone, for large surfaces
     std::function<bool()> proceed; ///< asked between zips: go on?
     std::function<void(const flat_surface&)> told; ///< of each state that is within the bound
 };
@@ -39,6 +40,7 @@ public:
     void run()
     {
         if (!(flat_.energy <= how_.bound)) return;
+        if (!how_.whole) return run_in_patches();
         find_tips();
         crossings_ = how_.keep_apart ? border_crossings(rest_, flat_, most_crossings) : 0;
         flat_surface good = flat_;
@@ -82,6 +84,21 @@ public:
     }
 
 private:
+    void run_in_patches()
+    {
+        find_tips();
+        crossings_ = how_.keep_apart ? border_crossings(rest_, flat_, most_crossings) : 0;
+        while (!how_.proceed || how_.proceed())
+        {
+            const idx tip = cheapest();
+            if (tip < 0) return;
+            if (flat_.energy + prices_[u(tip)].more / rest_.total > how_.bound)
+                prices_[u(tip)].barred = true; // a short edge, or one that is cheap for its length, may come after
+            else
+                sew(tip);
+        }
+    }
+
     static constexpr std::size_t most_crossings = 1000;
     static constexpr double infinite = std::numeric_limits<double>::infinity();
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
@@ -89,6 +106,7 @@ private:
     struct price
     {
         double rate = infinite;     // energy by price of the seam
+        double more = infinite;     // energy
         std::vector<idx> triangles; // that it depends on
         idx when = 0;
         bool known = false, barred = false;
@@ -129,6 +147,7 @@ private:
         zip z = zipper_.look(flat_, tip);
         p.known = true;
         p.when = now_;
+        p.more = z.more;
         p.rate = z.side < 0 ? infinite : z.more / rest_.price[u(z.side)];
         p.triangles = std::move(z.triangles);
     }

@@ -78,6 +78,42 @@ public:
         }
     }
 
+    /// Sews up or opens seams for a bound that is larger by `more`.
+    void adjust(double more)
+    {
+        for_each(searches_.size(),
+                 [&](std::size_t k)
+                 {
+                     if (!searches_[k] || !searches_[k]->search) return;
+                     piece_search& p = *searches_[k];
+                     p.bound = std::max(p.bound + more, 4 + 0.8 * (p.bound - 4));
+                     if (p.search->adjust(p.bound)) return;
+                     auto anew = std::make_unique<seam_search>(*p.rest, p.search->setting());
+                     if (anew->run()) p.search = std::move(anew);
+                 });
+    }
+
+    /// Of the whole surface.
+    double area() const
+    {
+        double sum = 0;
+        for (const auto& p : searches_)
+            if (p && p->rest) sum += p->rest->total;
+        return sum;
+    }
+
+    /// What a seam along each side of the surface counts.
+    std::vector<double> prices() const
+    {
+        std::vector<double> price(facets_.twin.size());
+        for (std::size_t s = 0; s < price.size(); ++s)
+        {
+            const auto [a, b] = side_vertices(mesh_, static_cast<idx>(s));
+            price[s] = glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
+        }
+        return price;
+    }
+
     /// One flag a triangle of the surface: 1 where no seams were found.
     std::vector<char> unfound() const
     {
@@ -122,6 +158,7 @@ private:
         bool coarser = false;
         std::optional<rest_surface> rest;
         std::unique_ptr<seam_search> search;
+        double bound = 4;
     };
 
     std::size_t cells(std::size_t k) const { return u(pieces_.first_cell[k + 1] - pieces_.first_cell[k]); }
@@ -157,6 +194,7 @@ private:
     {
         searches_[k] = std::make_unique<piece_search>();
         piece_search& p = *searches_[k];
+        p.bound = params_.bound;
         const idx v0 = pieces_.first_vertex[k], c0 = pieces_.first_cell[k];
         const auto& all = pieces_.surface;
         std::vector<vec3> points(all.points().begin() + v0, all.points().begin() + pieces_.first_vertex[k + 1]);
@@ -165,7 +203,7 @@ private:
             for (idx& v : t) v -= v0;
         p.surface.emplace(std::move(points), std::move(own));
         p.facets = facets(*p.surface);
-        coarse_surface coarse = make_coarse(*p.surface, p.facets, params_.coarse);
+        coarse_surface coarse = make_coarse(*p.surface, p.facets, p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count());
         p.coarser = coarse.cells.size() < p.surface->cells().size();
         p.origins = std::move(coarse.origins);
         const idx first_span = span_small_holes(coarse);
