@@ -145,9 +145,10 @@ protected:
     /// or opened again until the bound holds.
     void flatten_within_bound(short_cutting& cutting, budget& limits)
     {
-        const double bound = params_.charts.mean_distortion, allowed = bound - 4;
+        const double allowed = 0.999 * (params_.charts.mean_distortion - 4), bound = 4 + allowed; // rounding, scale
         const bool large = mesh_.cells().size() > 30'000; // one more map costs more than what it may save
         constexpr int turns = 8;
+        double apart = 0.01 * allowed; // what it costs to keep borders apart
         std::optional<laid_charts> best;
         for (int turn = 0; turn < turns && report_.complete; ++turn)
         {
@@ -155,7 +156,8 @@ protected:
             if (!report_.complete && best) break;
             for (const char bad : now.bad) now.plain.push_back(bad == 0);
             const auto crossing = std::count(now.bad.begin(), now.bad.end(), char(1));
-            const double apart = crossing > 0 ? 0.02 * allowed : 0; // what keeping borders apart costs, about
+            const double flattened = now.mean;
+            if (crossing == 0) apart = 0;
             double excess = now.mean + apart - bound;
             if (excess <= 0 && crossing > 0)
             {
@@ -164,6 +166,7 @@ protected:
                 now.flat = flat_;
                 now.mean = mean_energy();
                 excess = now.mean - bound;
+                apart = std::max(0.0, now.mean - flattened);
             }
             now.holds = now.mean <= bound && excess <= 0;
             if (getenv("TAUT_DEBUG")) fprintf(stderr, "turn %d: charts %d seam %.3f E %.4f excess %.4f bad %d  %.2f s\n", turn, (int)charts_->charts(), now.length, now.mean, excess, (int)std::count(now.bad.begin(), now.bad.end(), char(1)), budget_.total());
@@ -236,7 +239,7 @@ protected:
         if (some.empty()) return;
         double all = own;
         for (std::size_t k = 0; k < wanted.size(); ++k) all += wanted[k] ? 0 : chart_area(k);
-        const double bound = (params_.charts.mean_distortion * all - others) / own;
+        const double bound = ((0.001 * 4 + 0.999 * params_.charts.mean_distortion) * all - others) / own;
         auto laid = triangles_as_laid();
         if (!sew_laid(mesh_, {seam_, laid.uv, some}, params_.charts.seams, bound,
                       [&limits] { return limits.proceed(); }))

@@ -50,7 +50,15 @@ public:
 
     const flat_surface& result() const { return flat_; }
     const search_setting& setting() const { return setting_; }
-    double price() const { return seam_price(rest_, flat_.seam); }
+
+    /// What the seams cost, and what is to be kept apart in the plane.
+    double price() const
+    {
+        constexpr double by_area = 5; // seam by the root of the area, of what lies on other parts of its chart
+        double area = 0;
+        for (const overlap_layers& one : find_overlaps(rest_, flat_)) area += one.area;
+        return seam_price(rest_, flat_.seam) + by_area * area / std::sqrt(rest_.total);
+    }
 
     /// The last result, sewn up to another bound.
     bool adjust(double bound)
@@ -58,10 +66,11 @@ public:
         setting_.bound = bound;
         if (flat_.energy > bound)
         {
-            const auto fits = [bound](const flat_surface& f) { return f.energy <= bound; };
+            const auto fits = [bound](const state& s) { return s.flat.energy <= bound; };
             const auto last = std::find_if(trail_.rbegin(), trail_.rend(), fits);
             if (last == trail_.rend()) return false;
-            flat_ = *last;
+            flat_ = last->flat;
+            parted_ = last->parted;
             trail_.erase(last.base(), trail_.end());
         }
         sew(parted_);
@@ -71,6 +80,12 @@ public:
 
 private:
     static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    struct state
+    {
+        flat_surface flat;
+        bool parted;
+    };
 
     bool proceed() const { return !setting_.proceed || setting_.proceed(); }
 
@@ -119,8 +134,16 @@ private:
                          .patch = setting_.patch,
                          .keep_apart = keep_apart,
                          .proceed = setting_.proceed,
-                         .told = [this](const flat_surface& f) { trail_.push_back(f); }};
+                         .told = [this](const flat_surface& f) { note(f); }};
         tip_sewing(rest_, flat_, how).run();
+    }
+
+    /// Keeps a state to come back to.
+    void note(const flat_surface& f)
+    {
+        const double step = 0.02 * (setting_.bound - 4);
+        if (trail_.empty() || trail_.back().parted != parted_ || f.energy > trail_.back().flat.energy + step)
+            trail_.push_back({f, parted_});
     }
 
     void part()
@@ -130,9 +153,8 @@ private:
         {
             if (part_charts(rest_, flat_, {}) == 0) break;
             relax(rest_, flat_, 8, 1e-5);
-            trail_.clear();
-            trail_.push_back(flat_);
             parted_ = true;
+            trail_.push_back({flat_, parted_});
             sew(true);
         }
     }
@@ -140,7 +162,7 @@ private:
     const rest_surface& rest_;
     search_setting setting_;
     flat_surface flat_;
-    std::vector<flat_surface> trail_; // states within the bound, of ever fewer seams
+    std::vector<state> trail_; // within the bound, of ever fewer seams
     bool parted_ = false;
 };
 

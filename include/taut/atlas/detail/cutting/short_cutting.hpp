@@ -57,24 +57,31 @@ public:
             std::size_t piece;
             search_setting setting;
             std::unique_ptr<seam_search> search;
-            bool found;
+            bool found = false;
+            double price = 0;
         };
         std::vector<task> tasks;
         for (const std::size_t k : order)
             if (searches_[k] && searches_[k]->rest)
-                for (const search_setting& s : settings(searches_[k]->rest->triangles()))
-                    tasks.push_back({k, s, {}, false});
+                for (const search_setting& s : settings(searches_[k]->rest->triangles(), searches_[k]->bound))
+                    tasks.push_back({k, s, {}});
         for_each(tasks.size(),
                  [&](std::size_t i)
                  {
                      task& t = tasks[i];
                      t.search = std::make_unique<seam_search>(*searches_[t.piece]->rest, t.setting);
                      t.found = t.search->run();
+                     if (t.found) t.price = t.search->price();
                  });
         for (task& t : tasks)
         {
             auto& best = searches_[t.piece]->search;
-            if (t.found && (!best || t.search->price() < best->price())) best = std::move(t.search);
+            if (t.found && (!best || t.price < searches_[t.piece]->price))
+            {
+                best = std::move(t.search);
+                searches_[t.piece]->price = t.price;
+            }
+            t.search.reset();
         }
     }
 
@@ -158,7 +165,7 @@ private:
         bool coarser = false;
         std::optional<rest_surface> rest;
         std::unique_ptr<seam_search> search;
-        double bound = 4;
+        double bound = 4, price = 0;
     };
 
     std::size_t cells(std::size_t k) const { return u(pieces_.first_cell[k + 1] - pieces_.first_cell[k]); }
@@ -194,7 +201,6 @@ private:
     {
         searches_[k] = std::make_unique<piece_search>();
         piece_search& p = *searches_[k];
-        p.bound = params_.bound;
         const idx v0 = pieces_.first_vertex[k], c0 = pieces_.first_cell[k];
         const auto& all = pieces_.surface;
         std::vector<vec3> points(all.points().begin() + v0, all.points().begin() + pieces_.first_vertex[k + 1]);
@@ -205,6 +211,8 @@ private:
         p.facets = facets(*p.surface);
         coarse_surface coarse = make_coarse(*p.surface, p.facets, p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count());
         p.coarser = coarse.cells.size() < p.surface->cells().size();
+        // Seams become shorter on the surface itself, and distortion more.
+        p.bound = params_.bound - (p.coarser ? 0.02 : 0.001) * (params_.bound - 4);
         p.origins = std::move(coarse.origins);
         const idx first_span = span_small_holes(coarse);
         p.rest = rest_surface::of(mesh<triangle>(std::move(coarse.points), std::move(coarse.cells)), first_span);
@@ -213,11 +221,10 @@ private:
                 if (params_.together[origin(k, s)]) p.rest->price[s] *= unwanted;
     }
 
-    std::vector<search_setting> settings(idx triangles)
+    std::vector<search_setting> settings(idx triangles, double bound)
     {
-        search_setting one{.bound = params_.bound, .part = params_.part, .proceed = [this] { return proceed(); }};
+        search_setting one{.bound = bound, .over = 0.85, .part = params_.part, .proceed = [this] { return proceed(); }};
         search_setting two = one;
-        two.over = 0.85;
         two.least_weight = 0.15;
         constexpr idx few = 200; // triangles that all settings cut alike
         return triangles < few ? std::vector{one} : std::vector{one, two};
