@@ -148,7 +148,7 @@ protected:
         const double allowed = 0.999 * (params_.charts.mean_distortion - 4), bound = 4 + allowed; // rounding, scale
         const bool large = mesh_.cells().size() > 30'000; // one more map costs more than what it may save
         constexpr int turns = 8;
-        double apart = 0.01 * allowed; // what it costs to keep borders apart
+        double apart = 0.5 * cutting.overlap(); // what it costs to keep borders apart, about
         std::optional<laid_charts> best;
         for (int turn = 0; turn < turns && report_.complete; ++turn)
         {
@@ -176,14 +176,19 @@ protected:
             if (holds && (large || turn > 1 || mean > bound - 0.2 * allowed)) break;
             if (!(mean < std::numeric_limits<double>::infinity())) break;
             // Ever more cautious, so that it holds in the end.
-            cutting.adjust(holds ? 0.8 * (bound - mean) : -excess - 0.02 * (1 + turn) * allowed);
+            cutting.adjust(holds ? 0.8 * (bound - mean) : -excess - 0.03 * (1 + turn) * allowed);
             seam_ = cutting.seams();
         }
         seam_ = std::move(best->seam);
         charts_.emplace(std::move(best->charts));
         flat_ = std::move(best->flat);
         energy_ = std::move(best->energy);
-        if (report_.complete && best->holds) sew_up(best->plain, limits);
+        if (report_.complete && best->holds)
+        {
+            sew_up(best->plain, true, limits);
+            if (std::count(best->plain.begin(), best->plain.end(), char(0)) > 0 && report_.complete)
+                sew_up(std::vector<char>(energy_.size(), 1), false, limits);
+        }
         if (!report_.complete || std::count(best->bad.begin(), best->bad.end(), char(1)) == 0) return;
         if (!best->holds) keep_apart(best->bad);
         mend_rest(best->bad);
@@ -221,8 +226,9 @@ protected:
         return {seam_, *charts_, flat_, energy_, unfit(), {}, length_of_seams(mesh_, facets_, seam_), mean_energy(), false};
     }
 
-    /// Sews up some charts, one flag each, until the bound of all is reached.
-    void sew_up(const std::vector<char>& wanted, budget& limits)
+    /// Sews up some charts, one flag each, until the bound of all is reached. whole: their maps may follow as a whole,
+    /// which does not keep borders apart
+    void sew_up(const std::vector<char>& wanted, bool whole, budget& limits)
     {
         std::vector<idx> some;
         std::vector<char> flags(mesh_.cells().size(), 0);
@@ -241,7 +247,7 @@ protected:
         for (std::size_t k = 0; k < wanted.size(); ++k) all += wanted[k] ? 0 : chart_area(k);
         const double bound = ((0.001 * 4 + 0.999 * params_.charts.mean_distortion) * all - others) / own;
         auto laid = triangles_as_laid();
-        if (!sew_laid(mesh_, {seam_, laid.uv, some}, params_.charts.seams, bound,
+        if (!sew_laid(mesh_, {seam_, laid.uv, some, whole}, params_.charts.seams, bound,
                       [&limits] { return limits.proceed(); }))
             return;
         cut(laid);

@@ -20,6 +20,7 @@ struct laid_seams
     std::vector<char>& seam;  ///< one a side of the surface
     std::vector<vec2>& uv;    ///< one a corner
     std::span<const idx> some; ///< triangles of whole charts, ascending: what may be sewn up
+    bool whole = true;         ///< their maps may follow as a whole
 };
 
 /// Sews up seams of charts that have a map, on the surface itself, until they are at a bound of their mean energy.
@@ -44,7 +45,7 @@ inline bool sew_laid(const mesh<triangle>& m, const laid_seams& laid, std::span<
     number_fans(rest, flat);
     flat.energy = mean_energy(rest, flat.uv);
     constexpr idx most = 16'000; // triangles of which the whole map may follow
-    const bool whole = rest.triangles() <= most;
+    const bool whole = laid.whole && rest.triangles() <= most;
     const auto before = seam_price(rest, flat.seam);
     const sewing how{.bound = bound,
                      .patch = whole ? std::size_t{120} : std::size_t{300},

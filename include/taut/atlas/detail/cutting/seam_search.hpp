@@ -14,6 +14,7 @@
 #include <taut/atlas/detail/cutting/over_cut.hpp>
 #include <taut/atlas/detail/cutting/part_charts.hpp>
 #include <taut/atlas/detail/cutting/sew_tips.hpp>
+#include <taut/atlas/detail/seams/straighten.hpp>
 #include <taut/start/barycentric_map.hpp>
 
 namespace taut::detail
@@ -41,23 +42,33 @@ public:
     /// False if there is no map to begin with.
     bool run()
     {
+        budget t; auto T=[&](const char* w){ if(getenv("TAUT_DEBUG")) fprintf(stderr,"   %s E %.4f seam %.3f  %.2f s\n",w,flat_.energy,seam_price(rest_,flat_.seam)/std::sqrt(rest_.total),t.lap());};
         if (!cut()) return false;
+        T("cut");
         if (!(flat_.energy <= setting_.bound)) return false;
-        sew(false);
-        if (setting_.part) part();
+        sew(false);T("sewn");
+        if (setting_.part) part();T("parted");
         return true;
     }
 
     const flat_surface& result() const { return flat_; }
     const search_setting& setting() const { return setting_; }
 
-    /// What the seams cost, and what is to be kept apart in the plane.
+    /// What the seams cost, and what is to be kept apart in the plane: that takes distortion, which others then lack.
     double price() const
     {
-        constexpr double by_area = 5; // seam by the root of the area, of what lies on other parts of its chart
+        constexpr double any = 0.05, by_area = 5; // lengths by the root of the area
+        const double root = std::sqrt(rest_.total);
+        const double apart = any * root + by_area * overlap() * root;
+        return seam_price(rest_, flat_.seam) + (border_crossings(rest_, flat_, 1) > 0 ? apart : 0);
+    }
+
+    /// The part of the area that lies on other parts of its chart.
+    double overlap() const
+    {
         double area = 0;
         for (const overlap_layers& one : find_overlaps(rest_, flat_)) area += one.area;
-        return seam_price(rest_, flat_.seam) + by_area * area / std::sqrt(rest_.total);
+        return area / rest_.total;
     }
 
     /// The last result, sewn up to another bound.
@@ -73,8 +84,9 @@ public:
             parted_ = last->parted;
             trail_.erase(last.base(), trail_.end());
         }
-        sew(parted_);
-        if (setting_.part) part();
+        budget t;  auto T=[&](const char* w){ if(getenv("TAUT_DEBUG")) fprintf(stderr,"   adj %s E %.4f seam %.3f parted %d  %.2f s\n",w,flat_.energy,seam_price(rest_,flat_.seam)/std::sqrt(rest_.total),parted_,t.lap());};
+        T("restored");sew(parted_);T("sewn");
+        if (setting_.part) part();T("parted");
         return true;
     }
 
@@ -93,6 +105,10 @@ private:
     bool cut()
     {
         flat_.seam = disk_cutting(rest_.surface, rest_.facets).loops();
+        budget unlimited;
+        constexpr int rounds = 3;
+        for (int round = 0; round < rounds; ++round)
+            straighten(rest_.surface, rest_.facets, flat_.seam, {}, {}, unlimited, rest_.price);
         over_cutting more(rest_, setting_.least_weight);
         constexpr int most = 100;
         double stop = 0.7;
@@ -157,6 +173,24 @@ private:
             trail_.push_back({flat_, parted_});
             sew(true);
         }
+        if (proceed() && border_crossings(rest_, flat_, 1) > 0) part_rest();
+    }
+
+    /// Parts small layers, too, if that is worth it.
+    void part_rest()
+    {
+        const state was{flat_, parted_};
+        const double before = price();
+        const auto kept = trail_.size();
+        if (part_charts(rest_, flat_, {.least_area = 0}) == 0) return;
+        relax(rest_, flat_, 8, 1e-5);
+        parted_ = true;
+        trail_.push_back({flat_, parted_});
+        sew(true);
+        if (price() < before) return;
+        flat_ = was.flat;
+        parted_ = was.parted;
+        trail_.erase(trail_.begin() + static_cast<std::ptrdiff_t>(kept), trail_.end());
     }
 
     const rest_surface& rest_;

@@ -48,7 +48,7 @@ public:
         int since = 0, batch = 12;
         while (!how_.proceed || how_.proceed())
         {
-            const idx tip = cheapest();
+            const idx tip = cheapest(batch == 1);
             bool over = false;
             if (tip >= 0)
             {
@@ -90,7 +90,7 @@ private:
         crossings_ = how_.keep_apart ? border_crossings(rest_, flat_, most_crossings) : 0;
         while (!how_.proceed || how_.proceed())
         {
-            const idx tip = cheapest();
+            const idx tip = cheapest(false);
             if (tip < 0) return;
             if (flat_.energy + prices_[u(tip)].more / rest_.total > how_.bound)
                 prices_[u(tip)].barred = true; // a short edge, or one that is cheap for its length, may come after
@@ -121,9 +121,10 @@ private:
             if (is_tip(v)) tips_.push_back(v);
     }
 
-    /// The tip that costs least, or -1.
-    idx cheapest()
+    /// The tip that costs least, or -1. likely: of those that the bound probably allows
+    idx cheapest(bool likely)
     {
+        constexpr double given_back = 0.6; // by the whole map, of what a patch with a rim that stays costs, at most
         idx best = -1;
         double least = infinite;
         for (const idx t : tips_)
@@ -132,7 +133,8 @@ private:
             if (p.barred) continue;
             const auto is_stale = [&](idx c) { return changed_[u(c)] > p.when; };
             if (!p.known || std::any_of(p.triangles.begin(), p.triangles.end(), is_stale)) find_price(t);
-            if (p.rate < least) // the first of equal ones
+            const bool hopeless = likely && flat_.energy + (1 - given_back) * p.more / rest_.total > how_.bound;
+            if (p.rate < least && !hopeless) // the first of equal ones
             {
                 least = p.rate;
                 best = t;

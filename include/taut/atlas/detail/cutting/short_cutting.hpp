@@ -100,6 +100,15 @@ public:
                  });
     }
 
+    /// The part of the area that lies on other parts of its chart.
+    double overlap() const
+    {
+        double sum = 0;
+        for (const auto& p : searches_)
+            if (p && p->search) sum += p->search->overlap() * p->rest->total;
+        return sum / area();
+    }
+
     /// Of the whole surface.
     double area() const
     {
