@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 #include <optional>
 #include <span>
@@ -145,11 +146,15 @@ protected:
     /// or opened again until the bound holds.
     void flatten_within_bound(short_cutting& cutting, budget& limits)
     {
-        const double allowed = 0.999 * (params_.charts.mean_distortion - 4), bound = 4 + allowed; // rounding, scale
-        const bool large = mesh_.cells().size() > 30'000; // one more map costs more than what it may save
+        const double allowed = 0.998 * (params_.charts.mean_distortion - 4), bound = 4 + allowed; // rounding, scale
+        // One more map costs more than what it may save.
+        const bool large = mesh_.cells().size() > 30'000 || cutting.pieces() > 64;
         constexpr int turns = 8;
-        double apart = 0.5 * cutting.overlap(); // what it costs to keep borders apart, about
-        std::optional<laid_charts> best;
+        double apart = std::min(0.5 * cutting.overlap(), 0.3 * allowed); // what it costs to keep borders apart, about
+        double first_above = 0, asked = 0; // excess of the first turn, what it was to become less since
+        bool rough = false;
+        std::optional<laid_charts> best, first;
+        std::vector<char> cut_before = seam_;
         for (int turn = 0; turn < turns && report_.complete; ++turn)
         {
             laid_charts now = lay_short(cutting, limits);
@@ -172,26 +177,53 @@ protected:
             if (getenv("TAUT_DEBUG")) fprintf(stderr, "turn %d: charts %d seam %.3f E %.4f excess %.4f bad %d  %.2f s\n", turn, (int)charts_->charts(), now.length, now.mean, excess, (int)std::count(now.bad.begin(), now.bad.end(), char(1)), budget_.total());
             const double mean = now.mean;
             const bool holds = now.holds;
+            // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
+            const double above = flattened - bound;
+            if (turn == 0) first_above = above;
+            rough = above > 1.5 * allowed || (turn > 1 && above > 0.5 * allowed && above > first_above - 0.3 * asked);
+            if (rough && flattened < std::numeric_limits<double>::infinity() && !(best && best->holds))
+            {
+                if (turn == 0) best = std::move(now);
+                else best = std::move(*first);
+                report_.notes.push_back(rough_note(best->mean));
+                break;
+            }
+            if (turn == 0 && !holds) first = now;
             if (!best || now.better_than(*best)) best = std::move(now);
             if (holds && (large || turn > 1 || mean > bound - 0.2 * allowed)) break;
             if (!(mean < std::numeric_limits<double>::infinity())) break;
             // Ever more cautious, so that it holds in the end.
-            cutting.adjust(holds ? 0.8 * (bound - mean) : -excess - 0.03 * (1 + turn) * allowed);
-            seam_ = cutting.seams();
+            const double more = holds ? 0.8 * (bound - mean) : -excess - 0.03 * (1 + turn) * allowed;
+            asked -= more;
+            cutting.adjust(more);
+            auto seams = cutting.seams();
+            if (holds && seams == cut_before) break; // nothing can be sewn up
+            seam_ = cut_before = std::move(seams);
         }
         seam_ = std::move(best->seam);
         charts_.emplace(std::move(best->charts));
         flat_ = std::move(best->flat);
         energy_ = std::move(best->energy);
-        if (report_.complete && best->holds)
+        if (report_.complete && best->holds && cutting.pieces() <= 64)
         {
             sew_up(best->plain, true, limits);
             if (std::count(best->plain.begin(), best->plain.end(), char(0)) > 0 && report_.complete)
                 sew_up(std::vector<char>(energy_.size(), 1), false, limits);
         }
-        if (!report_.complete || std::count(best->bad.begin(), best->bad.end(), char(1)) == 0) return;
+        if (!report_.complete) return;
         if (!best->holds) keep_apart(best->bad);
-        mend_rest(best->bad);
+        if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
+        if (std::count(best->bad.begin(), best->bad.end(), char(1)) > 0) mend_rest(best->bad);
+    }
+
+    std::string rough_note(double mean) const
+    {
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "the surface is rough: the mean energy is %.4g where %.4g is wanted, whatever the seams; "
+                      "charts made for packing (--prefer packing) hold the bound",
+                      mean, params_.charts.mean_distortion);
+        return text;
     }
 
     /// A surface cut and flattened.
@@ -245,7 +277,7 @@ protected:
         if (some.empty()) return;
         double all = own;
         for (std::size_t k = 0; k < wanted.size(); ++k) all += wanted[k] ? 0 : chart_area(k);
-        const double bound = ((0.001 * 4 + 0.999 * params_.charts.mean_distortion) * all - others) / own;
+        const double bound = ((0.002 * 4 + 0.998 * params_.charts.mean_distortion) * all - others) / own;
         auto laid = triangles_as_laid();
         if (!sew_laid(mesh_, {seam_, laid.uv, some, whole}, params_.charts.seams, bound,
                       [&limits] { return limits.proceed(); }))
@@ -267,7 +299,7 @@ protected:
         return area;
     }
 
-    /// Has segment() cut the charts, one flag each, that have no map or overlap themselves.
+    /// Has segment() cut the charts, one flag each, that have no map, overlap themselves or are above the bound.
     void mend_rest(const std::vector<char>& bad)
     {
         std::vector<char> wanted(mesh_.cells().size(), 0);

@@ -19,6 +19,7 @@ struct parting
     double least_area = 0.015; ///< of a layer, by the whole; what is less is kept apart as it is mapped
     double longest = 0.4;      ///< of a cut, by the root of the area
     int most = 40;             ///< cuts
+    bool at_once = false;      ///< all overlaps of a map are parted before it follows
 };
 
 /// Parts charts of which large layers lie on each other, by the shortest cuts between these, largest first. The map
@@ -47,19 +48,20 @@ inline int part_charts(const rest_surface& rest, flat_surface& flat, const parti
             const auto cut = minimum_cut(rest, flat.seam, one.below, one.above);
             double length = 0;
             for (const idx s : cut) length += rest.price[u(s)];
-            if (cut.empty() || !(length <= how.longest * std::sqrt(rest.total)))
+            if (cut.empty()) continue; // parted by another cut
+            if (!(length <= how.longest * std::sqrt(rest.total)))
             {
                 left_alone.emplace_back(one.below.front(), one.above.front());
                 continue;
             }
             for (const idx s : cut) set_seam(rest, flat.seam, s, 1);
-            number_fans(rest, flat);
-            relax(rest, flat, 3, 1e-4);
             ++made;
             parted = true;
-            break;
+            if (!how.at_once || made == how.most) break;
         }
         if (!parted) break;
+        number_fans(rest, flat);
+        relax(rest, flat, 3, 1e-4);
     }
     return made;
 }

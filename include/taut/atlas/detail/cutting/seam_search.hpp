@@ -109,6 +109,9 @@ private:
         constexpr int rounds = 3;
         for (int round = 0; round < rounds; ++round)
             straighten(rest_.surface, rest_.facets, flat_.seam, {}, {}, unlimited, rest_.price);
+        // Loops around handles are never sewn up: where there are many, charts that go around none are better.
+        constexpr double most_loops = 12; // length by the root of the area
+        if (seam_price(rest_, flat_.seam) > most_loops * std::sqrt(rest_.total)) return false;
         over_cutting more(rest_, setting_.least_weight);
         constexpr int most = 100;
         double stop = 0.7;
@@ -182,7 +185,7 @@ private:
         const state was{flat_, parted_};
         const double before = price();
         const auto kept = trail_.size();
-        if (part_charts(rest_, flat_, {.least_area = 0}) == 0) return;
+        if (part_charts(rest_, flat_, {.least_area = 0, .most = 400, .at_once = true}) == 0) return;
         relax(rest_, flat_, 8, 1e-5);
         parted_ = true;
         trail_.push_back({flat_, parted_});

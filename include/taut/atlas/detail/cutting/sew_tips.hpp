@@ -166,11 +166,11 @@ private:
         }
         if (how_.keep_apart)
         {
-            const flat_surface was = flat_;
+            const auto was = zipper_.remember(flat_, z);
             zipper_.apply(flat_, z);
             if (const std::size_t then = border_crossings(rest_, flat_, most_crossings); then > crossings_)
             {
-                flat_ = was;
+                zipper_.take_back(flat_, z, was);
                 p.rate = infinite;
                 return false;
             }

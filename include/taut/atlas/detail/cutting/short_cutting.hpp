@@ -100,6 +100,9 @@ public:
                  });
     }
 
+    /// That given seams leave.
+    std::size_t pieces() const { return searches_.size(); }
+
     /// The part of the area that lies on other parts of its chart.
     double overlap() const
     {

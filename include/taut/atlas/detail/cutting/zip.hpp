@@ -67,6 +67,38 @@ public:
         return z;
     }
 
+    /// What apply() changes, to take it back.
+    struct before
+    {
+        std::vector<vec2> uv;
+        std::vector<idx> corners; // of the second fan
+        idx cells = 0;            // of the first one
+        double energy = 0;
+    };
+
+    before remember(const flat_surface& flat, const zip& z) const
+    {
+        before b;
+        for (const idx c : z.triangles)
+            for (std::size_t k = 0; k < 3; ++k) b.uv.push_back(flat.uv[3 * u(c) + k]);
+        for (const idx s : rest_.sides.row(rest_.end(z.side)))
+            if (const idx k = rest_surface::start_corner(s); flat.fan[u(k)] == z.fans[1]) b.corners.push_back(k);
+        b.cells = flat.fan_cells[u(z.fans[0])];
+        b.energy = flat.energy;
+        return b;
+    }
+
+    void take_back(flat_surface& flat, const zip& z, const before& b) const
+    {
+        set_seam(rest_, flat.seam, z.side, 1);
+        for (const idx k : b.corners) flat.fan[u(k)] = z.fans[1];
+        flat.fan_cells[u(z.fans[0])] = b.cells;
+        flat.fan_cells[u(z.fans[1])] = z.fans[0] == z.fans[1] ? b.cells : static_cast<idx>(b.corners.size());
+        for (std::size_t i = 0; i < z.triangles.size(); ++i)
+            for (std::size_t k = 0; k < 3 && !z.uv.empty(); ++k) flat.uv[3 * u(z.triangles[i]) + k] = b.uv[3 * i + k];
+        flat.energy = b.energy;
+    }
+
     /// Sews it up.
     void apply(flat_surface& flat, const zip& z) const
     {
@@ -79,7 +111,7 @@ public:
             flat.fan_cells[u(z.fans[1])] = 0;
         }
         for (std::size_t i = 0; i < z.triangles.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k) flat.uv[3 * u(z.triangles[i]) + k] = z.uv[3 * i + k];
+            for (std::size_t k = 0; k < 3 && !z.uv.empty(); ++k) flat.uv[3 * u(z.triangles[i]) + k] = z.uv[3 * i + k];
         flat.energy += z.more / rest_.total;
     }
 
