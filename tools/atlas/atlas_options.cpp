@@ -43,6 +43,11 @@ void declare_charts(CLI::App& app, atlas_options& o)
                    "Bound of that of all charts; default 4.045, or --max-distortion if that is given")
         ->type_name("D")
         ->check(distortion);
+    add_choice<chart_preference>(app, "--prefer", o.prefer,
+                                 {{"seams", chart_preference::seams},
+                                  {"packing", chart_preference::packing},
+                                  {"one", chart_preference::one}},
+                                 "Few charts along short seams, charts that fill the square better, or one a component");
     add_choice<bool>(app, "--charts", o.keep_charts, {{"auto", false}, {"keep", true}},
                      "Make charts, or keep those that the vt of the file show and relax them");
     app.add_flag("--keep-seams", o.keep_seams, "The seams of the file's vt and its materials are seams of charts, too");
@@ -182,6 +187,8 @@ std::string as_command_line(const atlas_options& o)
     if (o.weld) option("--weld", number(*o.weld, 17));
     if (o.max_distortion) option("--max-distortion", number(*o.max_distortion, 9));
     if (o.mean_distortion) option("--mean-distortion", number(*o.mean_distortion, 9));
+    if (o.prefer == chart_preference::packing) option("--prefer", "packing");
+    if (o.prefer == chart_preference::one) option("--prefer", "one");
     if (o.keep_charts) option("--charts", "keep");
     flag("--keep-seams", o.keep_seams);
     flag("--symmetric", o.symmetric);
@@ -209,6 +216,12 @@ source_options to_source_options(const atlas_options& o)
 atlas_params to_params(const atlas_options& o)
 {
     atlas_params params;
+    params.prefer = o.prefer;
+    if (o.prefer == chart_preference::packing)
+    {
+        params.charts.max_distortion = segment_params{}.max_distortion;
+        params.charts.mean_distortion = segment_params{}.mean_distortion;
+    }
     if (o.max_distortion) params.charts.mean_distortion = params.charts.max_distortion = *o.max_distortion;
     if (o.mean_distortion) params.charts.mean_distortion = *o.mean_distortion;
     params.charts.max_distortion = std::max(params.charts.max_distortion, params.charts.mean_distortion);

@@ -22,6 +22,7 @@ struct atlas_options
     std::vector<std::string> inputs, outputs; ///< as many of these as of those
     std::string seams, pinned, stats, picture, render, report, device, progress;
     io::surface_format format{};
+    chart_preference prefer = chart_preference::seams;
     bool repair = false, keep_charts = false, keep_seams = false, symmetric = false, upright = false, quiet = false;
     std::optional<double> weld; ///< repairs, too
     std::optional<double> max_distortion, mean_distortion;

@@ -25,10 +25,22 @@ struct atlas_progress
     bool usable = false;                                     ///< a run that ends now has a result
 };
 
+/// What charts are made for.
+enum class chart_preference
+{
+    seams,   ///< few charts along short seams
+    packing, ///< charts that fill squares well: more of them
+    one      ///< one chart a component, where it can be
+};
+
 /// How an atlas is made. Every field has a sensible default.
 struct atlas_params
 {
-    segment_params charts = {}; ///< how far charts go, and seams that are given
+    /// How far charts go, and seams that are given. 4.1 is a stretch (L2) of 1.017; for packing, 4.2 and 4.045, the
+    /// bounds of segment_params, are good.
+    segment_params charts = {.max_distortion = std::numeric_limits<double>::infinity(), .mean_distortion = 4.1};
+
+    chart_preference prefer = chart_preference::seams;
 
     /// Charts are what `charts.seams` part, and stay: they are flattened, from `initial` if it is given, and packed.
     bool keep_charts = false;

@@ -116,6 +116,14 @@ public:
         return std::move(seam_);
     }
 
+    /// Of handles and boundaries alone: a closed component without handles stays closed.
+    std::vector<char> loops()
+    {
+        cut_handles(far_points());
+        prune();
+        return std::move(seam_);
+    }
+
 private:
     enum class kind : char
     {

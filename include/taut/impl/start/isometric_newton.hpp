@@ -26,16 +26,17 @@ namespace taut::impl
 class isometric_newton
 {
 public:
-    /// fixed: one flag a vertex; these are not moved. All of it in one unit of length. The cells are referred to.
+    /// fixed: one flag a vertex; these are not moved. weights: one a triangle instead of its area, or none. All of it in
+    /// one unit of length. The cells are referred to.
     isometric_newton(std::span<const vec3> points, std::span<const std::array<idx, 3>> cells,
-                     std::span<const char> fixed)
+                     std::span<const char> fixed, std::span<const double> weights = {})
         : cells_(cells), solver_(cells, fixed), blocks_(cells.size())
     {
         for (const auto& t : cells)
         {
             const mat2 W = stiff_ideal(points[u(t[1])] - points[u(t[0])], points[u(t[2])] - points[u(t[0])]);
             inverse_.push_back(invert_upper(W));
-            area_.push_back(0.5 * W[0][0] * W[1][1]);
+            area_.push_back(weights.empty() ? 0.5 * W[0][0] * W[1][1] : weights[inverse_.size() - 1]);
             total_ += area_.back();
         }
     }

@@ -18,6 +18,13 @@
 namespace taut::impl
 {
 
+/// How far seams may be moved.
+struct straighten_reach
+{
+    double distance = std::numeric_limits<double>::infinity(); ///< along edges, from where an arc was
+    double least_length = 0.6; ///< of an arc by that before: less than jags are worth is a short cut, and leads elsewhere
+};
+
 /// Moves seams to shorter ways between the nodes at which they end, near where they were. What lies beside an arc stays
 /// as it is connected: the way leads through the inside of the two charts there, which are one disk without the arc, or
 /// through the one chart that has it on both sides.
@@ -25,19 +32,21 @@ class straightening
 {
 public:
     /// m: oriented; f: its facets. seam: one flag a side; kept: seams that stay where they are, or empty; together:
-    /// edges that no way leads along, or empty
+    /// edges that no way leads along, or empty; weight: what a seam along each side counts
     straightening(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam, std::span<const char> kept,
-                  std::span<const char> together)
+                  std::span<const char> together, std::vector<double> weight, const straighten_reach& reach)
         : mesh_(m),
           facets_(f),
           seam_(seam),
           kept_(kept),
           together_(together),
           sides_(starting_sides(m)),
-          weight_(seam_weights(m, f)),
+          weight_(std::move(weight)),
+          reach_(reach),
           chart_(m.cells().size()),
           on_seam_(m.points().size(), 0),
           ring_(m.points().size(), -1),
+          away_(m.points().size(), 0),
           distance_(m.points().size(), infinite),
           came_(m.points().size(), -1)
     {
@@ -96,8 +105,7 @@ private:
         if (after < (1 - 1e-9) * before)
             for (idx v = to; way.empty() || v != from; v = first_vertex(mesh_, way.back())) way.push_back(came_[u(v)]);
         std::reverse(way.begin(), way.end());
-        // Less than jags are worth is a short cut, and leads elsewhere.
-        const bool gains = !way.empty() && length(way) > 0.6 * length(arc);
+        const bool gains = !way.empty() && length(way) > reach_.least_length * length(arc);
         if (!gains) way.assign(arc.begin(), arc.end());
         for (const idx v : band_)
         {
@@ -156,14 +164,16 @@ private:
     {
         constexpr idx rings = 3; // of triangles: seams that lead over the tip of a finger are to stay there
         band_.clear();
-        const auto add = [&](idx v, idx ring)
+        const auto add = [&](idx v, idx ring, double away)
         {
+            if (away > reach_.distance) return;
             ring_[u(v)] = ring;
+            away_[u(v)] = away;
             band_.push_back(v);
         };
         for (const idx s : arc)
-            if (ring_[u(first_vertex(mesh_, s))] < 0) add(first_vertex(mesh_, s), 0);
-        if (ring_[u(to)] < 0) add(to, 0);
+            if (ring_[u(first_vertex(mesh_, s))] < 0) add(first_vertex(mesh_, s), 0, 0);
+        if (ring_[u(to)] < 0) add(to, 0, 0);
         for (std::size_t i = 0; i < band_.size(); ++i)
         {
             const idx v = band_[i];
@@ -172,7 +182,9 @@ private:
             {
                 if (!inside(s)) continue;
                 const idx w = end_of(s);
-                if (ring_[u(w)] < 0 && !on_seam_[u(w)]) add(w, ring_[u(v)] + 1);
+                if (ring_[u(w)] < 0 && !on_seam_[u(w)])
+                    add(w, ring_[u(v)] + 1,
+                        away_[u(v)] + glm::distance(mesh_.points()[u(v)], mesh_.points()[u(w)]));
             }
         }
     }
@@ -242,20 +254,24 @@ private:
     std::span<const char> kept_, together_;
     csr sides_;
     std::vector<double> weight_; // one a side
+    straighten_reach reach_;
     std::vector<idx> chart_;     // one a triangle
     std::vector<char> on_seam_;  // one a vertex, or on the boundary
     std::vector<idx> ring_;      // one a vertex of the band, else -1
+    std::vector<double> away_;   // from the arc, one a vertex of the band
     std::vector<double> distance_;
     std::vector<idx> came_; // the side by which the way leads to a vertex
     std::vector<idx> band_;
     idx left_ = 0, right_ = 0;
 };
 
-/// Straightens seams in place, as many as the budget allows.
+/// Straightens seams in place, as many as the budget allows. weight: one a side, or empty for seam_weights()
 inline void straighten(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam,
-                       std::span<const char> kept, std::span<const char> together, budget& limits)
+                       std::span<const char> kept, std::span<const char> together, budget& limits,
+                       std::vector<double> weight = {}, const straighten_reach& reach = {})
 {
-    straightening(m, f, seam, kept, together).run(limits);
+    if (weight.empty()) weight = seam_weights(m, f);
+    straightening(m, f, seam, kept, together, std::move(weight), reach).run(limits);
 }
 
 } // namespace taut::impl

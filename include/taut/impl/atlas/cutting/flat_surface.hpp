@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/atlas/chart_mesh.hpp>
+#include <taut/atlas/detail/cutting/rest_surface.hpp>
+#include <taut/energy/isometric.hpp>
+#include <taut/start/isometric_newton.hpp>
+
+namespace taut::detail
+{
+
+/// A surface with seams and a map without flips of what these leave connected.
+struct flat_surface
+{
+    std::vector<char> seam;     ///< one a side, the same on both sides of an edge
+    std::vector<vec2> uv;       ///< one a corner
+    std::vector<idx> fan;       ///< one a corner: the vertex of the cut surface
+    std::vector<idx> fan_cells; ///< triangles of each
+    double energy = std::numeric_limits<double>::infinity(); ///< area mean, holes left out
+};
+
+/// Seam sides that start at a vertex.
+inline idx seam_degree(const rest_surface& rest, std::span<const char> seam, idx v)
+{
+    idx degree = 0;
+    for (const idx s : rest.sides.row(v)) degree += seam[rest_surface::u(s)] != 0 && rest.twin(s) >= 0;
+    return degree;
+}
+
+inline void set_seam(const rest_surface& rest, std::vector<char>& seam, idx side, char value)
+{
+    seam[rest_surface::u(side)] = value;
+    if (rest.twin(side) >= 0) seam[rest_surface::u(rest.twin(side))] = value;
+}
+
+/// What the seams count.
+inline double seam_price(const rest_surface& rest, std::span<const char> seam)
+{
+    double sum = 0;
+    for (std::size_t s = 0; s < seam.size(); ++s)
+        if (seam[s] && rest.twin(static_cast<idx>(s)) > static_cast<idx>(s)) sum += rest.price[s];
+    return sum;
+}
+
+/// Numbers the vertices of the cut surface anew.
+inline void number_fans(const rest_surface& rest, flat_surface& flat)
+{
+    vertex_fans fans = fans_between(rest.surface, rest.facets, flat.seam);
+    flat.fan = std::move(fans.of_corner);
+    flat.fan_cells.assign(fans.first_corner.size(), 0);
+    for (const idx f : flat.fan) ++flat.fan_cells[rest_surface::u(f)];
+}
+
+/// energy::isometric of a triangle; +infinity where it is flipped or flat.
+inline double isometric_energy(const mat2& inverse, const vec2& a, const vec2& b, const vec2& c)
+{
+    const mat2 S = shape_matrix(mat2(b - a, c - a), inverse);
+    const double det = S[0][0] * S[1][1] - S[1][0] * S[0][1];
+    if (!(det > 0)) return std::numeric_limits<double>::infinity();
+    return norm2(S) * (1 + 1 / (det * det));
+}
+
+/// The energy of a triangle times its weight.
+inline double energy_of(const rest_surface& rest, std::span<const vec2> uv, idx c)
+{
+    const std::size_t k = 3 * rest_surface::u(c);
+    return rest.weight[rest_surface::u(c)] * isometric_energy(rest.inverse[rest_surface::u(c)], uv[k], uv[k + 1], uv[k + 2]);
+}
+
+/// Area mean over what is no hole.
+inline double mean_energy(const rest_surface& rest, std::span<const vec2> uv)
+{
+    double sum = 0;
+    for (idx c = 0; c < rest.first_span; ++c) sum += energy_of(rest, uv, c);
+    return sum / rest.total;
+}
+
+/// The cut surface: one point and one place a fan that is in use.
+struct cut_surface
+{
+    std::vector<vec3> points;
+    std::vector<vec2> uv;
+    std::vector<std::array<idx, 3>> cells;
+
+    static cut_surface of(const rest_surface& rest, const flat_surface& flat)
+    {
+        cut_surface cut;
+        std::vector<idx> number(flat.fan_cells.size(), -1);
+        cut.cells.resize(rest.surface.cells().size());
+        for (std::size_t corner = 0; corner < flat.fan.size(); ++corner)
+        {
+            idx& n = number[rest_surface::u(flat.fan[corner])];
+            if (n < 0)
+            {
+                n = static_cast<idx>(cut.points.size());
+                cut.points.push_back(rest.surface.points()[rest_surface::u(rest.vertex(static_cast<idx>(corner)))]);
+                cut.uv.push_back(flat.uv.empty() ? vec2(0.0) : flat.uv[corner]);
+            }
+            cut.cells[corner / 3][corner % 3] = n;
+        }
+        return cut;
+    }
+};
+
+/// Newton steps of the whole map, until one gains less than tolerance times the energy. Sets flat.energy.
+inline int relax(const rest_surface& rest, flat_surface& flat, int steps, double tolerance)
+{
+    cut_surface cut = cut_surface::of(rest, flat);
+    const std::vector<char> fixed(cut.points.size(), 0);
+    isometric_newton newton(cut.points, cut.cells, fixed, rest.weight);
+    double here = newton.value(cut.uv);
+    int made = 0;
+    while (made < steps && here < std::numeric_limits<double>::infinity())
+    {
+        const double there = newton.step(cut.uv, here);
+        ++made;
+        const double gain = here - there;
+        here = there;
+        if (!(gain > tolerance * here)) break;
+    }
+    for (std::size_t corner = 0; corner < flat.fan.size(); ++corner)
+        flat.uv[corner] = cut.uv[rest_surface::u(cut.cells[corner / 3][corner % 3])];
+    flat.energy = mean_energy(rest, flat.uv);
+    return made;
+}
+
+} // namespace taut::detail

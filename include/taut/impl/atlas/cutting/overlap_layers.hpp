@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/atlas/detail/cutting/flat_surface.hpp>
+#include <taut/core/disjoint_sets.hpp>
+
+namespace taut::detail
+{
+
+/// Two sets of triangles of one chart that lie on each other in the plane, each in one piece.
+struct overlap_layers
+{
+    std::vector<idx> below, above;
+    double area = 0; ///< of the smaller one
+};
+
+/// Whether two triangles of the plane, both counter-clockwise, have more than a touch in common.
+inline bool lie_on_each_other(std::span<const vec2, 3> a, std::span<const vec2, 3> b)
+{
+    const auto parts = [](std::span<const vec2, 3> s, std::span<const vec2, 3> t)
+    {
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const vec2 d = s[(k + 1) % 3] - s[k];
+            const double slack = 1e-6 * glm::dot(d, d);
+            bool outside = true;
+            for (const vec2& p : t) outside = outside && d.x * (p.y - s[k].y) - d.y * (p.x - s[k].x) <= slack;
+            if (outside) return true;
+        }
+        return false;
+    };
+    return !parts(a, b) && !parts(b, a);
+}
+
+/// Pairs of triangles of the same chart that lie on each other, ascending; found by a grid.
+/// chart: one label a triangle
+inline std::vector<std::array<idx, 2>> overlapping_pairs(const rest_surface& rest, std::span<const vec2> uv,
+                                                         std::span<const idx> chart)
+{
+    const auto u = rest_surface::u;
+    const idx cells = rest.first_span;
+    vec2 low = uv[0], high = uv[0];
+    for (const vec2& p : uv)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const double size = std::max({1.5 * std::sqrt(rest.total / std::max<idx>(1, cells)),
+                                  std::max(high.x - low.x, high.y - low.y) / 2000, 1e-300});
+    struct entry
+    {
+        std::int64_t place;
+        idx cell;
+        bool operator<(const entry& o) const { return place != o.place ? place < o.place : cell < o.cell; }
+    };
+    std::vector<entry> entries;
+    for (idx c = 0; c < cells; ++c)
+    {
+        const std::size_t k = 3 * u(c);
+        const vec2 least = (glm::min(glm::min(uv[k], uv[k + 1]), uv[k + 2]) - low) / size;
+        const vec2 most = (glm::max(glm::max(uv[k], uv[k + 1]), uv[k + 2]) - low) / size;
+        for (auto i = static_cast<std::int64_t>(least.x); i <= static_cast<std::int64_t>(most.x); ++i)
+            for (auto j = static_cast<std::int64_t>(least.y); j <= static_cast<std::int64_t>(most.y); ++j)
+                entries.push_back({i * 4096 + j, c});
+    }
+    std::sort(entries.begin(), entries.end());
+    std::vector<std::array<idx, 2>> pairs;
+    for (std::size_t first = 0, end = 0; first < entries.size(); first = end)
+    {
+        for (end = first; end < entries.size() && entries[end].place == entries[first].place;) ++end;
+        for (std::size_t i = first; i < end; ++i)
+            for (std::size_t j = i + 1; j < end; ++j)
+            {
+                const idx a = entries[i].cell, b = entries[j].cell;
+                if (chart[u(a)] != chart[u(b)]) continue;
+                if (lie_on_each_other(uv.subspan(3 * u(a)).first<3>(), uv.subspan(3 * u(b)).first<3>()))
+                    pairs.push_back({a, b});
+            }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+/// The layers of each overlap: pairs (a, b) and (a', b') belong together where a' is a neighbour of a in the chart, or
+/// b' one of b. Largest first.
+inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const flat_surface& flat)
+{
+    const auto u = rest_surface::u;
+    const auto chart = pieces_between(rest.facets, flat.seam).first;
+    const auto half = overlapping_pairs(rest, flat.uv, chart);
+    std::vector<std::array<idx, 2>> pairs;
+    for (const auto& [a, b] : half)
+    {
+        pairs.push_back({a, b});
+        pairs.push_back({b, a});
+    }
+    std::sort(pairs.begin(), pairs.end());
+    const auto find = [&](idx a, idx b)
+    {
+        const auto at = std::lower_bound(pairs.begin(), pairs.end(), std::array<idx, 2>{a, b});
+        return at != pairs.end() && *at == std::array<idx, 2>{a, b} ? static_cast<idx>(at - pairs.begin()) : -1;
+    };
+    disjoint_sets sets(static_cast<idx>(pairs.size()));
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        for (idx s = 3 * pairs[i][0]; s < 3 * pairs[i][0] + 3; ++s)
+        {
+            if (rest.twin(s) < 0 || flat.seam[u(s)]) continue;
+            if (const idx j = find(rest.twin(s) / 3, pairs[i][1]); j >= 0) sets.join(static_cast<idx>(i), j);
+            // and (b, a) with (b, a'), which is the same of the pairs turned over
+            const idx own = find(pairs[i][1], pairs[i][0]), turned = find(pairs[i][1], rest.twin(s) / 3);
+            if (turned >= 0) sets.join(own, turned);
+        }
+    std::vector<overlap_layers> result;
+    std::vector<idx> number(pairs.size(), -1);
+    std::vector<char> done(pairs.size(), 0);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+    {
+        const idx root = sets.find(static_cast<idx>(i));
+        const idx other = sets.find(find(pairs[i][1], pairs[i][0]));
+        const idx own = std::min(root, other);
+        if (root != own) continue; // of two sets that are each other turned over, one
+        if (number[u(own)] < 0)
+        {
+            number[u(own)] = static_cast<idx>(result.size());
+            result.emplace_back();
+        }
+        result[u(number[u(own)])].below.push_back(pairs[i][0]);
+        result[u(number[u(own)])].above.push_back(pairs[i][1]);
+    }
+    for (auto& r : result)
+    {
+        for (auto* side : {&r.below, &r.above})
+        {
+            std::sort(side->begin(), side->end());
+            side->erase(std::unique(side->begin(), side->end()), side->end());
+        }
+        std::vector<idx> both; // a spiral lies on itself: what is in both layers parts nothing
+        std::set_intersection(r.below.begin(), r.below.end(), r.above.begin(), r.above.end(), std::back_inserter(both));
+        std::array<double, 2> area{};
+        for (std::size_t k = 0; k < 2; ++k)
+        {
+            auto& side = k == 0 ? r.below : r.above;
+            std::erase_if(side, [&](idx c) { return std::binary_search(both.begin(), both.end(), c); });
+            for (const idx c : side) area[k] += rest.area[u(c)];
+        }
+        r.area = std::min(area[0], area[1]);
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](const overlap_layers& a, const overlap_layers& b) { return a.area > b.area; });
+    return result;
+}
+
+} // namespace taut::detail

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <taut/atlas/detail/cutting/minimum_cut.hpp>
+#include <taut/atlas/detail/cutting/overlap_layers.hpp>
+
+namespace taut::detail
+{
+
+/// When a chart that lies on itself is parted.
+struct parting
+{
+    double least_area = 0.015; ///< of a layer, by the whole; what is less is kept apart as it is mapped
+    double longest = 0.4;      ///< of a cut, by the root of the area
+    int most = 40;             ///< cuts
+    bool at_once = false;      ///< all overlaps of a map are parted before it follows
+};
+
+/// Parts charts of which large layers lie on each other, by the shortest cuts between these, largest first. The map
+/// follows each cut. Returns how many were made.
+inline int part_charts(const rest_surface& rest, flat_surface& flat, const parting& how)
+{
+    const auto u = rest_surface::u;
+    std::vector<std::pair<idx, idx>> left_alone; // layers, by a triangle of each
+    int made = 0;
+    while (made < how.most)
+    {
+        bool parted = false;
+        for (const overlap_layers& one : find_overlaps(rest, flat))
+        {
+            if (!(one.area > how.least_area * rest.total)) break;
+            const bool known = std::any_of(
+                left_alone.begin(), left_alone.end(),
+                [&](const std::pair<idx, idx>& p)
+                {
+                    const auto has = [](const std::vector<idx>& v, idx c)
+                    { return std::binary_search(v.begin(), v.end(), c); };
+                    return (has(one.below, p.first) && has(one.above, p.second)) ||
+                           (has(one.below, p.second) && has(one.above, p.first));
+                });
+            if (known) continue;
+            const auto cut = minimum_cut(rest, flat.seam, one.below, one.above);
+            double length = 0;
+            for (const idx s : cut) length += rest.price[u(s)];
+            if (cut.empty()) continue; // parted by another cut
+            if (!(length <= how.longest * std::sqrt(rest.total)))
+            {
+                left_alone.emplace_back(one.below.front(), one.above.front());
+                continue;
+            }
+            for (const idx s : cut) set_seam(rest, flat.seam, s, 1);
+            ++made;
+            parted = true;
+            if (!how.at_once || made == how.most) break;
+        }
+        if (!parted) break;
+        number_fans(rest, flat);
+        relax(rest, flat, 3, 1e-4);
+    }
+    return made;
+}
+
+} // namespace taut::detail

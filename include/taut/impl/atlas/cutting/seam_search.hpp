@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <taut/atlas/cut_to_disk.hpp>
+#include <taut/atlas/detail/cutting/over_cut.hpp>
+#include <taut/atlas/detail/cutting/part_charts.hpp>
+#include <taut/atlas/detail/cutting/sew_tips.hpp>
+#include <taut/atlas/detail/seams/straighten.hpp>
+#include <taut/start/barycentric_map.hpp>
+
+namespace taut::detail
+{
+
+/// How seams of one surface are looked for.
+struct search_setting
+{
+    double bound = 4.1;       ///< of the mean energy
+    double over = 0.75;       ///< what the map of the surface that is cut too often may take of what is allowed
+    double least_weight = 0.3; ///< of ways, where the potential is greatest
+    std::size_t patch = 100;  ///< triangles that follow a zip at once
+    bool part = true;         ///< charts that lie on themselves are parted
+    std::function<bool()> proceed = {};
+};
+
+/// Short seams of a connected surface within a bound of distortion, from above: it is cut more than needed along ways
+/// to the extremes of a potential of its curvature and mapped; then seams are sewn up from their tips, the cheapest
+/// first, and charts parted where they lie on themselves.
+class seam_search
+{
+public:
+    seam_search(const rest_surface& rest, const search_setting& setting) : rest_(rest), setting_(setting) {}
+
+    /// False if there is no map to begin with.
+    bool run()
+    {
+        budget t; auto T=[&](const char* w){ if(getenv("TAUT_DEBUG")) fprintf(stderr,"   %s E %.4f seam %.3f  %.2f s\n",w,flat_.energy,seam_price(rest_,flat_.seam)/std::sqrt(rest_.total),t.lap());};
+        if (!cut()) return false;
+        T("cut");
+        if (!(flat_.energy <= setting_.bound)) return false;
+        sew(false);T("sewn");
+        if (setting_.part) part();T("parted");
+        return true;
+    }
+
+    const flat_surface& result() const { return flat_; }
+    const search_setting& setting() const { return setting_; }
+
+    /// What the seams cost, and what is to be kept apart in the plane: that takes distortion, which others then lack.
+    double price() const
+    {
+        constexpr double any = 0.05, by_area = 5; // lengths by the root of the area
+        const double root = std::sqrt(rest_.total);
+        const double apart = any * root + by_area * overlap() * root;
+        return seam_price(rest_, flat_.seam) + (border_crossings(rest_, flat_, 1) > 0 ? apart : 0);
+    }
+
+    /// The part of the area that lies on other parts of its chart.
+    double overlap() const
+    {
+        double area = 0;
+        for (const overlap_layers& one : find_overlaps(rest_, flat_)) area += one.area;
+        return area / rest_.total;
+    }
+
+    /// The last result, sewn up to another bound.
+    bool adjust(double bound)
+    {
+        setting_.bound = bound;
+        if (flat_.energy > bound)
+        {
+            const auto fits = [bound](const state& s) { return s.flat.energy <= bound; };
+            const auto last = std::find_if(trail_.rbegin(), trail_.rend(), fits);
+            if (last == trail_.rend()) return false;
+            flat_ = last->flat;
+            parted_ = last->parted;
+            trail_.erase(last.base(), trail_.end());
+        }
+        budget t;  auto T=[&](const char* w){ if(getenv("TAUT_DEBUG")) fprintf(stderr,"   adj %s E %.4f seam %.3f parted %d  %.2f s\n",w,flat_.energy,seam_price(rest_,flat_.seam)/std::sqrt(rest_.total),parted_,t.lap());};
+        T("restored");sew(parted_);T("sewn");
+        if (setting_.part) part();T("parted");
+        return true;
+    }
+
+private:
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    struct state
+    {
+        flat_surface flat;
+        bool parted;
+    };
+
+    bool proceed() const { return !setting_.proceed || setting_.proceed(); }
+
+    /// The surface cut too often, and its map.
+    bool cut()
+    {
+        flat_.seam = disk_cutting(rest_.surface, rest_.facets).loops();
+        budget unlimited;
+        constexpr int rounds = 3;
+        for (int round = 0; round < rounds; ++round)
+            straighten(rest_.surface, rest_.facets, flat_.seam, {}, {}, unlimited, rest_.price);
+        // Loops around handles are never sewn up: where there are many, charts that go around none are better.
+        constexpr double most_loops = 12; // length by the root of the area
+        if (seam_price(rest_, flat_.seam) > most_loops * std::sqrt(rest_.total)) return false;
+        over_cutting more(rest_, setting_.least_weight);
+        constexpr int most = 100;
+        double stop = 0.7;
+        for (int turn = 0; turn < 12 && proceed(); ++turn, stop *= 0.8)
+        {
+            const int added = more.run(flat_.seam, stop, most);
+            if (turn > 0 && added == 0) continue;
+            number_fans(rest_, flat_);
+            if (flat_.uv.empty() && !start()) return false;
+            relax(rest_, flat_, 60, 1e-4);
+            if (flat_.energy <= 4 + setting_.over * (setting_.bound - 4)) break;
+        }
+        return flat_.energy < infinite;
+    }
+
+    bool start()
+    {
+        const cut_surface cut = cut_surface::of(rest_, flat_);
+        const mesh<triangle> m(cut.points, cut.cells);
+        try
+        {
+            const auto f = facets(m);
+            const auto map = barycentric_map(m, f, {.stretch_rounds = 1});
+            if (!map.flips) return false;
+            flat_.uv.resize(flat_.fan.size());
+            for (std::size_t corner = 0; corner < flat_.fan.size(); ++corner)
+                flat_.uv[corner] = map.uv[rest_surface::u(cut.cells[corner / 3][corner % 3])];
+        }
+        catch (const error&)
+        {
+            return false;
+        }
+        return true;
+    }
+
+    void sew(bool keep_apart)
+    {
+        const sewing how{.bound = setting_.bound,
+                         .patch = setting_.patch,
+                         .keep_apart = keep_apart,
+                         .proceed = setting_.proceed,
+                         .told = [this](const flat_surface& f) { note(f); }};
+        tip_sewing(rest_, flat_, how).run();
+    }
+
+    /// Keeps a state to come back to.
+    void note(const flat_surface& f)
+    {
+        const double step = 0.02 * (setting_.bound - 4);
+        if (trail_.empty() || trail_.back().parted != parted_ || f.energy > trail_.back().flat.energy + step)
+            trail_.push_back({f, parted_});
+    }
+
+    void part()
+    {
+        constexpr int turns = 3;
+        for (int turn = 0; turn < turns && proceed() && border_crossings(rest_, flat_, 1) > 0; ++turn)
+        {
+            if (part_charts(rest_, flat_, {}) == 0) break;
+            relax(rest_, flat_, 8, 1e-5);
+            parted_ = true;
+            trail_.push_back({flat_, parted_});
+            sew(true);
+        }
+        if (proceed() && border_crossings(rest_, flat_, 1) > 0) part_rest();
+    }
+
+    /// Parts small layers, too, if that is worth it.
+    void part_rest()
+    {
+        const state was{flat_, parted_};
+        const double before = price();
+        const auto kept = trail_.size();
+        if (part_charts(rest_, flat_, {.least_area = 0, .most = 400, .at_once = true}) == 0) return;
+        relax(rest_, flat_, 8, 1e-5);
+        parted_ = true;
+        trail_.push_back({flat_, parted_});
+        sew(true);
+        if (price() < before) return;
+        flat_ = was.flat;
+        parted_ = was.parted;
+        trail_.erase(trail_.begin() + static_cast<std::ptrdiff_t>(kept), trail_.end());
+    }
+
+    const rest_surface& rest_;
+    search_setting setting_;
+    flat_surface flat_;
+    std::vector<state> trail_; // within the bound, of ever fewer seams
+    bool parted_ = false;
+};
+
+} // namespace taut::detail

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <taut/atlas/detail/cutting/lift_seams.hpp>
+#include <taut/atlas/detail/cutting/seam_search.hpp>
+#include <taut/atlas/detail/cutting/span_holes.hpp>
+#include <taut/atlas/detail/surface_part.hpp>
+#include <taut/core/budget.hpp>
+#include <taut/core/parallel.hpp>
+
+namespace taut::detail
+{
+
+/// What short_cutting is to keep.
+struct cutting_params
+{
+    double bound = 4.1;               ///< of the mean isometric energy of the whole surface
+    std::span<const char> seams;      ///< sides that are seams in any case, or empty
+    std::span<const char> together;   ///< sides that are to be none, or empty
+    bool part = true;                 ///< charts that lie on themselves are parted
+    idx coarse = 5000;                ///< triangles of the surfaces that are searched, about
+};
+
+/// Short seams of a surface of any number of components: a search on a coarse surface for each, led back over the
+/// surface itself.
+class short_cutting
+{
+public:
+    short_cutting(const mesh<triangle>& m, const facet_table& f, const cutting_params& params, budget& limits)
+        : mesh_(m), facets_(f), params_(params), limits_(limits), pieces_(cut_charts(m, f, flags(params.seams, f.twin.size()))),
+          searches_(u(pieces_.charts()))
+    {
+    }
+
+    /// Looks for seams within the bound.
+    void run()
+    {
+        std::vector<std::size_t> order(searches_.size());
+        std::iota(order.begin(), order.end(), std::size_t(0));
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return cells(a) > cells(b); });
+        for_each(order.size(), [&](std::size_t i) { prepare(order[i]); });
+        struct task
+        {
+            std::size_t piece;
+            search_setting setting;
+            std::unique_ptr<seam_search> search;
+            bool found = false;
+            double price = 0;
+        };
+        std::vector<task> tasks;
+        for (const std::size_t k : order)
+            if (searches_[k] && searches_[k]->rest)
+                for (const search_setting& s : settings(searches_[k]->rest->triangles(), searches_[k]->bound))
+                    tasks.push_back({k, s, {}});
+        for_each(tasks.size(),
+                 [&](std::size_t i)
+                 {
+                     task& t = tasks[i];
+                     t.search = std::make_unique<seam_search>(*searches_[t.piece]->rest, t.setting);
+                     t.found = t.search->run();
+                     if (t.found) t.price = t.search->price();
+                 });
+        for (task& t : tasks)
+        {
+            auto& best = searches_[t.piece]->search;
+            if (t.found && (!best || t.price < searches_[t.piece]->price))
+            {
+                best = std::move(t.search);
+                searches_[t.piece]->price = t.price;
+            }
+            t.search.reset();
+        }
+    }
+
+    /// Sews up or opens seams for a bound that is larger by `more`.
+    void adjust(double more)
+    {
+        for_each(searches_.size(),
+                 [&](std::size_t k)
+                 {
+                     if (!searches_[k] || !searches_[k]->search) return;
+                     piece_search& p = *searches_[k];
+                     p.bound = std::max(p.bound + more, 4 + 0.8 * (p.bound - 4));
+                     if (p.search->adjust(p.bound)) return;
+                     auto anew = std::make_unique<seam_search>(*p.rest, p.search->setting());
+                     if (anew->run()) p.search = std::move(anew);
+                 });
+    }
+
+    /// That given seams leave.
+    std::size_t pieces() const { return searches_.size(); }
+
+    /// The part of the area that lies on other parts of its chart.
+    double overlap() const
+    {
+        double sum = 0;
+        for (const auto& p : searches_)
+            if (p && p->search) sum += p->search->overlap() * p->rest->total;
+        return sum / area();
+    }
+
+    /// Of the whole surface.
+    double area() const
+    {
+        double sum = 0;
+        for (const auto& p : searches_)
+            if (p && p->rest) sum += p->rest->total;
+        return sum;
+    }
+
+    /// What a seam along each side of the surface counts.
+    std::vector<double> prices() const
+    {
+        std::vector<double> price(facets_.twin.size());
+        for (std::size_t s = 0; s < price.size(); ++s)
+        {
+            const auto [a, b] = side_vertices(mesh_, static_cast<idx>(s));
+            price[s] = glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
+        }
+        return price;
+    }
+
+    /// One flag a triangle of the surface: 1 where no seams were found.
+    std::vector<char> unfound() const
+    {
+        std::vector<char> result(mesh_.cells().size(), 0);
+        for (std::size_t k = 0; k < searches_.size(); ++k)
+            if (!searches_[k] || !searches_[k]->search)
+                for (auto i = u(pieces_.first_cell[k]); i < u(pieces_.first_cell[k + 1]); ++i)
+                    result[u(pieces_.cell_origins[i])] = 1;
+        return result;
+    }
+
+    /// The seams of the surface, one flag a side.
+    std::vector<char> seams()
+    {
+        std::vector<char> seam = flags(params_.seams, facets_.twin.size());
+        for_each(searches_.size(),
+                 [&](std::size_t k)
+                 {
+                     if (!searches_[k] || !searches_[k]->search) return;
+                     const auto own = lifted(k);
+                     for (std::size_t s = 0; s < own.size(); ++s)
+                         if (own[s]) seam[origin(k, s)] = 1;
+                 });
+        return seam;
+    }
+
+private:
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    static std::vector<char> flags(std::span<const char> given, std::size_t n)
+    {
+        std::vector<char> all(given.begin(), given.end());
+        all.resize(n, 0);
+        return all;
+    }
+
+    struct piece_search
+    {
+        std::optional<mesh<triangle>> surface; // fine
+        facet_table facets;
+        std::vector<idx> origins; // of coarse vertices
+        bool coarser = false;
+        std::optional<rest_surface> rest;
+        std::unique_ptr<seam_search> search;
+        double bound = 4, price = 0;
+    };
+
+    std::size_t cells(std::size_t k) const { return u(pieces_.first_cell[k + 1] - pieces_.first_cell[k]); }
+
+    /// The side of the surface that is side s of a piece.
+    std::size_t origin(std::size_t k, std::size_t s) const
+    {
+        return 3 * u(pieces_.cell_origins[u(pieces_.first_cell[k]) + s / 3]) + s % 3;
+    }
+
+    /// Calls work(i) for all i below n on several threads, as long as the run is to go on.
+    template <class Work>
+    void for_each(std::size_t n, const Work& work)
+    {
+        owner_ = std::this_thread::get_id();
+        parallel_for(
+            n,
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t i = begin; i < end && proceed(); ++i) work(i);
+            },
+            0, 1);
+    }
+
+    /// The observer is asked by the thread that it was given to.
+    bool proceed()
+    {
+        if (std::this_thread::get_id() == owner_ && !stopped_ && !limits_.proceed()) stopped_ = true;
+        return !stopped_;
+    }
+
+    void prepare(std::size_t k)
+    {
+        searches_[k] = std::make_unique<piece_search>();
+        piece_search& p = *searches_[k];
+        const idx v0 = pieces_.first_vertex[k], c0 = pieces_.first_cell[k];
+        const auto& all = pieces_.surface;
+        std::vector<vec3> points(all.points().begin() + v0, all.points().begin() + pieces_.first_vertex[k + 1]);
+        std::vector<std::array<idx, 3>> own(all.cells().begin() + c0, all.cells().begin() + pieces_.first_cell[k + 1]);
+        for (auto& t : own)
+            for (idx& v : t) v -= v0;
+        p.surface.emplace(std::move(points), std::move(own));
+        p.facets = facets(*p.surface);
+        coarse_surface coarse = make_coarse(*p.surface, p.facets, p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count());
+        p.coarser = coarse.cells.size() < p.surface->cells().size();
+        // Seams become shorter on the surface itself, and distortion more.
+        p.bound = params_.bound - (p.coarser ? 0.02 : 0.001) * (params_.bound - 4);
+        p.origins = std::move(coarse.origins);
+        const idx first_span = span_small_holes(coarse);
+        p.rest = rest_surface::of(mesh<triangle>(std::move(coarse.points), std::move(coarse.cells)), first_span);
+        if (!p.coarser && !params_.together.empty())
+            for (std::size_t s = 0; s < 3 * u(first_span); ++s)
+                if (params_.together[origin(k, s)]) p.rest->price[s] *= unwanted;
+    }
+
+    std::vector<search_setting> settings(idx triangles, double bound)
+    {
+        search_setting one{.bound = bound, .over = 0.85, .part = params_.part, .proceed = [this] { return proceed(); }};
+        search_setting two = one;
+        two.least_weight = 0.15;
+        constexpr idx few = 200; // triangles that all settings cut alike
+        return triangles < few ? std::vector{one} : std::vector{one, two};
+    }
+
+    /// The seams of a piece on the surface itself, one flag a side of it.
+    std::vector<char> lifted(std::size_t k) const
+    {
+        const piece_search& p = *searches_[k];
+        const auto& seam = p.search->result().seam;
+        if (!p.coarser) return {seam.begin(), seam.begin() + static_cast<std::ptrdiff_t>(p.facets.twin.size())};
+        std::vector<double> price(p.facets.twin.size());
+        for (std::size_t s = 0; s < price.size(); ++s)
+        {
+            const auto [a, b] = side_vertices(*p.surface, static_cast<idx>(s));
+            price[s] = glm::distance(p.surface->points()[u(a)], p.surface->points()[u(b)]);
+            if (!params_.together.empty() && params_.together[origin(k, s)]) price[s] *= unwanted;
+        }
+        return seam_lifting(*p.surface, p.facets, starting_sides(*p.surface), price).run(*p.rest, seam, p.origins);
+    }
+
+    static constexpr double unwanted = 1000; // where a seam is not to be, its length counts so often
+
+    const mesh<triangle>& mesh_;
+    const facet_table& facets_;
+    cutting_params params_;
+    budget& limits_;
+    chart_mesh pieces_; // that given seams leave
+    std::vector<std::unique_ptr<piece_search>> searches_; // one a piece
+    std::thread::id owner_;
+    std::atomic<bool> stopped_{false};
+};
+
+} // namespace taut::detail
