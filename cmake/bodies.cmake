@@ -11,6 +11,7 @@ if(NOT nlohmann_json_FOUND)
     list(FILTER taut_sources EXCLUDE REGEX "/gltf.cpp$") # glTF is JSON
 endif()
 add_library(taut STATIC EXCLUDE_FROM_ALL ${taut_sources})
+set_target_properties(taut PROPERTIES POSITION_INDEPENDENT_CODE ON) # for shared libraries, as a module of Python
 add_library(taut::taut ALIAS taut)
 target_link_libraries(taut PUBLIC taut::headers)
 if(nlohmann_json_FOUND)
