@@ -59,11 +59,43 @@ std::optional<chart_mesh> cut_if_needed(const mesh<triangle>& m)
     return cut_charts(m, f, cut_to_disk(m, f));
 }
 
+/// The options for a surface that was cut, whose vertices have other numbers. Throws constraint_error for pins and
+/// springs of vertices that a seam divides.
+nb::dict for_cut_surface(const nb::dict& given, const mesh<triangle>& whole, const chart_mesh& cut)
+{
+    std::vector<idx> place(whole.points().size(), -1), sheets(place.size(), 0);
+    for (std::size_t i = 0; i < cut.vertex_origins.size(); ++i)
+    {
+        const auto v = static_cast<std::size_t>(cut.vertex_origins[i]);
+        place[v] = static_cast<idx>(i);
+        ++sheets[v];
+    }
+    nb::dict changed;
+    for (const auto& [name, value] : given) changed[name] = value;
+    std::vector<idx> divided;
+    for (const char* name : {"b", "spring_b"})
+    {
+        if (!given.contains(name)) continue;
+        auto ids = ids_of(nb::cast<array>(given[name]));
+        for (idx& v : ids)
+        {
+            const auto old = static_cast<std::size_t>(v);
+            if (sheets[old] > 1) divided.push_back(v);
+            v = place[old] < 0 ? 0 : place[old];
+        }
+        changed[name] = array_of(ids);
+    }
+    detail::refuse_vertices(constraint_fault::contradictory, std::move(divided),
+                            "on the seam, which divides them into several; pin vertices beside it");
+    return changed;
+}
+
 nb::object unwrap(const array& V, const array& F, const nb::dict& keywords, const control_handle& watched)
 {
-    const options given(keywords);
+    options given(keywords);
     auto job = std::make_shared<map_job>(map_job{mesh_of<triangle>(V, F), {}, {}, {}});
     if (given.get("cut", false)) job->cut = cut_if_needed(job->surface);
+    if (job->cut) given = options(for_cut_surface(keywords, job->surface, *job->cut));
     const mesh<triangle>& m = job->cut ? job->cut->surface : job->surface;
     job->params = map_params(given, m, watched.shared);
     const auto device = given.get<std::string>("device", "");
