@@ -7,6 +7,7 @@
 #include <exception>
 #include <list>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 
 #include <nanobind/stl/string.h>
@@ -41,6 +42,38 @@ std::list<left_work>& left()
     static auto* list = new std::list<left_work>;
     return *list;
 }
+
+/// Calls that are under way, to be ended before the interpreter is: a thread that it ends in the middle of one would
+/// end the program. Never destroyed, and for those alone who have the interpreter's lock.
+struct calls_under_way
+{
+    std::list<std::shared_ptr<control>> watched;
+    bool closed = false;
+};
+
+calls_under_way& under_way()
+{
+    static auto* calls = new calls_under_way;
+    return *calls;
+}
+
+/// Adds a call to those while it lives.
+class listed
+{
+public:
+    explicit listed(const std::shared_ptr<control>& c)
+    {
+        if (under_way().closed) throw std::runtime_error("the interpreter is ending");
+        under_way().watched.push_front(c);
+        place_ = under_way().watched.begin();
+    }
+    listed(const listed&) = delete;
+    listed& operator=(const listed&) = delete;
+    ~listed() { under_way().watched.erase(place_); }
+
+private:
+    std::list<std::shared_ptr<control>>::iterator place_;
+};
 
 void forget_ended()
 {
@@ -129,6 +162,7 @@ private:
 ending run_work(const std::shared_ptr<control>& watched, nb::handle progress, std::function<void()> work)
 {
     forget_ended();
+    const listed call(watched);
     auto state = std::make_shared<handover>();
     std::thread worker(
         [state, work = std::move(work)]() mutable
@@ -172,8 +206,15 @@ ending run_work(const std::shared_ptr<control>& watched, nb::handle progress, st
 
 void join_left_work()
 {
-    nb::gil_scoped_release unlocked;
     const auto deadline = clock::now() + 10s;
+    under_way().closed = true;
+    while (!under_way().watched.empty() && clock::now() < deadline)
+    {
+        for (const auto& c : under_way().watched) c->cancel();
+        nb::gil_scoped_release unlocked;
+        std::this_thread::sleep_for(10ms);
+    }
+    nb::gil_scoped_release unlocked;
     for (auto& w : left())
     {
         std::unique_lock lock(w.state->mutex);

@@ -68,7 +68,8 @@ nb::object told(outcome_of<Result> found, const Convert& convert)
     return nb::make_tuple(how, value);
 }
 
-/// Waits for work that was left alone, some seconds at most: before the interpreter ends.
+/// Cancels all calls and waits for them, and for work that was left alone, some seconds at most: before the interpreter
+/// ends.
 void join_left_work();
 
 /// Whether there is such work.

@@ -142,27 +142,35 @@ def write(
         if uv is None:
             raise ParameterError("uv: a new file needs texture coordinates", field="uv")
         if extension in _MODELS:
-            return native().write_new_model(name, points, faces, _uv_rows(uv, faces, len(points)))
+            native().write_new_model(name, points, faces, _uv_rows(uv, faces, len(points)))
+            return
         if extension != ".obj":
             raise FileError(f"{name}: new files are .obj, .gltf or .glb")
         if isinstance(uv, Atlas):
-            return native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
+            native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
+            return
         if isinstance(uv, Map) and uv.faces is not None and uv.vmapping is not None:
-            return native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
-        return native().write_new_surface(name, points, faces, _arrays.points("uv", uv, (2,), rows=len(points)))
+            native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
+            return
+        native().write_new_surface(name, points, faces, _arrays.points("uv", uv, (2,), rows=len(points)))
+        return
     mesh = like if isinstance(like, Mesh) else read(like)
     if (x is None) == (uv is None):
         raise ParameterError("x and uv: give one of them", field="x")
     if mesh.kind == "volume":
         places = _arrays.points("x", x, (2, 3), rows=len(mesh.V))
-        return native().write_volume_moved(name, mesh.path, places, mesh.zone)
+        native().write_volume_moved(name, mesh.path, places, mesh.zone)
+        return
     if x is not None:
-        return native().write_surface_moved(name, mesh.path, _arrays.points("x", x, (3,), rows=len(mesh.V)))
+        native().write_surface_moved(name, mesh.path, _arrays.points("x", x, (3,), rows=len(mesh.V)))
+        return
     assert mesh.F is not None
     rows = _uv_rows(uv, mesh.F, len(mesh.V))
     if mesh.kind == "model":
-        return native().write_model_uv(name, mesh.path, rows, mesh.texcoord_set)
-    return native().write_surface_uv(name, mesh.path, rows)
+        native().write_model_uv(name, mesh.path, rows, mesh.texcoord_set)
+        return
+    native().write_surface_uv(name, mesh.path, rows)
+    return
 
 
 def devices() -> list[Device]:

@@ -145,8 +145,8 @@ def certify(C: ArrayLike, x: ArrayLike) -> Certificate:
     >>> import taut
     >>> bool(taut.certify([[0, 1, 2]], [[0, 0], [1, 0], [0, 1]]))
     True
-    >>> taut.certify([[0, 2, 1]], [[0, 0], [1, 0], [0, 1]]).flipped
-    array([0])
+    >>> taut.certify([[0, 2, 1]], [[0, 0], [1, 0], [0, 1]]).flipped.tolist()
+    [0]
     """
     cells, points, dim = _map_of(C, x)
     return Certificate.of(getattr(native(), f"certify{dim}")(cells, points))

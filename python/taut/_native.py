@@ -5,19 +5,16 @@ from __future__ import annotations
 
 import atexit
 import threading
-from typing import TYPE_CHECKING
+from typing import Any
 
 from . import _drivers
 from .errors import DeviceError
 
-if TYPE_CHECKING:
-    from . import _taut
-
 _lock = threading.Lock()
-_module = None
+_module: Any = None
 
 
-def native() -> "_taut":  # type: ignore[valid-type]
+def native() -> Any:
     """The module `_taut`. Raises `DeviceError` where it does not load for want of an OpenCL loader."""
     global _module
     if _module is None:

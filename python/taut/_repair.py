@@ -28,7 +28,7 @@ def repair(V: ArrayLike, F: ArrayLike, *, weld: float | bool = False, polygons: 
     >>> import taut
     >>> r = taut.repair([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 1, 1]])
     >>> r.F.tolist(), r.notes
-    ([[0, 1, 2]], ['1 triangle (1) that names a vertex twice; left out'])
+    ([[0, 1, 2]], ['1 triangle (1) naming a vertex twice; left out'])
     """
     points = _arrays._numbers("V", V)
     _arrays._shape("V", points, (3,))

@@ -68,7 +68,8 @@ class Session:
         time_limit: float | None = None,
         device: Any = None,
     ) -> None:
-        corners = np.asarray(C).shape[-1] if np.ndim(C) == 2 else 0
+        shape = np.shape(np.asarray(C))
+        corners = shape[1] if len(shape) == 2 else 0
         kind = kind or ("volume" if corners == 4 else "map")
         if kind not in _KINDS:
             raise ParameterError(f"kind: is {kind!r}, but must be one of {', '.join(_KINDS)}", field="kind")

@@ -204,7 +204,9 @@ class Energy:
         return f"taut.Energy({getattr(self.function, '__qualname__', self.function)!r})"
 
     def __add__(self, other: Any) -> Energy:
-        return Energy(_Sum(self, other), barrier=self.barrier or other.barrier) if isinstance(other, Energy) else NotImplemented
+        if not isinstance(other, Energy):
+            return NotImplemented
+        return Energy(_Sum(self, other), barrier=self.barrier or other.barrier)
 
     def __mul__(self, other: Any) -> Energy:
         if isinstance(other, Energy):

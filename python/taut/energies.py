@@ -5,7 +5,7 @@ Examples
 --------
 >>> from taut import energies
 >>> mixed = 0.8 * energies.isometric + 0.2 * energies.shape_power(3)
->>> mixed.value([[1, 0], [0, 1]])
+>>> round(mixed.value([[1, 0], [0, 1]]), 9)
 3.4
 """
 
