@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, overload
 
 import numpy as np
@@ -151,32 +152,29 @@ def _several(meshes: Any, **options: Any) -> list[Atlas]:
     if not pairs:
         return []
     first = np.cumsum([0] + [len(V) for V, _ in pairs])
-    start = np.cumsum([0] + [len(F) for _, F in pairs])
     whole = atlas(
         np.concatenate([np.asarray(V, dtype=np.float64) for V, _ in pairs]),
         np.concatenate([np.asarray(F, dtype=np.int64) + f for (_, F), f in zip(pairs, first)]),
         **options,
     )
+    return _split(whole, [len(V) for V, _ in pairs], [len(F) for _, F in pairs])
+
+
+def _split(whole: Atlas, vertices: list[int], triangles: list[int]) -> list[Atlas]:
+    """The parts of an atlas of several surfaces that were put together, with so many vertices and triangles each."""
+    first, start = np.cumsum([0] + vertices), np.cumsum([0] + triangles)
     made = []
-    for k in range(len(pairs)):
+    for k in range(len(vertices)):
         faces = whole.faces[start[k] : start[k + 1]]
         used, inverse = np.unique(faces, return_inverse=True)
         made.append(
-            Atlas(
+            replace(
+                whole,
                 vmapping=whole.vmapping[used] - first[k],
                 faces=inverse.reshape(faces.shape).astype(np.int64),
                 uv=whole.uv[used],
                 chart=whole.chart[start[k] : start[k + 1]],
                 tile=whole.tile[start[k] : start[k + 1]],
-                charts=whole.charts,
-                distortion=whole.distortion,
-                utilization=whole.utilization,
-                seam_length=whole.seam_length,
-                complete=whole.complete,
-                seconds=whole.seconds,
-                repairs=whole.repairs,
-                notes=whole.notes,
-                report=whole.report,
             )
         )
     return made

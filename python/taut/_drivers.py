@@ -1,50 +1,49 @@
 # SPDX-License-Identifier: MIT
-"""OpenCL drivers that came by pip are told to the loader of drivers, beside those of the system."""
+"""OpenCL drivers that came by pip are told to the loader of drivers, where the system has none."""
 
 from __future__ import annotations
 
-import glob
 import importlib.util
 import os
 import tempfile
 from pathlib import Path
 
 _SYSTEM = Path("/etc/OpenCL/vendors")
+_PACKAGES = ("pocl_binary_distribution", "pyopencl")
 
 
-def _pip_icds() -> list[Path]:
-    """Files that name drivers, of packages that are installed beside this one."""
-    found: list[Path] = []
-    for package, pattern in (("pocl_binary_distribution", "**/*.icd"), ("pyopencl", ".libs/*.icd")):
+def drivers_by_pip() -> list[str]:
+    """Libraries of drivers in packages that are installed beside this one."""
+    found: list[str] = []
+    for package in _PACKAGES:
         spec = importlib.util.find_spec(package)
-        for folder in (spec.submodule_search_locations or []) if spec else []:
-            found += [Path(p) for p in glob.glob(str(Path(folder) / pattern), recursive=True, include_hidden=True)] \
-                if _has_hidden() else [Path(p) for p in glob.glob(str(Path(folder) / pattern), recursive=True)]
+        for place in (spec.submodule_search_locations or []) if spec else []:
+            for icd in sorted(Path(place).rglob("*.icd")):
+                name = icd.read_text().strip()
+                beside = icd.parent / name
+                found.append(str(beside) if beside.exists() else name)
     return found
 
 
-def _has_hidden() -> bool:
-    import sys
-
-    return sys.version_info >= (3, 11)
-
-
 def announce() -> None:
-    """Sets what loaders read, unless the user has.
+    """Sets what loaders read, unless the user has set it or the system has drivers.
 
-    A driver by pip is used where the system has none: two drivers of one kind in a process do not go well together.
+    Two drivers of one kind in a process do not go well together, so those of the system go first.
     """
-    if os.environ.get("OCL_ICD_VENDORS") or os.environ.get("OCL_ICD_FILENAMES"):
+    if os.environ.get("OCL_ICD_VENDORS") or os.environ.get("OCL_ICD_FILENAMES") or any(_SYSTEM.glob("*.icd")):
         return
-    if any(_SYSTEM.glob("*.icd")):
+    libraries = drivers_by_pip()
+    if not libraries:
         return
-    icds = _pip_icds()
-    if not icds:
-        return
-    libraries = [text for icd in icds for text in icd.read_text().split()]
+    # One loader takes a list, another a folder.
     os.environ["OCL_ICD_FILENAMES"] = os.pathsep.join(libraries)
-    # Another loader takes a folder.
-    folder = Path(tempfile.mkdtemp(prefix="taut-icd-"))
+    folder = Path(tempfile.gettempdir()) / f"taut-drivers-{os.getuid() if hasattr(os, 'getuid') else 0}"
+    try:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        if folder.stat().st_uid != os.getuid():
+            raise OSError
+    except OSError:
+        folder = Path(tempfile.mkdtemp(prefix="taut-drivers-"))
     for k, library in enumerate(libraries):
         (folder / f"{k}.icd").write_text(library + "\n")
     os.environ["OCL_ICD_VENDORS"] = str(folder)

@@ -203,12 +203,12 @@ class Energy:
     def __repr__(self) -> str:
         return f"taut.Energy({getattr(self.function, '__qualname__', self.function)!r})"
 
-    def __add__(self, other: Any) -> Energy:
+    def __add__(self, other: object) -> Energy:
         if not isinstance(other, Energy):
             return NotImplemented
         return Energy(_Sum(self, other), barrier=self.barrier or other.barrier)
 
-    def __mul__(self, other: Any) -> Energy:
+    def __mul__(self, other: object) -> Energy:
         if isinstance(other, Energy):
             return Energy(_Product(self, other), barrier=self.barrier or other.barrier)
         if isinstance(other, (int, float, np.number)):
@@ -217,8 +217,8 @@ class Energy:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Energy:
-        return self * (1.0 / other)
+    def __truediv__(self, other: float) -> Energy:
+        return self * (1.0 / float(other))
 
     def __reduce__(self) -> Any:
         # One that a module has under its own name, as a decorated function, is found there again.
