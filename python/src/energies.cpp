@@ -10,7 +10,7 @@
 #include <taut/energy/check_gradient.hpp>
 #include <taut/energy/isometric.hpp>
 #include <taut/energy/neo_hookean.hpp>
-#include <taut/energy/recorded_energy.hpp>
+#include <taut/energy/recorded/recorded_energy.hpp>
 #include <taut/energy/shape_power.hpp>
 
 #include "bindings.hpp"
