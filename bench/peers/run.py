@@ -3,7 +3,6 @@
 
 import json
 import pathlib
-import resource
 import sys
 import time
 
@@ -78,6 +77,7 @@ def filtered(name):
     """Coordinates by corner after a filter of MeshLab, which may leave another mesh."""
     def run_filter(meshes):
         getattr(meshes, name)()
+        meshes.set_current_mesh(meshes.mesh_number() - 1)
         made = meshes.current_mesh()
         if made.has_wedge_tex_coord():
             return made.wedge_tex_coord_matrix().reshape(-1, 3, 2)
@@ -232,7 +232,8 @@ def main():
     start = time.perf_counter()
     uv = run()
     seconds = time.perf_counter() - start
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    status = pathlib.Path("/proc/self/status").read_text()  # unlike getrusage() it forgets the parent at exec
+    peak = int(status.split("VmHWM:")[1].split()[0]) / 1024
     np.savez(out, corner_uv=uv)
     pathlib.Path(out + ".json").write_text(json.dumps({"seconds": seconds, "megabytes": peak, "version": version}))
 
