@@ -15,6 +15,7 @@ if(NOT TARGET Eigen3::Eigen)
     list(FILTER taut_sources EXCLUDE REGEX "/paste.cpp$") # its systems are solved by Eigen
 endif()
 add_library(taut STATIC EXCLUDE_FROM_ALL ${taut_sources})
+set_target_properties(taut PROPERTIES POSITION_INDEPENDENT_CODE ON) # for shared libraries, as a module of Python
 add_library(taut::taut ALIAS taut)
 target_link_libraries(taut PUBLIC taut::headers)
 if(nlohmann_json_FOUND)

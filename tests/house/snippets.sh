@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # snippets.sh ROOT: every code block of README.md and docs/*/*.md behind a line
 #     <!-- snippet: FILE TAG -->
-# is the text between the two lines "// [TAG]" of FILE, less common indentation. FILE is compiled by the build.
+# is the text between the two lines "// [TAG]" of FILE ("# [TAG]" of a Python program), less common indentation. FILE is compiled
+# by the build, or run by its tests.
 
 set -eu
 cd "$1"
@@ -14,9 +15,9 @@ for page in README.md docs/*/*.md; do
         file=$(printf '%s\n' "$line" | awk '{print $3}')
         tag=$(printf '%s\n' "$line" | awk '{print $4}')
         found=$((found + 1))
-        expected=$(awk -v tag="// [$tag]" '
+        expected=$(awk -v tag="[$tag]" '
             { t = $0; sub(/^ +/, "", t) }
-            t == tag { inside = !inside; next }
+            t == "// " tag || t == "# " tag { inside = !inside; next }
             inside { lines[++n] = $0; match($0, /^ */); if ($0 != "" && (!n1++ || RLENGTH < least)) least = RLENGTH }
             END { for (i = 1; i <= n; ++i) print substr(lines[i], least + 1) }' "$file")
         written=$(awk -v mark="$line" '

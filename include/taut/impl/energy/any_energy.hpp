@@ -140,7 +140,7 @@ private:
                 return std::nullopt;
         }
 
-        bool barrier() const override { return E::barrier; }
+        bool barrier() const override { return e.barrier; }
         double at(const element<double, 2>& x) const override { return call(x); }
         double at(const element<double, 3>& x) const override { return call(x); }
         sym<double> at(const element<sym<double>, 2>& x) const override { return call(x); }

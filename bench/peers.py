@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""peers.py [--folder build/peers] [--limit SECONDS] [--write docs/reference/comparison.md] [MESH ...]
+
+Installs the packages of bench/peers.txt into a virtual environment, runs each on the same meshes in processes of their own,
+one after the other, and judges what they make by checks of its own (bench/peers/judge.py), which no package has a part in. A peer that
+cannot be installed, fails, is killed at the limit or refuses a mesh is a row, too. taut is imported from PYTHONPATH, or is
+installed in the environment. Without meshes: some of Debian's package libcgal-demo, fetched by apt-get."""
+
+import argparse
+import json
+import os
+import pathlib
+import platform
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent
+sys.path.insert(0, str(HERE))
+
+CLOSED = ["cow", "fandisk", "camel", "bear", "armadillo"]
+DISKS = ["lion-head", "mannequin-devil"]
+
+
+def environment(folder):
+    """The interpreter of an environment with the peers."""
+    python = folder / "bin" / "python"
+    if not python.exists():
+        subprocess.run([sys.executable, "-m", "venv", str(folder)], check=True)
+        subprocess.run([str(python), "-m", "pip", "install", "-q", "numpy", "scipy", "matplotlib"], check=True)
+    for line in (HERE / "peers.txt").read_text().splitlines():
+        if not line.strip() or line.startswith("#"):
+            continue
+        name = line.split("=")[0]
+        have = subprocess.run([str(python), "-m", "pip", "show", "-q", name], capture_output=True)
+        if have.returncode != 0:
+            subprocess.run([str(python), "-m", "pip", "install", "-q", line], capture_output=True, timeout=1800)
+    return python
+
+
+def demo_meshes(folder, names):
+    """Meshes of libcgal-demo."""
+    found = {p.stem: p for p in folder.rglob("*.off")}
+    if not all(n in found for n in names):
+        folder.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["apt-get", "download", "libcgal-demo"], cwd=folder, check=True, capture_output=True)
+        for package in folder.glob("libcgal-demo_*.deb"):
+            subprocess.run(["dpkg", "-x", package.name, "package"], cwd=folder, check=True)
+        for archive in folder.rglob("data.tar.gz"):
+            subprocess.run(["tar", "-xzf", str(archive)], cwd=folder, check=True)
+        found = {p.stem: p for p in folder.rglob("*.off")}
+    return [found[n] for n in names]
+
+
+def run_peer(python, peer, mesh, limit, interrupt_at=None):
+    """What a peer makes of a mesh: a dict with `error`, or with the path of its coordinates."""
+    out = pathlib.Path(tempfile.mkdtemp()) / "out.npz"
+    command = [str(python), str(HERE / "peers" / "run.py"), peer, str(mesh), str(out)]
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+    if interrupt_at is not None:
+        return interrupted_after(child, interrupt_at)
+    try:
+        said, _ = child.communicate(timeout=limit)
+    except subprocess.TimeoutExpired:
+        os.killpg(child.pid, signal.SIGKILL)
+        child.communicate()
+        return {"error": f"killed after {limit} s"}
+    if child.returncode != 0 or not out.exists():
+        words = [line for line in said.strip().splitlines() if line.strip()] or [f"exit code {child.returncode}"]
+        if child.returncode < 0:
+            words.append(f"ended by signal {-child.returncode}")
+        return {"error": words[-1][:160]}
+    report = json.loads(pathlib.Path(str(out) + ".json").read_text())
+    report["out"] = out
+    return report
+
+
+def interrupted_after(child, moment):
+    """Seconds from Ctrl-C in the middle of a call to the end of the process; None: it had to be killed."""
+    for line in child.stdout:
+        if line.startswith("begin"):
+            break
+    time.sleep(moment)
+    if child.poll() is not None:
+        return float("nan")
+    start = time.monotonic()
+    os.kill(child.pid, signal.SIGINT)
+    try:
+        child.wait(timeout=10)
+    except subprocess.TimeoutExpired:
+        os.killpg(child.pid, signal.SIGKILL)
+        child.wait()
+        return None
+    return time.monotonic() - start
+
+
+def machine():
+    """The processor, as Linux names it."""
+    try:
+        text = pathlib.Path("/proc/cpuinfo").read_text()
+        return next(line.split(":")[1].strip() for line in text.splitlines() if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.machine()
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--folder", type=pathlib.Path, default=ROOT / "build" / "peers")
+    arguments.add_argument("--limit", type=float, default=120)
+    arguments.add_argument("--write", type=pathlib.Path)
+    arguments.add_argument("--repeat", type=int, default=1)
+    arguments.add_argument("meshes", nargs="*", type=pathlib.Path)
+    given = arguments.parse_args()
+    python = environment(given.folder)
+    if pathlib.Path(sys.executable).absolute() != python.absolute():  # it has numpy and matplotlib
+        os.execv(python, [str(python), *sys.argv])
+    from peers import judge, page, peers_of
+
+    closed = given.meshes or demo_meshes(given.folder / "meshes", CLOSED)
+    disks = [] if given.meshes else demo_meshes(given.folder / "meshes", DISKS)
+    rows = []
+    for kind, meshes in (("atlas", closed), ("disk", disks)):
+        for mesh in meshes:
+            V, F = judge.read_off(mesh)
+            for peer in peers_of(kind):
+                made = min((run_peer(python, peer, mesh, given.limit) for _ in range(given.repeat)),
+                           key=lambda r: r.get("seconds", float("inf")))
+                row = {"kind": kind, "mesh": mesh.stem, "triangles": len(F), "peer": peer,
+                       **{k: v for k, v in made.items() if k != "out"}}
+                if "out" in made:
+                    row.update(judge.judge(V, F, judge.load(made["out"])))
+                    shutil.rmtree(made["out"].parent)
+                if mesh == meshes[-1] and row.get("seconds", 0) > 0.5:
+                    row["interrupt"] = run_peer(python, peer, mesh, given.limit, 0.4 * row["seconds"])
+                rows.append(row)
+                print(json.dumps(row, default=str), flush=True)
+    if given.write:
+        (given.folder / "rows.json").write_text(json.dumps(rows, default=str))
+        page.write(given.write, rows, sys.argv, machine(), os.cpu_count())
+
+
+if __name__ == "__main__":
+    main()

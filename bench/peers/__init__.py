@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: MIT
+"""Peers of taut, what judges them, and the page of results."""
+
+ATLAS = ["taut", "taut one line of xatlas", "xatlas", "uvunwrap", "geotex", "pymeshlab voronoi", "open3d uvatlas",
+         "blender smart project"]
+DISK = ["taut unwrap", "libigl lscm", "libigl arap", "libigl slim", "pymeshlab harmonic", "pymeshlab lscm",
+        "blender angle based", "blender conformal", "blender minimum stretch"]
+
+
+def peers_of(kind):
+    return {"atlas": ATLAS, "disk": DISK}[kind]

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/atlas/atlas_params.hpp>
+
+#include "options.hpp"
+
+namespace taut::python
+{
+
+/// A coordinate as single precision holds it.
+inline vec2 in_float(vec2 x)
+{
+    return {static_cast<double>(static_cast<float>(x.x)), static_cast<double>(static_cast<float>(x.y))};
+}
+
+/// What atlas() takes that is no array: the one place where its names meet those of the library.
+inline void read_atlas_options(atlas_params& params, const options& given)
+{
+    segment_params& charts = params.charts;
+    given.read("max_distortion", charts.max_distortion);
+    given.read("mean_distortion", charts.mean_distortion);
+    given.read("least_fill", charts.least_fill);
+    given.read("cut_rounds", charts.cut_rounds);
+    given.read("unite_rounds", charts.unite_rounds);
+    pack_params& packing = params.packing;
+    given.read("resolution", packing.resolution);
+    given.read("padding", packing.padding);
+    given.read("tiles", packing.tiles);
+    given.read("rotate", packing.rotate);
+    given.read("symmetric", params.symmetric);
+    given.read_word("charts", params.keep_charts, {{"auto", false}, {"keep", true}});
+    if (given.get("single", false)) params.stored = in_float;
+    given.read_seconds("time_limit", params.time_limit);
+}
+
+} // namespace taut::python

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/energy/any_energy.hpp>
+#include <taut/mesh/cell_data.hpp>
+#include <taut/objective/precision.hpp>
+#include <taut/solve/params.hpp>
+
+#include "control.hpp"
+#include "options.hpp"
+
+namespace taut::python
+{
+
+/// What the calls have in common: energy, numbers for it, precision, stopping, the clock and who watches.
+template <class Params>
+void read_limits(Params& params, const options& given, const std::shared_ptr<control>& watched, const char* stage)
+{
+    given.read_word("precision", params.precision,
+                    {{"auto", precision::automatic},
+                     {"fp64", precision::fp64},
+                     {"mixed", precision::mixed},
+                     {"fp32", precision::fp32}});
+    given.read("tolerance", params.solve.stopping.gradient_tolerance);
+    given.read("iterations", params.solve.stopping.max_iterations);
+    given.read_seconds("time_limit", params.time_limit);
+    params.observer = watched->observer(stage);
+}
+
+inline cell_data data_of(const options& given)
+{
+    cell_data data;
+    if (const auto a = given.rows("weights")) data.weights = numbers_of(*a);
+    if (const auto a = given.rows("attributes"))
+    {
+        data.attribute_count = a->ndim() == 2 ? a->shape(1) : 1;
+        data.attributes = numbers_of(*a);
+    }
+    if (const auto a = given.rows("directions")) data.directions = places_of(*a, "directions");
+    return data;
+}
+
+template <class Params>
+void read_energy(Params& params, const options& given)
+{
+    if (any_energy energy = params.energy; given.read("energy", energy)) params.energy = energy;
+    params.data = data_of(given);
+    if (const auto a = given.rows("parameters")) params.parameters = numbers_of(*a);
+    given.read_word("weighting", params.weights,
+                    {{"area", energy::weighting::measure},
+                     {"volume", energy::weighting::measure},
+                     {"uniform", energy::weighting::uniform}});
+}
+
+} // namespace taut::python

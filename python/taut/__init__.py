@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+"""Maps of triangle and tetrahedral meshes that never fold, with low distortion, on any OpenCL device.
+
+>>> import numpy as np, taut
+>>> V = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.5], [0, 1, 0]])
+>>> uv, report = taut.unwrap(V, [[0, 1, 2], [0, 2, 3]])
+>>> uv.shape
+(4, 2)
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import energies
+from ._atlas import atlas
+from ._evaluator import Evaluator
+from ._files import Mesh, devices, read, write
+from ._jobs import Job, start
+from ._maps import certify, distortion, quality, unwrap
+from ._paste import paste
+from ._repair import repair
+from ._results import Atlas, Certificate, Device, Frame, Map, Pasted, Repaired
+from ._session import Session
+from ._trace import Element, Energy, check_gradient, energy, where
+from ._volumes import deform, shell, smooth, untangle
+from .errors import (
+    Cancelled,
+    ConstraintError,
+    DeviceError,
+    FileError,
+    Infeasible,
+    Interrupted,
+    MeshError,
+    NoMap,
+    ParameterError,
+    TautError,
+    TraceError,
+)
+
+__all__ = [
+    "Atlas", "Cancelled", "Certificate", "ConstraintError", "Device", "DeviceError", "Element", "Energy", "Evaluator",
+    "FileError", "Frame", "Infeasible", "Interrupted", "Job", "Map", "Mesh", "MeshError", "NoMap", "ParameterError",
+    "Pasted", "Repaired", "Session", "TautError", "TraceError", "atlas", "certify", "check_gradient", "deform",
+    "devices", "distortion", "energies", "energy", "paste", "quality", "read", "repair", "shell", "smooth", "start",
+    "untangle", "unwrap", "where", "write",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from ._native import native
+
+        return native().version
+    raise AttributeError(f"module 'taut' has no attribute {name!r}")

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""How calls of the library are made: who watches them, and what becomes of their ends."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, TypeVar, Union
+
+from ._native import native
+from .errors import Cancelled, Interrupted, NoMap
+
+T = TypeVar("T")
+
+#: A function of a `Progress` whose answer of False ends the call with the best result so far; True: a line on standard
+#: error, or a bar of tqdm where that is installed.
+ProgressLike = Union[Callable[[Any], Any], bool, None]
+
+_watching: ContextVar[Any] = ContextVar("taut_control", default=None)
+
+
+@contextmanager
+def watched_by(control: Any) -> Iterator[None]:
+    """Calls of this context are watched by `control`, as those of a job."""
+    token = _watching.set(control)
+    try:
+        yield
+    finally:
+        _watching.reset(token)
+
+
+def control() -> Any:
+    return _watching.get() or native().Control()
+
+
+class _Line:
+    """Progress as a line that is drawn over and over."""
+
+    def __init__(self) -> None:
+        self._bar: Any = None
+        try:
+            from tqdm import tqdm  # type: ignore[import-untyped,unused-ignore]
+
+            self._bar = tqdm(bar_format="{desc}", leave=False, file=sys.stderr)
+        except ImportError:
+            pass
+
+    def __call__(self, p: Any) -> None:
+        value = "" if p.value != p.value else f"  {p.value:.6g}"
+        text = f"{p.stage}  {p.iteration}{value}  {p.seconds:.1f} s"
+        if self._bar is not None:
+            self._bar.set_description_str(text)
+        else:
+            sys.stderr.write(f"\r{text}\x1b[K")
+            sys.stderr.flush()
+
+    def close(self) -> None:
+        if self._bar is not None:
+            self._bar.close()
+        else:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+
+
+def call(function: Callable[..., Any], *args: Any, progress: ProgressLike, make: Callable[[dict[str, Any]], T]) -> T:
+    """Calls the library with `args` and a dict of options as the last of them, which gets `progress`.
+
+    make : turns what the library returns into a result; raises `NoMap` where it is none.
+    """
+    line = _Line() if progress is True else None
+    options = args[-1]
+    options["progress"] = line if progress is True else progress or None
+    try:
+        ended, found = function(*args, control())
+    finally:
+        if line is not None:
+            line.close()
+    return conclude(ended, found, make)
+
+
+def conclude(ended: str, found: dict[str, Any] | None, make: Callable[[dict[str, Any]], T]) -> T:
+    """The result of a call that ended so, or the exception that it ends with."""
+    if ended == "finished" and found is not None:
+        return make(found)
+    best: Any = None
+    if found is not None:
+        try:
+            best = make(found)
+        except NoMap:
+            pass
+    what = "; .best has the result so far" if best is not None else ", before there was a result"
+    if ended == "cancelled":
+        raise Cancelled("the call was cancelled" + what, best=best)
+    raise Interrupted("the call was interrupted" + what, best=best)

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: MIT
+"""Files of surfaces, volumes and models."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+
+from . import _arrays, _options
+from ._arrays import Array, ArrayLike, Floats, Ints
+from ._atlas import _corner_uv
+from ._native import native
+from ._results import Atlas, Device, Map
+from .errors import FileError, ParameterError
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+_SURFACES = (".obj", ".off", ".ply", ".stl")
+_MODELS = (".gltf", ".glb")
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """What a file has. Unpacks as `V, F`, of a volume as `V, C`.
+
+    Attributes
+    ----------
+    kind : {"surface", "model", "volume"}
+    V : (n, 3) float64
+    F : (m, 3) int64 or None
+        Triangles of a surface or model; polygons are split.
+    corner_uv : (m, 3, 2) float64 or None
+        Texture coordinates by corner, NaN where there are none.
+    polygons : (m,) int64 or None
+        The polygon of each triangle, where there are others.
+    cells : dict of str to (m, k) int64
+        Of a volume: "tetrahedra", "hexahedra", ..., corners in VTK's order.
+    groups : dict of str to (k,) int64
+        Vertices of what a volume file names.
+    notes : list of str
+    path : str
+    """
+
+    kind: str
+    V: Floats = field(repr=False)
+    path: str
+    F: Ints | None = field(default=None, repr=False)
+    corner_uv: Floats | None = field(default=None, repr=False)
+    polygons: Ints | None = field(default=None, repr=False)
+    materials: Ints | None = field(default=None, repr=False)
+    cells: dict[str, Ints] = field(default_factory=dict, repr=False)
+    groups: dict[str, Ints] = field(default_factory=dict, repr=False)
+    dimension: int = 3
+    rest: Floats | None = field(default=None, repr=False)
+    notes: list[str] = field(default_factory=list)
+    zone: int = 0
+    texcoord_set: int = 0
+
+    @property
+    def C(self) -> Any:
+        """The cells of the highest dimension: an array, or a list of arrays where there are several kinds."""
+        names = ("tetrahedra", "pyramids", "wedges", "hexahedra") if self.dimension == 3 else ("triangles", "quads")
+        if self.kind != "volume":
+            return self.F
+        blocks = [self.cells[name] for name in names if name in self.cells]
+        return blocks[0] if len(blocks) == 1 else blocks
+
+    def __iter__(self) -> Any:
+        return iter((self.V, self.C))
+
+
+def read(path: PathLike, *, zone: int = 0, texcoord_set: int = 0) -> Mesh:
+    """Read a surface (OBJ, OFF, PLY, STL), a model (glTF) or a volume (MEDIT, Gmsh, VTK, VTU, TetGen, SU2).
+
+    Parameters
+    ----------
+    zone : int
+        Of a SU2 file of several, from 1.
+    texcoord_set : int
+        N of the TEXCOORD_N of a glTF model.
+    """
+    name = os.fspath(path)
+    extension = Path(name).suffix.lower()
+    if extension in _MODELS:
+        d = native().read_model(name, texcoord_set)
+    elif extension in _SURFACES:
+        d = native().read_surface(name)
+    else:
+        d = native().read_volume(name, zone)
+        d["cells"] = {k: np.concatenate(v).astype(np.int64) for k, v in d["cells"].items()}
+        d.pop("format")
+    if d.get("corner_uv") is not None:
+        d["corner_uv"] = d["corner_uv"].reshape(-1, 3, 2)
+    return Mesh(path=name, zone=zone, texcoord_set=texcoord_set, **d)
+
+
+def _uv_rows(uv: Any, F: Array, vertices: int) -> Array:
+    if isinstance(uv, Atlas):
+        uv = uv.corner_uv
+    elif isinstance(uv, Map):
+        uv = uv.uv[uv.faces] if uv.faces is not None else uv.uv
+    a = np.asarray(uv, dtype=np.float64)
+    if a.ndim == 3 and np.isnan(a).any():  # corners that have none
+        return a.reshape(-1, 2)
+    rows: Array = _corner_uv("uv", a, F, vertices)
+    return rows
+
+
+def write(
+    path: PathLike,
+    *,
+    like: Mesh | PathLike | None = None,
+    V: ArrayLike = None,
+    F: ArrayLike = None,
+    uv: Any = None,
+    x: ArrayLike = None,
+) -> None:
+    """Write a file like another one, with other texture coordinates or at other places; or arrays as a new file.
+
+    Parameters
+    ----------
+    path : path
+        It appears complete or not at all.
+    like : Mesh or path
+        The file that it is to be like, which is read again: of OBJ, glTF and volumes every byte stays that need not
+        change.
+    uv : Atlas, Map, (m, 3, 2) or (n, 2) array-like
+        Texture coordinates.
+    x : (n, 3) array-like
+        Places of vertices.
+    V, F : array-like
+        Without `like`: a new OBJ or glTF file, with `uv`.
+    """
+    name = os.fspath(path)
+    extension = Path(name).suffix.lower()
+    if like is None:
+        points, faces = _options.surface(V, F, planar=False)
+        if uv is None:
+            raise ParameterError("uv: a new file needs texture coordinates", field="uv")
+        if extension in _MODELS:
+            native().write_new_model(name, points, faces, _uv_rows(uv, faces, len(points)))
+            return
+        if extension != ".obj":
+            raise FileError(f"{name}: new files are .obj, .gltf or .glb")
+        if isinstance(uv, Atlas):
+            native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
+            return
+        if isinstance(uv, Map) and uv.faces is not None and uv.vmapping is not None:
+            native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
+            return
+        native().write_new_surface(name, points, faces, _arrays.points("uv", uv, (2,), rows=len(points)))
+        return
+    mesh = like if isinstance(like, Mesh) else read(like)
+    if (x is None) == (uv is None):
+        raise ParameterError("x and uv: give one of them", field="x")
+    if mesh.kind == "volume":
+        places = _arrays.points("x", x, (2, 3), rows=len(mesh.V))
+        native().write_volume_moved(name, mesh.path, places, mesh.zone)
+        return
+    if x is not None:
+        native().write_surface_moved(name, mesh.path, _arrays.points("x", x, (3,), rows=len(mesh.V)))
+        return
+    assert mesh.F is not None
+    rows = _uv_rows(uv, mesh.F, len(mesh.V))
+    if mesh.kind == "model":
+        native().write_model_uv(name, mesh.path, rows, mesh.texcoord_set)
+        return
+    native().write_surface_uv(name, mesh.path, rows)
+    return
+
+
+def devices() -> list[Device]:
+    """What OpenCL offers on this machine."""
+    return [Device(**d) for d in native().devices()]

@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: MIT
+"""Volumes, meshes of the plane and shells: deformed, smoothed, untangled."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import _arrays, _options
+from ._arrays import Array, ArrayLike
+from ._call import ProgressLike, call
+from ._native import native
+from ._results import Map
+from ._trace import EnergyLike
+from .errors import ParameterError
+
+
+def _blocks(V: Any, C: Any) -> tuple[Array, list[Array], int]:
+    """Points, cells by kind, and the dimension: that of the points, or 2 for triangles and quads with z = 0."""
+    points = _arrays.points("V", V, (2, 3))
+    given = C if isinstance(C, (list, tuple)) and len(C) and np.ndim(C[0]) == 2 else [C]
+    blocks = [np.ascontiguousarray(_arrays.indices("C", c, (3, 4, 5, 6, 8), len(points))) for c in given]
+    dim = 2 if points.shape[1] == 2 or all(c.shape[1] == 3 for c in blocks) else 3
+    if dim == 2 and points.shape[1] == 3 and np.any(points[:, 2]):
+        raise ParameterError("V: triangles that do not lie in the plane z = 0; a surface in space is a shell (taut.shell)",
+                             field="V")
+    return points, blocks, dim
+
+
+def deform(
+    V: ArrayLike,
+    C: Any,
+    b: ArrayLike = None,
+    bc: ArrayLike = None,
+    *,
+    springs: Any = None,
+    slides: Any = None,
+    rest: ArrayLike = None,
+    initial: ArrayLike = None,
+    shapes: str = "rest",
+    energy: EnergyLike = "isometric",
+    weights: ArrayLike = None,
+    attributes: ArrayLike = None,
+    directions: ArrayLike = None,
+    parameters: ArrayLike = (),
+    refine: bool = False,
+    precision: str = "auto",
+    tolerance: float | None = None,
+    iterations: int | None = None,
+    time_limit: float | None = None,
+    progress: ProgressLike = None,
+    device: Any = None,
+) -> Map:
+    """Deform a volume, or a mesh of the plane, so that pins come to their places, bit for bit, and nothing is inverted.
+
+    Parameters
+    ----------
+    V : (n, 3) or (n, 2) array-like
+        Vertices; two columns, or triangles with z = 0: a mesh of the plane.
+    C : (m, 3 | 4 | 5 | 6 | 8) array-like of int, or a list of such arrays
+        Triangles, quads (two columns in V) or tetrahedra, pyramids, wedges, hexahedra; corners in VTK's order.
+    b, bc : (k,) and (k, d) array-like
+        Pins; a coordinate that is NaN is free.
+    springs : (vertices, places, weights), optional
+    slides : (vertices, normals), optional
+        Vertices that may move across these normals only: in a plane, or along a line of the plane.
+    rest : (n, 3) array-like, optional
+        The shape at rest, if it is not V.
+    initial : (n, d) array-like, optional
+        The shape to begin with, if it is not V.
+    shapes : {"rest", "regular"}
+        What elements are wanted to look like.
+    refine : bool
+        Whether elements that pins make impossible are split; the result then has `cells` and `points`.
+    energy, weights, attributes, directions, parameters, precision, tolerance, iterations, time_limit, progress, device
+        As in `unwrap`.
+
+    Returns
+    -------
+    Map
+        Certified: no element is inverted.
+
+    Raises
+    ------
+    Infeasible
+        Where no shape can exist under these pins.
+    NoMap
+        Where pins could not be brought to their places; `best` is the valid shape that came nearest.
+
+    Examples
+    --------
+    >>> import numpy as np, taut
+    >>> V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+    >>> taut.deform(V, [[0, 1, 2, 3]], [0, 1], [[0, 0, 0], [2, 0, 0]]).x[1]
+    array([2., 0., 0.])
+    """
+    points, blocks, dim = _blocks(V, C)
+    cells = sum(len(c) for c in blocks)
+    options = {
+        **_options.pins(b, bc, springs, len(points), dim),
+        **_options.energies(energy, dim, cells, weights, attributes, directions, parameters),
+        **_options.limits(tolerance, iterations, time_limit, precision),
+        "shapes": shapes,
+        "refine": refine,
+        "device": _options.device(device),
+    }
+    if slides is not None:
+        options["slide_b"] = _arrays.ids("slides", slides[0], len(points))
+        options["slide_normals"] = _arrays.points("slides", slides[1], (dim,), rows=len(options["slide_b"]))
+    if rest is not None:
+        options["rest"] = _arrays.points("rest", rest, (2, 3), rows=len(points))
+    if initial is not None:
+        options["initial"] = _arrays.points("initial", initial, (dim,), rows=len(points))
+    return call(getattr(native(), f"deform{dim}"), points, blocks, options, progress=progress, make=Map.of)
+
+
+def smooth(
+    V: ArrayLike,
+    C: Any,
+    *,
+    boundary: str = "sliding",
+    fixed: ArrayLike = None,
+    shapes: str = "regular",
+    rest: ArrayLike = None,
+    worst_exponent: int = 2,
+    precision: str = "auto",
+    tolerance: float | None = None,
+    iterations: int | None = None,
+    time_limit: float | None = None,
+    progress: ProgressLike = None,
+    device: Any = None,
+) -> Map:
+    """Move vertices to where elements are best shaped, without inverting one.
+
+    Parameters
+    ----------
+    V, C
+        As in `deform`.
+    boundary : {"sliding", "fixed", "free"}
+        What the boundary may do: move in its own flat parts, nothing, all.
+    fixed : (k,) array-like of int, or (n,) of bool, optional
+        Vertices that stay.
+    shapes, rest
+        What elements are wanted to look like: regular, or as in `rest`.
+    worst_exponent : int
+        1 to 8: larger ones put the worst elements first.
+
+    Returns
+    -------
+    Map
+        `report["before"]` and `report["after"]` have the shapes of the elements.
+    """
+    points, blocks, dim = _blocks(V, C)
+    options = {
+        **_options.limits(tolerance, iterations, time_limit, precision),
+        "boundary": boundary,
+        "shapes": shapes,
+        "worst_exponent": worst_exponent,
+        "device": _options.device(device),
+    }
+    if fixed is not None:
+        options["fixed"] = _arrays.ids("fixed", fixed, len(points))
+    if rest is not None:
+        options["rest"] = _arrays.points("rest", rest, (2, 3), rows=len(points))
+    return call(getattr(native(), f"smooth{dim}"), points, blocks, options, progress=progress, make=Map.of)
+
+
+def untangle(
+    X: ArrayLike,
+    C: Any,
+    b: ArrayLike = None,
+    *,
+    rest: ArrayLike = None,
+    refine: bool = False,
+    rounds: int | None = None,
+    stages: list[str] | None = None,
+    time_limit: float | None = None,
+    progress: ProgressLike = None,
+    device: Any = None,
+) -> Map:
+    """Move what is not held until no element is inverted.
+
+    Parameters
+    ----------
+    X : (n, d) array-like
+        Positions, in any state.
+    C : as in `deform`
+    b : (k,) array-like of int, or (n,) of bool, optional
+        Vertices that stay where X has them, bit for bit.
+    rest : (n, 2 or 3) array-like, optional
+        The shape that is distorted as little as possible; without it elements are wanted regular.
+    refine : bool
+        Whether elements that are in the way are split.
+
+    Raises
+    ------
+    Infeasible
+        With the proof that no map exists.
+    NoMap
+        Where none was found; `best` has the fewest inverted elements, `ids` are these.
+    """
+    points, blocks, dim = _blocks(X, C)
+    options: dict[str, Any] = {
+        "refine": refine,
+        "rounds": rounds,
+        "stages": stages,
+        "time_limit": time_limit,
+        "device": _options.device(device),
+    }
+    if b is not None:
+        options["b"] = _arrays.ids("b", b, len(points))
+    if rest is not None:
+        options["rest"] = _arrays.points("rest", rest, (2, 3), rows=len(points))
+    return call(getattr(native(), f"untangle{dim}"), points, blocks, options, progress=progress, make=Map.of)
+
+
+def shell(
+    V: ArrayLike,
+    F: ArrayLike,
+    b: ArrayLike = None,
+    bc: ArrayLike = None,
+    *,
+    springs: Any = None,
+    thickness: float | None = None,
+    initial: ArrayLike = None,
+    precision: str = "auto",
+    tolerance: float | None = None,
+    iterations: int | None = None,
+    time_limit: float | None = None,
+    progress: ProgressLike = None,
+    device: Any = None,
+) -> Map:
+    """Deform a surface in space as a thin shell that bends and stretches, so that pins come to their places.
+
+    Parameters
+    ----------
+    V, F : (n, 3) and (m, 3) array-like
+        The surface at rest.
+    b, bc, springs
+        As in `deform`, in space.
+    thickness : float, optional
+        In the lengths of the surface; the mean edge if it is not given. How much bending costs against stretching.
+    initial : (n, 3) array-like, optional
+        The shape to begin with.
+
+    Returns
+    -------
+    Map
+        No triangle has collapsed; the surface may pass through itself.
+    """
+    points, faces = _options.surface(V, F, planar=False)
+    options = {
+        **_options.pins(b, bc, springs, len(points), 3),
+        **_options.limits(tolerance, iterations, time_limit, precision),
+        "thickness": thickness,
+        "device": _options.device(device),
+    }
+    if initial is not None:
+        options["initial"] = _arrays.points("initial", initial, (3,), rows=len(points))
+    return call(native().shell, points, faces, options, progress=progress, make=Map.of)

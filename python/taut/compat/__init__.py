@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Interfaces of other packages, on taut."""

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""What the calls of taut raise.
+
+All derive from `TautError`, but `Interrupted`, which is a `KeyboardInterrupt`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+
+class TautError(RuntimeError):
+    """Base of what taut raises.
+
+    Attributes
+    ----------
+    ids : list of int
+        Vertices or elements that the message is about, counted from 0; empty where it names none.
+    field : str or None
+        The argument that is wrong.
+    fault : str or None
+        A word for programs, as "closed_surface".
+    notes : list of str
+        What was found or decided on the way, in sentences.
+    """
+
+    def __init__(
+        self,
+        message: str = "",
+        *,
+        ids: Iterable[int] = (),
+        field: str | None = None,
+        fault: str | None = None,
+        notes: Iterable[str] = (),
+        **more: Any,
+    ) -> None:
+        super().__init__(message)
+        self.ids = [int(i) for i in ids]
+        self.field = field
+        self.fault = fault
+        self.notes = list(notes)
+        for name, value in more.items():
+            setattr(self, name, value)
+
+
+class ParameterError(TautError, ValueError):
+    """An argument outside of its domain; `field` names it."""
+
+
+class MeshError(TautError, ValueError):
+    """A mesh that cannot be used; `fault` says why, `ids` where."""
+
+
+class ConstraintError(TautError, ValueError):
+    """Pins and springs that cannot hold, or that say the same twice; `ids` are their vertices."""
+
+
+class TraceError(TautError, TypeError):
+    """An energy in Python that does what cannot be recorded."""
+
+
+class FileError(TautError, OSError):
+    """A file that cannot be read, understood or written; `path` names it."""
+
+    path: str = ""
+
+
+class DeviceError(TautError):
+    """No OpenCL device, or one that failed; `remedy` says what to do."""
+
+    remedy: str = ""
+
+    def __init__(self, message: str = "", **more: Any) -> None:
+        if not self.remedy and ("no OpenCL" in message or "install a driver" in message):
+            self.remedy = (
+                "install an OpenCL driver: `pip install taut[pocl]` (any CPU), `apt install pocl-opencl-icd`, "
+                "or `conda install -c conda-forge pocl`"
+            )
+            message = f"there is no OpenCL device; {self.remedy}\n{message}"
+        super().__init__(message, **more)
+
+
+class NoMap(TautError):
+    """There is no valid map.
+
+    Attributes
+    ----------
+    reason : str
+        Why.
+    best : Map or None
+        The map with the fewest defects, where there is one. It is not certified.
+    """
+
+    def __init__(self, message: str = "", *, best: Any = None, **more: Any) -> None:
+        super().__init__(message, **more)
+        self.reason = message
+        self.best = best
+
+
+class Infeasible(NoMap):
+    """No map exists that obeys the pins; `proof` says why, `ids` are what it names."""
+
+    def __init__(self, message: str = "", **more: Any) -> None:
+        super().__init__(message, **more)
+        self.proof = message
+
+
+class Cancelled(TautError):
+    """A job that was cancelled; `best` is the best valid result by then, or None."""
+
+    def __init__(self, message: str = "", *, best: Any = None, **more: Any) -> None:
+        super().__init__(message, **more)
+        self.best = best
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during a call; `best` is the best valid result by then, or None."""
+
+    def __init__(self, message: str = "", *, best: Any = None) -> None:
+        super().__init__(message)
+        self.best = best

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""Arrays in and out."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from conftest import bowl_of
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import taut
+
+V, F = bowl_of(6)
+EXPECTED = taut.distortion(V, F, V[:, :2])
+
+floats = st.sampled_from([np.float64, np.float32, ">f8", "<f4", np.longdouble])
+ints = st.sampled_from([np.int64, np.int32, np.uint32, np.uint64, np.int16, np.uint16, np.uint8, ">i4", np.float64])
+
+
+def laid_out(a: np.ndarray, layout: str) -> object:
+    """The same numbers in another layout of memory."""
+    if layout == "C":
+        return np.ascontiguousarray(a)
+    if layout == "F":
+        return np.asfortranarray(a)
+    if layout == "every second row":
+        wide = np.zeros((2 * len(a), a.shape[1]), a.dtype)
+        wide[::2] = a
+        return wide[::2]
+    if layout == "part of a record":
+        wide = np.zeros((len(a), a.shape[1] + 3), a.dtype)
+        wide[:, 2 : 2 + a.shape[1]] = a
+        return wide[:, 2 : 2 + a.shape[1]]
+    if layout == "backwards":
+        return np.ascontiguousarray(a[::-1])[::-1]
+    if layout == "read only":
+        b = a.copy()
+        b.flags.writeable = False
+        return b
+    return a.tolist()
+
+
+layouts = st.sampled_from(["C", "F", "every second row", "part of a record", "backwards", "read only", "list"])
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@given(floats, ints, layouts, layouts)
+def test_numbers_of_any_type_and_layout_are_the_same(real, integer, points, cells):
+    v, f = laid_out(V.astype(real), points), laid_out(F.astype(integer), cells)
+    found = taut.distortion(v, f, np.asarray(v, dtype=np.float64)[:, :2])
+    assert np.allclose(found, EXPECTED, rtol=1e-3)
+    assert found.dtype == np.float64 and found.flags.c_contiguous and found.flags.owndata is not None
+
+
+def test_results_are_float64_and_int64_in_C_order_and_writable(torus):
+    made = taut.atlas(*torus)
+    for a, kind in ((made.uv, np.float64), (made.vmapping, np.int64), (made.faces, np.int64), (made.chart, np.int64)):
+        assert a.dtype == kind and a.flags.c_contiguous and a.flags.writeable
+
+
+def test_results_outlive_the_call():
+    x = [taut.distortion(V, F, V[:, :2]) for _ in range(50)]
+    assert all(np.array_equal(a, EXPECTED) for a in x)
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (lambda V, F: (V[:, :1], F), ["V", "(289, 1)", "(n, 2)"]),
+        (lambda V, F: (V.ravel(), F), ["V", "(867,)"]),
+        (lambda V, F: (V, F[:, :2]), ["F", "(n, 3)"]),
+        (lambda V, F: (np.where(np.arange(len(V))[:, None] == 7, np.nan, V), F), ["V", "row 7", "nan"]),
+        (lambda V, F: (np.where(np.arange(len(V))[:, None] == 9, np.inf, V), F), ["V", "row 9", "inf"]),
+        (lambda V, F: (V, np.where(F == 40, 4000, F)), ["F", "4000", "0 to 288", "row"]),
+        (lambda V, F: (V, np.where(F == 40, -1, F)), ["F", "-1", "row"]),
+        (lambda V, F: (V, F + 0.5), ["F", "row 0", "no index"]),
+        (lambda V, F: ([["a", "b", "c"]], F), ["V", "no numbers"]),
+        (lambda V, F: (V, [[1, 2], [3]]), ["F"]),
+    ],
+)
+def test_what_is_wrong_with_an_array_is_named(bowl, change, words):
+    with pytest.raises(taut.ParameterError) as e:
+        taut.unwrap(*change(*bowl))
+    assert all(w in str(e.value) for w in words), str(e.value)
+    assert e.value.field == words[0]
+    assert isinstance(e.value, ValueError)
+
+
+def test_certificates_are_exact_and_complete():
+    x = V[:, :2].copy()
+    assert taut.certify(F, x)
+    x[24] += [0.9, 0.9]
+    flipped = taut.certify(F, x).flipped
+    dets = np.linalg.det(np.stack([x[F[:, 1]] - x[F[:, 0]], x[F[:, 2]] - x[F[:, 0]]], 1))
+    assert flipped.tolist() == np.flatnonzero(dets <= 0).tolist() and len(flipped)
+
+
+def test_quality_is_one_of_a_flat_surface():
+    flat = np.c_[V[:, :2], np.zeros(len(V))]
+    q = taut.quality(flat, F, V[:, :2])
+    assert q["isometric"]["measure"] == pytest.approx(4) and q["flips"] and q["area_ratio"]["max"] == pytest.approx(1)

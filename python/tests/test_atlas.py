@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""Atlases and repair."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from conftest import torus_of
+
+import taut
+
+
+def signed_areas(uv, faces):
+    a, b, c = (uv[faces[:, k]] for k in range(3))
+    u, v = b - a, c - a
+    return (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+
+
+def test_an_atlas_keeps_triangles_and_lies_in_its_square(torus):
+    V, F = torus
+    made = taut.atlas(V, F)
+    vmapping, faces, uv = made
+    assert (vmapping[faces] == F).all()
+    assert uv.min() >= 0 and uv.max() <= 1 and (signed_areas(uv, faces) > 0).all()
+    assert made.charts == made.chart.max() + 1 and made.corner_uv.shape == (len(F), 3, 2)
+    assert made.report["overlaps"] == 0 and made.complete
+
+
+def test_bounds_change_the_number_of_charts(torus):
+    assert taut.atlas(*torus, mean_distortion=4.001, max_distortion=4.01).charts > taut.atlas(*torus).charts
+
+
+def test_several_meshes_get_one_atlas(torus, bowl):
+    pair = taut.atlas([torus, bowl])
+    boxes = []
+    for made, (V, F) in zip(pair, (torus, bowl)):
+        assert (made.vmapping[made.faces] == F).all()
+        boxes.append(made.uv)
+    assert len({tuple(p) for p in np.concatenate(boxes).round(12).tolist()}) == len(boxes[0]) + len(boxes[1])
+
+
+def test_triangles_as_they_come_are_mended_and_what_is_left_out_keeps_its_place(torus):
+    V, F = torus
+    V = np.r_[V, [[np.nan, 0, 0]]]
+    bad = np.r_[F, [[0, 0, 1], F[0], [0, 1, len(V) - 1]]]
+    bad[5] = bad[5][[0, 2, 1]]
+    made = taut.atlas(V, bad)
+    assert (made.vmapping[made.faces] == bad).all() and made.repairs
+    assert (made.chart[-3:] == -1).all() and (made.tile[-3:] == -1).all() and (made.chart[:-3] >= 0).all()
+    assert (made.corner_uv[-3:] == 0).all()
+    with pytest.raises(taut.ParameterError):
+        taut.atlas(V, bad, repair=False)
+    with pytest.raises(taut.MeshError):
+        taut.atlas(V[:-1], bad[:-1], repair=False)
+
+
+def test_seams_parts_and_kept_charts(torus):
+    V, F = torus
+    parts = (np.arange(len(F)) % len(F) * 4 // len(F)).astype(int)
+    made = taut.atlas(V, F, parts=parts)
+    for c in range(made.charts):
+        assert len(set(parts[made.chart == c])) == 1
+    again = taut.atlas(V, F, charts="keep", parts=made.chart, uv=made.corner_uv)
+    assert again.charts == made.charts
+
+
+def test_pinned_triangles_stay_bit_for_bit(torus):
+    V, F = torus
+    made = taut.atlas(V, F)
+    pinned = made.chart == 0
+    again = taut.atlas(V, F, pinned=pinned, uv=made.corner_uv)
+    assert (again.corner_uv[pinned] == made.corner_uv[pinned]).all()
+
+
+def test_the_order_of_progress_is_that_of_stages():
+    stages = []
+    taut.atlas(*torus_of(80, 40), progress=lambda p: stages.append(p.stage))
+    assert set(stages) <= {"charts", "flatten", "pack", "certify", ""}
+
+
+def test_repair_says_what_it_did():
+    V = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [9, 9, 9]]
+    r = taut.repair(V, [[0, 1, 2], [0, 3, 2], [7, 1, 2]])
+    assert r.F.tolist() == [[0, 1, 2], [0, 2, 3]] and r.vmap.tolist() == [0, 1, 2, 3] and r.fmap.tolist() == [0, 1]
+    assert r.turned.tolist() == [1] and set(r.findings) == {
+        "index_out_of_range", "unreferenced_vertex", "inconsistent_orientation"}
+    with pytest.raises(taut.MeshError) as e:
+        taut.repair(V, [[0, 0, 0]])
+    assert e.value.notes
+
+
+def test_options_that_are_wrong_name_their_field(torus):
+    with pytest.raises(taut.ParameterError) as e:
+        taut.atlas(*torus, padding=-1)
+    assert e.value.field == "padding"
+    with pytest.raises(taut.ParameterError) as e:
+        taut.atlas(*torus, uv=np.zeros((3, 3, 2)))
+    assert e.value.field == "uv"

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: MIT
+"""Jobs, interruptions, threads and processes."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import multiprocessing
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import bowl_of
+
+import taut
+
+
+def test_a_job_ends_with_the_result(bowl):
+    job = taut.start(taut.unwrap, *bowl)
+    assert job.result(60).certified and job.done
+
+
+def test_a_job_raises_what_its_call_raises(torus):
+    with pytest.raises(taut.MeshError):
+        taut.start(taut.unwrap, *torus).result(60)
+
+
+def test_a_job_is_cancelled_with_the_best_result(large_bowl):
+    job = taut.start(taut.unwrap, *large_bowl, tolerance=1e-14, energy=lambda s: s.S.norm2() * (1 + 1 / s.J**2) ** 3)
+    with pytest.raises(TimeoutError):
+        job.result(0.01)
+    while not job.done and not job.progress.usable:
+        time.sleep(0.01)
+    start = time.monotonic()
+    job.cancel()
+    try:
+        assert job.result(10).certified  # it had just ended
+    except taut.Cancelled as e:
+        assert e.best is None or e.best.certified
+    assert time.monotonic() - start < 1.0
+
+
+def test_two_jobs_run_at_a_time(bowl):
+    jobs = [taut.start(taut.unwrap, *bowl), taut.start(taut.atlas, *bowl), taut.start(taut.unwrap, *bowl)]
+    a, b, c = (j.result(60) for j in jobs)
+    assert np.array_equal(a.uv, c.uv) and b.charts >= 1
+
+
+def test_threads_of_the_user_may_call(bowl):
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        maps = list(pool.map(lambda _: taut.unwrap(*bowl).uv, range(6)))
+    assert all(np.array_equal(m, maps[0]) for m in maps)
+
+
+def interrupt_after(seconds):
+    timer = threading.Timer(seconds, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    return timer
+
+
+@pytest.mark.parametrize("moment", [0.002, 0.02, 0.06, 0.15, 0.3])
+def test_ctrl_c_ends_a_call_soon_and_leaves_all_as_it_was(large_bowl, moment):
+    start = time.monotonic()
+    timer = interrupt_after(moment)
+    try:
+        while True:
+            taut.unwrap(*large_bowl, tolerance=1e-14)
+    except taut.Interrupted as e:
+        assert e.best is None or taut.certify(large_bowl[1], e.best.uv)
+        assert isinstance(e, KeyboardInterrupt)
+    except KeyboardInterrupt:
+        pass  # between two calls
+    assert time.monotonic() - start < moment + 1.0
+    timer.join()
+    V, F = bowl_of(8)
+    assert taut.unwrap(V, F).certified
+
+
+def test_a_handler_of_another_signal_may_raise(large_bowl):
+    def late(number, frame):
+        raise TimeoutError("an alarm")
+
+    old = signal.signal(signal.SIGALRM, late)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with pytest.raises(TimeoutError, match="an alarm"):
+            while True:
+                taut.unwrap(*large_bowl, tolerance=1e-14)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)
+
+
+def test_other_threads_go_on_during_a_call(large_bowl):
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.wait(0.005):
+            ticks.append(time.monotonic())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.monotonic()
+    taut.unwrap(*large_bowl, tolerance=1e-9)
+    end = time.monotonic()
+    stop.set()
+    thread.join()
+    inside = [t for t in ticks if start < t < end]
+    longest = max(b - a for a, b in zip([start] + inside, inside + [end]))
+    assert longest < 0.3
+
+
+def run_python(code, **environment):
+    folder = os.path.dirname(os.path.dirname(os.path.abspath(taut.__file__)))
+    return subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, timeout=120,
+                          env={**os.environ, "PYTHONPATH": folder, **environment})
+
+
+def test_a_forked_child_gets_a_sentence():
+    done = run_python("""
+        import os, taut
+        taut.unwrap([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        if os.fork() == 0:
+            try:
+                taut.unwrap([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+            except taut.DeviceError as e:
+                print("spawn" in str(e) and "fork" in str(e), flush=True)
+            os._exit(0)
+        os.wait()
+    """)
+    assert done.stdout.strip() == "True", done.stderr
+
+
+def test_functions_are_pickled_and_run_by_spawn(bowl):
+    for function in (taut.unwrap, taut.atlas, taut.deform, taut.repair):
+        assert pickle.loads(pickle.dumps(function)) is function
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(1, mp_context=context) as pool:
+        made = pool.submit(taut.unwrap, *bowl).result(120)
+        assert np.array_equal(made.uv, taut.unwrap(*bowl).uv)
+        with pytest.raises(taut.ParameterError) as e:
+            pool.submit(taut.unwrap, bowl[0], bowl[1] + 10**6).result(120)
+        assert e.value.field == "F"
+
+
+def test_without_a_driver_the_first_call_says_what_to_install(tmp_path):
+    done = run_python("""
+        import taut
+        print(taut.certify([[0, 1, 2]], [[0, 0], [1, 0], [0, 1]]).elements)
+        try:
+            taut.unwrap([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        except taut.DeviceError as e:
+            print(e.remedy)
+            print(str(e).splitlines()[0])
+    """, OCL_ICD_VENDORS=str(tmp_path), OCL_ICD_FILENAMES="")
+    count, remedy, first = done.stdout.splitlines()
+    assert count == "1" and remedy in first
+    assert all(word in first for word in ("pip install taut[pocl]", "apt install", "conda install"))
+
+
+def test_the_interpreter_ends_well_in_the_middle_of_a_call():
+    done = run_python("""
+        import numpy as np, sys, taut, time
+        sys.path.insert(0, %r)
+        from conftest import bowl_of
+        job = taut.start(taut.unwrap, *bowl_of(200), tolerance=1e-14)
+        time.sleep(0.3)
+    """ % os.path.dirname(os.path.abspath(__file__)))
+    assert done.returncode == 0, done.stderr
