@@ -13,20 +13,20 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/atlas_params.hpp>
-#include <taut/atlas/atlas_report.hpp>
-#include <taut/atlas/detail/atlas_summary.hpp>
-#include <taut/atlas/detail/crossing_charts.hpp>
-#include <taut/atlas/detail/cutting/fine_sewing.hpp>
-#include <taut/atlas/detail/cutting/short_cutting.hpp>
-#include <taut/atlas/detail/round_polygon.hpp>
-#include <taut/atlas/detail/seams/straighten.hpp>
-#include <taut/atlas/detail/seen_patches.hpp>
-#include <taut/atlas/detail/surface_part.hpp>
-#include <taut/atlas/detail/symmetry/symmetric_half.hpp>
-#include <taut/core/budget.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/impl/atlas/atlas_params.hpp>
+#include <taut/impl/atlas/atlas_report.hpp>
+#include <taut/impl/atlas/atlas_summary.hpp>
+#include <taut/impl/atlas/crossing_charts.hpp>
+#include <taut/impl/atlas/cutting/fine_sewing.hpp>
+#include <taut/impl/atlas/cutting/short_cutting.hpp>
+#include <taut/impl/atlas/round_polygon.hpp>
+#include <taut/impl/atlas/seams/straighten.hpp>
+#include <taut/impl/atlas/seen_patches.hpp>
+#include <taut/impl/atlas/surface_part.hpp>
+#include <taut/impl/atlas/symmetry/symmetric_half.hpp>
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/mesh/validate.hpp>
 
 namespace taut::impl
 {

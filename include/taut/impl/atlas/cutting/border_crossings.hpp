@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/flat_surface.hpp>
-#include <taut/core/counting_sort.hpp>
-#include <taut/exact/crossings.hpp>
+#include <taut/impl/atlas/cutting/flat_surface.hpp>
+#include <taut/impl/core/counting_sort.hpp>
+#include <taut/impl/exact/crossings.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// Pairs of border edges of the same chart whose images meet, counted up to `most`; exact.
@@ -40,4 +40,4 @@ inline std::size_t border_crossings(const rest_surface& rest, const flat_surface
     return count;
 }
 
-} // namespace taut::detail
+} // namespace taut::impl

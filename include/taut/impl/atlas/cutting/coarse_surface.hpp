@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/quadric.hpp>
-#include <taut/core/parallel.hpp>
-#include <taut/mesh/facets.hpp>
+#include <taut/impl/atlas/cutting/quadric.hpp>
+#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/mesh/facets.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// A surface of fewer triangles whose vertices are vertices of another one.
@@ -300,4 +300,4 @@ inline coarse_surface make_coarse(const mesh<triangle>& m, const facet_table& f,
     return one.result();
 }
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/rest_surface.hpp>
-#include <taut/sparse/elimination_solver.hpp>
+#include <taut/impl/atlas/cutting/rest_surface.hpp>
+#include <taut/impl/sparse/elimination_solver.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// The solution of Laplace's equation on a surface with its curvature (angle defects) as source, and 0 at some
@@ -86,4 +86,4 @@ private:
     elimination_solver solver_;
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

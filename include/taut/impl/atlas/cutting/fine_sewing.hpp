@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/sew_tips.hpp>
-#include <taut/atlas/detail/surface_part.hpp>
+#include <taut/impl/atlas/cutting/sew_tips.hpp>
+#include <taut/impl/atlas/surface_part.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// Charts of a surface as they lie in the plane.
@@ -63,4 +63,4 @@ inline bool sew_laid(const mesh<triangle>& m, const laid_seams& laid, std::span<
     return true;
 }
 
-} // namespace taut::detail
+} // namespace taut::impl

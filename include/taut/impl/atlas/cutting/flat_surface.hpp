@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/chart_mesh.hpp>
-#include <taut/atlas/detail/cutting/rest_surface.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/start/isometric_newton.hpp>
+#include <taut/impl/atlas/chart_mesh.hpp>
+#include <taut/impl/atlas/cutting/rest_surface.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/start/isometric_newton.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// A surface with seams and a map without flips of what these leave connected.
@@ -133,4 +133,4 @@ inline int relax(const rest_surface& rest, flat_surface& flat, int steps, double
     return made;
 }
 
-} // namespace taut::detail
+} // namespace taut::impl

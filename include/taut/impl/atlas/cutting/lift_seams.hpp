@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/flat_surface.hpp>
+#include <taut/impl/atlas/cutting/flat_surface.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// Leads seams of a coarse surface over the surface that it was made of: each edge becomes a shortest way between its
@@ -127,4 +127,4 @@ private:
     double least_ = 1; // of a price by its length
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/rest_surface.hpp>
+#include <taut/impl/atlas/cutting/rest_surface.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// The sides of least price that part two sets of triangles of a chart: augmenting paths (Edmonds, Karp 1972) in the
@@ -59,4 +59,4 @@ inline std::vector<idx> minimum_cut(const rest_surface& rest, std::span<const ch
     return cut;
 }
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/curvature_potential.hpp>
-#include <taut/atlas/detail/cutting/flat_surface.hpp>
+#include <taut/impl/atlas/cutting/curvature_potential.hpp>
+#include <taut/impl/atlas/cutting/flat_surface.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// The cheapest way along edges from any of some vertices to another one, as sides in either direction; empty where
@@ -134,4 +134,4 @@ private:
     double least_;
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/flat_surface.hpp>
-#include <taut/core/disjoint_sets.hpp>
+#include <taut/impl/atlas/cutting/flat_surface.hpp>
+#include <taut/impl/core/disjoint_sets.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// Two sets of triangles of one chart that lie on each other in the plane, each in one piece.
@@ -161,4 +161,4 @@ inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const
     return result;
 }
 
-} // namespace taut::detail
+} // namespace taut::impl

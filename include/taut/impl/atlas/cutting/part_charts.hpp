@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/minimum_cut.hpp>
-#include <taut/atlas/detail/cutting/overlap_layers.hpp>
+#include <taut/impl/atlas/cutting/minimum_cut.hpp>
+#include <taut/impl/atlas/cutting/overlap_layers.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// When a chart that lies on itself is parted.
@@ -66,4 +66,4 @@ inline int part_charts(const rest_surface& rest, flat_surface& flat, const parti
     return made;
 }
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/flat_surface.hpp>
-#include <taut/energy/corner_derivatives.hpp>
-#include <taut/energy/modes.hpp>
-#include <taut/mesh/first_flip.hpp>
+#include <taut/impl/atlas/cutting/flat_surface.hpp>
+#include <taut/impl/energy/corner_derivatives.hpp>
+#include <taut/impl/energy/modes.hpp>
+#include <taut/impl/mesh/first_flip.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// Some triangles of a map around a place, with numbers of their own.
@@ -181,4 +181,4 @@ private:
     std::vector<vec2> moved_, trial_;
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

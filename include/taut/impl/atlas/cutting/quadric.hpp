@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 
-#include <taut/core/types.hpp>
+#include <taut/impl/core/types.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// A sum of squared distances from planes, as a function of the point (Garland, Heckbert 1997, "Surface simplification
@@ -43,4 +43,4 @@ struct quadric
     }
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/seams/seam_arcs.hpp>
-#include <taut/mesh/boundary.hpp>
-#include <taut/mesh/ideal.hpp>
+#include <taut/impl/atlas/seams/seam_arcs.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/mesh/ideal.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// A surface at rest with what cutting asks of it again and again. Side s = 3 c + k of triangle c lies opposite its
@@ -82,4 +82,4 @@ struct rest_surface
     }
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/cut_to_disk.hpp>
-#include <taut/atlas/detail/cutting/over_cut.hpp>
-#include <taut/atlas/detail/cutting/part_charts.hpp>
-#include <taut/atlas/detail/cutting/sew_tips.hpp>
-#include <taut/atlas/detail/seams/straighten.hpp>
-#include <taut/start/barycentric_map.hpp>
+#include <taut/impl/atlas/cut_to_disk.hpp>
+#include <taut/impl/atlas/cutting/over_cut.hpp>
+#include <taut/impl/atlas/cutting/part_charts.hpp>
+#include <taut/impl/atlas/cutting/sew_tips.hpp>
+#include <taut/impl/atlas/seams/straighten.hpp>
+#include <taut/impl/start/barycentric_map.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// How seams of one surface are looked for.
@@ -203,4 +203,4 @@ private:
     bool parted_ = false;
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

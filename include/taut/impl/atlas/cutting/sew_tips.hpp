@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/border_crossings.hpp>
-#include <taut/atlas/detail/cutting/zip.hpp>
+#include <taut/impl/atlas/cutting/border_crossings.hpp>
+#include <taut/impl/atlas/cutting/zip.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// How seams are sewn up.
@@ -200,4 +200,4 @@ private:
     std::size_t crossings_ = 0;
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -14,14 +14,14 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/lift_seams.hpp>
-#include <taut/atlas/detail/cutting/seam_search.hpp>
-#include <taut/atlas/detail/cutting/span_holes.hpp>
-#include <taut/atlas/detail/surface_part.hpp>
-#include <taut/core/budget.hpp>
-#include <taut/core/parallel.hpp>
+#include <taut/impl/atlas/cutting/lift_seams.hpp>
+#include <taut/impl/atlas/cutting/seam_search.hpp>
+#include <taut/impl/atlas/cutting/span_holes.hpp>
+#include <taut/impl/atlas/surface_part.hpp>
+#include <taut/impl/core/budget.hpp>
+#include <taut/impl/core/parallel.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// What short_cutting is to keep.
@@ -270,4 +270,4 @@ private:
     std::atomic<bool> stopped_{false};
 };
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/coarse_surface.hpp>
-#include <taut/mesh/boundary.hpp>
+#include <taut/impl/atlas/cutting/coarse_surface.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// Spans small holes by cones, so that seams and maps are as if there were none. The apices come after all vertices
@@ -42,4 +42,4 @@ inline idx span_small_holes(coarse_surface& s)
     return first;
 }
 
-} // namespace taut::detail
+} // namespace taut::impl

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/atlas/detail/cutting/patch_newton.hpp>
+#include <taut/impl/atlas/cutting/patch_newton.hpp>
 
-namespace taut::detail
+namespace taut::impl
 {
 
 /// What sewing up the last edge of a seam would do: its ends in the plane become one, and the map around follows.
@@ -278,4 +278,4 @@ private:
     patch_newton newton_;
 };
 
-} // namespace taut::detail
+} // namespace taut::impl
