@@ -10,6 +10,7 @@
 #include <taut/impl/energy/element.hpp>
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/energy/neo_hookean.hpp>
+#include <taut/impl/energy/recorded_energy.hpp>
 #include <taut/impl/energy/regularized.hpp>
 #include <taut/impl/energy/shape.hpp>
 #include <taut/impl/energy/shape_power.hpp>

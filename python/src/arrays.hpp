@@ -10,7 +10,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include <taut/mesh/mesh.hpp>
+#include <taut/mesh.hpp>
 
 namespace taut::python
 {

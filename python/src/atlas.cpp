@@ -4,8 +4,8 @@
 #include <limits>
 #include <set>
 
-#include <taut/atlas/make_atlas.hpp>
-#include <taut/repair/repair_surface.hpp>
+#include <taut/atlas.hpp>
+#include <taut/repair.hpp>
 
 #include "atlas_options.hpp"
 #include "bindings.hpp"
@@ -84,7 +84,7 @@ private:
             const std::size_t here = cell_origin(s / 3), there = cell_origin(u(f.twin[s]) / 3);
             if (!wanted.empty())
             {
-                const auto e = side_vertices(m, static_cast<idx>(s));
+                const auto e = impl::side_vertices(m, static_cast<idx>(s));
                 const idx a = vertex_origin(e[0]), b = vertex_origin(e[1]);
                 seams[s] = wanted.contains({std::min(a, b), std::max(a, b)});
             }
@@ -141,7 +141,7 @@ nb::dict report_of(const atlas_report& r)
     d["chart_tiles"] = array_of(tiles);
     d["chart_areas"] = array_of(std::move(areas));
     d["chart_energies"] = array_of(std::move(energies));
-    const atlas_seconds& s = r.seconds;
+    const auto& s = r.seconds;
     d["seconds"] = s.setup + s.charts + s.flatten + s.pack + s.certify;
     return d;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/atlas/atlas_params.hpp>
+#include <taut/atlas.hpp>
 
 #include "options.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <nanobind/nanobind.h>
 
-#include <taut/map/parameterize_params.hpp>
+#include <taut/parameterize.hpp>
 
 #include "control.hpp"
 #include "options.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include <taut/constrain/constraints.hpp>
+#include <taut/constraints.hpp>
 
 #include "options.hpp"
 

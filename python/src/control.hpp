@@ -8,8 +8,8 @@
 #include <mutex>
 #include <string>
 
-#include <taut/atlas/atlas_params.hpp>
-#include <taut/core/observer.hpp>
+#include <taut/atlas.hpp>
+#include <taut/options.hpp>
 
 namespace taut::python
 {

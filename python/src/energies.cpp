@@ -6,12 +6,7 @@
 
 #include <nanobind/operators.h>
 
-#include <taut/energy/area.hpp>
-#include <taut/energy/check_gradient.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/energy/neo_hookean.hpp>
-#include <taut/energy/recorded/recorded_energy.hpp>
-#include <taut/energy/shape_power.hpp>
+#include <taut/energy.hpp>
 
 #include "bindings.hpp"
 #include "reports.hpp"
@@ -195,7 +190,7 @@ void add_energies(nb::module_& m)
     nb::class_<any_energy>(m, "AnyEnergy", "An energy of the library.")
         .def_prop_ro("barrier", [](const any_energy& e) { return e.barrier(); })
         .def("keeping_curvature",
-             [](const any_energy& e) { return e.with_eigenvalues(negative_eigenvalues::absolute); });
+             [](const any_energy& e) { return e.with_eigenvalues(impl::negative_eigenvalues::absolute); });
     m.def("builtin_energy", &builtin);
     add_recording<2>(m, "Recording2", "2");
     add_recording<3>(m, "Recording3", "3");

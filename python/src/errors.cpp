@@ -4,18 +4,11 @@
 #include <exception>
 #include <vector>
 
-#include <taut/atlas/symmetry.hpp>
-#include <taut/compute/errors.hpp>
-#include <taut/constrain/constraint_error.hpp>
-#include <taut/edit/paste_error.hpp>
-#include <taut/edit/region_error.hpp>
-#include <taut/io/io_error.hpp>
-#include <taut/io/surface_file.hpp>
-#include <taut/io/volume_file.hpp>
-#include <taut/mesh/mesh_error.hpp>
-#include <taut/packing/packing_error.hpp>
-#include <taut/repair/repair_finding.hpp>
-#include <taut/symbolic/tape.hpp>
+#include <taut/atlas.hpp>
+#include <taut/errors.hpp>
+#include <taut/paste.hpp>
+#include <taut/volume_file.hpp>
+#include <taut/kernel.hpp>
 
 namespace taut::python
 {

@@ -8,11 +8,9 @@
 #include <string>
 #include <utility>
 
-#include <taut/gltf/gltf.hpp>
-#include <taut/io/read_surface.hpp>
-#include <taut/io/read_volume.hpp>
-#include <taut/io/write_obj.hpp>
-#include <taut/io/write_volume.hpp>
+#include <taut/gltf.hpp>
+#include <taut/read.hpp>
+#include <taut/write.hpp>
 
 #include "bindings.hpp"
 #include "reports.hpp"
@@ -85,7 +83,7 @@ nb::dict read_volume(const std::string& path, int zone)
     nb::dict d, cells, groups;
     for (const auto& block : file.cells)
     {
-        const auto& shape = io::shape_of(block.kind);
+        const auto& shape = io::impl::shape_of(block.kind);
         if (!cells.contains(shape.names)) cells[shape.names] = nb::list();
         std::vector<double> corners(block.corners.begin(), block.corners.end());
         nb::cast<nb::list>(cells[shape.names])

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Maps of surfaces to the plane, and what any map is like.
-#include <taut/atlas/chart_mesh.hpp>
-#include <taut/atlas/cut_to_disk.hpp>
-#include <taut/map/parameterize.hpp>
-#include <taut/measure/quality.hpp>
-#include <taut/mesh/validate.hpp>
+#include <taut/atlas.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/quality.hpp>
+#include <taut/mesh.hpp>
 
 #include "bindings.hpp"
 #include "call.hpp"
@@ -85,7 +84,7 @@ nb::dict for_cut_surface(const nb::dict& given, const mesh<triangle>& whole, con
         }
         changed[name] = array_of(ids);
     }
-    detail::refuse_vertices(constraint_fault::contradictory, std::move(divided),
+    impl::refuse_vertices(constraint_fault::contradictory, std::move(divided),
                             "on the seam, which divides them into several; pin vertices beside it");
     return changed;
 }

@@ -13,7 +13,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <taut/core/error.hpp>
+#include <taut/errors.hpp>
 
 #include "arrays.hpp"
 

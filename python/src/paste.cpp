@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Cut and paste: a part of one surface on another one.
-#include <taut/edit/feature.hpp>
-#include <taut/edit/paste.hpp>
-#include <taut/edit/region.hpp>
+#include <taut/paste.hpp>
 
 #include "bindings.hpp"
 #include "call.hpp"

@@ -6,7 +6,7 @@
 
 #include <nanobind/nanobind.h>
 
-#include <taut/compute/queue.hpp>
+#include <taut/queue.hpp>
 
 namespace taut::python
 {

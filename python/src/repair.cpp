@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Surfaces made of triangles as files have them.
-#include <taut/repair/repair_surface.hpp>
+#include <taut/repair.hpp>
 
 #include "bindings.hpp"
 #include "reports.hpp"

@@ -84,7 +84,7 @@ nb::dict dict_of(const map_report& r)
     d["reason"] = text(r.reason);
     d["ids"] = array_of(r.ids);
     d["notes"] = texts(r.notes);
-    d["converged"] = solve::converged(r.solve.stop);
+    d["converged"] = solve::impl::converged(r.solve.stop);
     d["stop"] = text(to_string(r.solve.stop));
     d["energy"] = r.solve.value;
     d["iterations"] = r.solve.iterations;

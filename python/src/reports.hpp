@@ -6,11 +6,10 @@
 
 #include <nanobind/nanobind.h>
 
-#include <taut/exact/certify.hpp>
-#include <taut/map/map_result.hpp>
-#include <taut/map/session_result.hpp>
-#include <taut/measure/shape_quality.hpp>
-#include <taut/untangle/result.hpp>
+#include <taut/certify.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/session.hpp>
+#include <taut/quality.hpp>
 
 #include "arrays.hpp"
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <memory>
 
-#include <taut/map/session.hpp>
+#include <taut/session.hpp>
 
 #include "bindings.hpp"
 #include "call.hpp"
@@ -190,7 +190,7 @@ private:
     template <class Params, class Open>
     void begin(const std::string& device, Params params, const Open& open)
     {
-        params.observer = state_->asked->observer(state_->asked);
+        params.limits.observer = state_->asked->observer(state_->asked);
         nb::gil_scoped_release unlocked;
         state_->queue_in_use = borrow_queue(device);
         open(*state_, params);

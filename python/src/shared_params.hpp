@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/energy/any_energy.hpp>
-#include <taut/mesh/cell_data.hpp>
-#include <taut/objective/precision.hpp>
-#include <taut/solve/params.hpp>
+#include <taut/energy.hpp>
+#include <taut/mesh.hpp>
+#include <taut/options.hpp>
+#include <taut/parameterize.hpp>
 
 #include "control.hpp"
 #include "options.hpp"
@@ -23,8 +23,8 @@ void read_limits(Params& params, const options& given, const std::shared_ptr<con
                      {"fp32", precision::fp32}});
     given.read("tolerance", params.solve.stopping.gradient_tolerance);
     given.read("iterations", params.solve.stopping.max_iterations);
-    given.read_seconds("time_limit", params.time_limit);
-    params.observer = watched->observer(stage);
+    given.read_seconds("time_limit", params.limits.time_limit);
+    params.limits.observer = watched->observer(stage);
 }
 
 inline cell_data data_of(const options& given)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Surfaces in space that bend and stretch.
-#include <taut/map/deform.hpp>
+#include <taut/deform.hpp>
 
 #include "bindings.hpp"
 #include "call.hpp"

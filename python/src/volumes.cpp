@@ -3,12 +3,10 @@
 #include <optional>
 #include <utility>
 
-#include <taut/io/make_untangle_problem.hpp>
-#include <taut/io/volume_file.hpp>
-#include <taut/map/deform_refined.hpp>
-#include <taut/map/smooth.hpp>
-#include <taut/mesh/cell_corners.hpp>
-#include <taut/untangle/untangle_refined.hpp>
+#include <taut/untangle.hpp>
+#include <taut/volume_file.hpp>
+#include <taut/deform.hpp>
+#include <taut/smooth.hpp>
 
 #include "bindings.hpp"
 #include "call.hpp"
@@ -25,7 +23,7 @@ namespace
 
 /// Cells of any kinds as simplices.
 template <class Element>
-io::corner_simplices<Element> simplices_of(const array& V, const nb::list& blocks)
+io::impl::corner_simplices<Element> simplices_of(const array& V, const nb::list& blocks)
 {
     io::volume_file file;
     file.dimension = Element::dimension;
@@ -76,7 +74,7 @@ std::vector<vec<Element::dimension>> positions_of(const mesh<Element>& m)
 template <class Element>
 struct shape_job
 {
-    io::corner_simplices<Element> cells;
+    io::impl::corner_simplices<Element> cells;
     deform_params<Element> deforming;
     smooth_params<Element> smoothing;
     bool refine = false;
@@ -221,10 +219,10 @@ nb::object untangle_of(const array& X, const nb::list& C, const nb::dict& keywor
                               {}});
     if (!rest) job->problem.wanted = found->cells.regular;
     job->problem.owners = found->owners();
-    given.read_seconds("time_limit", job->params.time_limit);
+    given.read_seconds("time_limit", job->params.limits.time_limit);
     given.read("stages", job->params.stages);
     given.read("rounds", job->params.rounds);
-    job->params.observer = watched.shared->observer("untangle");
+    job->params.limits.observer = watched.shared->observer("untangle");
     return told(run(watched.shared, given.progress(),
                     [job]
                     {

@@ -83,8 +83,8 @@ private:
     {
         // dE/dS by evaluating the traced derivative at this S, with det as a function of S.
         using real = sym<double>;
-        impl::tape recorded;
-        const impl::tape_scope scope(recorded);
+        tape recorded;
+        const tape_scope scope(recorded);
         glm::mat<D, D, real> S;
         std::vector<real> unknowns;
         std::vector<impl::binding> values;

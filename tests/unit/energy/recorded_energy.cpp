@@ -3,15 +3,16 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/energy/any_energy.hpp>
-#include <taut/energy/check_gradient.hpp>
-#include <taut/energy/isometric.hpp>
-#include <taut/energy/recorded/recorded_energy.hpp>
+#include <taut/impl/energy/any_energy.hpp>
+#include <taut/impl/energy/check_gradient.hpp>
+#include <taut/impl/energy/isometric.hpp>
+#include <taut/impl/energy/recorded_energy.hpp>
 
 namespace
 {
 
 using namespace taut;
+using namespace taut::impl;
 
 /// A recording of what f makes of an element.
 template <int D, class F>

@@ -21,8 +21,8 @@ namespace
 template <class T, class F>
 void check_derivatives(F f, double a, double b)
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<T>::variable();
     const auto y = sym<T>::variable();
     const auto g = differentiate(f(x, y), {x, y});
@@ -108,8 +108,8 @@ TEST_CASE_TEMPLATE("differentiate: min, max and select against finite difference
 
 TEST_CASE("differentiate: floor and comparisons have zero derivatives")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<double>::variable();
     const auto y = sym<double>::variable();
     CHECK(differentiate(floor(x) + y, x).id() == sym<double>(0.0).id());
@@ -120,8 +120,8 @@ TEST_CASE("differentiate: floor and comparisons have zero derivatives")
 
 TEST_CASE("differentiate: at the branch point of a select, the branch that the comparison takes decides")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<double>::variable();
     const auto d = differentiate(select(x < 1, 2 * x, 5 * x), x);
     CHECK(evaluate(d, {{x, std::nextafter(1.0, 0.0)}}) == 2);
@@ -134,8 +134,8 @@ TEST_CASE("differentiate: at the branch point of a select, the branch that the c
 
 TEST_CASE_TEMPLATE("differentiate: an infinite derivative of the untaken branch does not become NaN", T, float, double)
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<T>::variable();
     const auto first_and_second = [&](sym<T> f, T at)
     {
@@ -164,8 +164,8 @@ TEST_CASE_TEMPLATE("differentiate: an infinite derivative of the untaken branch 
 
 TEST_CASE("differentiate: the derivative passes through casts, in the type of each side")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<double>::variable();
     const auto y = sym<double>::variable();
     const sym<float> edge = taut::cast<float>(x - y);
@@ -182,8 +182,8 @@ TEST_CASE("differentiate: the derivative passes through casts, in the type of ea
 
 TEST_CASE("differentiate: variables may be intermediate values, and are held independent")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<double>::variable();
     const auto square = x * x;
     const auto f = square * x;
@@ -191,13 +191,13 @@ TEST_CASE("differentiate: variables may be intermediate values, and are held ind
     CHECK(evaluate(g[0], {{x, 3.0}}) == 9); // not 27: the square is held
     CHECK(evaluate(g[1], {{x, 3.0}}) == 3);
     CHECK(evaluate(differentiate(f, x), {{x, 3.0}}) == 27);
-    CHECK_THROWS_AS(differentiate(f, sym<double>::of(123456)), taut::impl::tape_error);
+    CHECK_THROWS_AS(differentiate(f, sym<double>::of(123456)), taut::tape_error);
 }
 
 TEST_CASE_TEMPLATE("differentiate: one hundred Fibonacci steps stay one hundred nodes", T, float, double)
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<T>::variable();
     const auto f = fibonacci(x, 100);
     CHECK(t.size() <= 110);
@@ -209,8 +209,8 @@ TEST_CASE_TEMPLATE("differentiate: one hundred Fibonacci steps stay one hundred 
 
 TEST_CASE("differentiate: a chain of a hundred thousand operations does not exhaust the stack")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<double>::variable();
     sym<double> f = x;
     for (int k = 0; k < 100000; ++k) f = f * 0.5 + x;
@@ -219,8 +219,8 @@ TEST_CASE("differentiate: a chain of a hundred thousand operations does not exha
 
 TEST_CASE("differentiate: a quotient costs one division for the value and one for the gradient")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     std::vector<sym<double>> x(6);
     for (auto& s : x) s = sym<double>::variable();
     const auto det = x[0] * x[1] - x[2] * x[3];

@@ -309,5 +309,5 @@ TEST_CASE("emit: a free variable has no place in a kernel")
     taut::recording r;
     const auto y = r.out<double>("y");
     y[r.global_id()] = sym<double>::variable();
-    CHECK_THROWS_AS(r.finish("f"), taut::impl::tape_error);
+    CHECK_THROWS_AS(r.finish("f"), taut::tape_error);
 }

@@ -61,8 +61,8 @@ struct sample
 template <class T, int D>
 void check_energy(double p)
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const sample<T, D> at;
     deformed<sym<T>, D> e;
     std::vector<sym<T>> x;
@@ -99,8 +99,8 @@ TEST_CASE_TEMPLATE("energy: one template gives the host's value and its gradient
 TEST_CASE("energy: second derivatives are symmetric and agree with differences of the gradient")
 {
     constexpr int D = 3;
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const sample<double, D> at;
     deformed<sym<double>, D> e;
     std::vector<sym<double>> x;

@@ -47,8 +47,8 @@ constexpr double tolerance = std::is_same_v<T, float> ? 1e-5 : 1e-13;
 template <class T, int D>
 void check_functions()
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const traced_matrix<T, D> m;
     CHECK(near(m.value(determinant(m.traced)), determinant(m.host), tolerance<T>));
     CHECK(near(m.value(dot(m.traced[0], m.traced[1])), dot(m.host[0], m.host[1]), tolerance<T>));
@@ -95,8 +95,8 @@ TEST_CASE_TEMPLATE("glm: unmodified types and functions agree with the host's in
 TEST_CASE_TEMPLATE("glm: unmodified types and functions agree with the host's in three dimensions", T, float, double)
 {
     check_functions<T, 3>();
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const traced_matrix<T, 3> m;
     const auto normal = cross(m.traced[0], m.traced[1]);
     const auto expected = cross(m.host[0], m.host[1]);
@@ -108,8 +108,8 @@ TEST_CASE_TEMPLATE("glm: the derivative of a determinant is the cofactor matrix"
                    dimension<4>)
 {
     constexpr int D = Dim::value;
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const traced_matrix<double, D> m;
     const auto g = differentiate(determinant(m.traced), m.entries);
     const auto cofactors = determinant(m.host) * transpose(inverse(m.host));
@@ -119,8 +119,8 @@ TEST_CASE_TEMPLATE("glm: the derivative of a determinant is the cofactor matrix"
 
 TEST_CASE("glm: vectors and matrices change their precision component by component")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const traced_matrix<double, 2> m;
     const taut::mat<2, sym<float>> narrow = taut::cast<float>(m.traced);
     const sym<float> f = dot(narrow[0], narrow[1]);
@@ -131,8 +131,8 @@ TEST_CASE("glm: vectors and matrices change their precision component by compone
 
 TEST_CASE_TEMPLATE("limits: the traits are the host type's, the values are constants", T, float, double)
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     using limits = std::numeric_limits<sym<T>>;
     static_assert(limits::is_specialized && limits::is_iec559 && limits::digits == std::numeric_limits<T>::digits);
     CHECK(evaluate(limits::epsilon()) == std::numeric_limits<T>::epsilon());

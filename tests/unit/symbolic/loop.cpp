@@ -53,8 +53,8 @@ TEST_CASE("sum_over: a sparse product is a loop with its own scope")
 
 TEST_CASE("sum_over: values, also of empty and of nested loops")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto n = traced_index::variable();
     const auto a = sym<double>::variable();
     const auto squares = sum_over(1, n + 1, [&](traced_index k) { return a * taut::cast<double>(k * k); });
@@ -101,7 +101,7 @@ TEST_CASE("sum_over: a loop's value used outside of it is an error, not a wrong 
     y[0] = sum_over(0, 9, [&](traced_index k) { return leaked = x[k] * 2; });
     CHECK_NOTHROW(r.finish("f"));
     y[1] = leaked;
-    CHECK_THROWS_AS(r.finish("f"), taut::impl::tape_error);
+    CHECK_THROWS_AS(r.finish("f"), taut::tape_error);
 }
 
 TEST_CASE("sum_over: stores inside, and derivatives through it, are errors with a sentence")
@@ -115,11 +115,11 @@ TEST_CASE("sum_over: stores inside, and derivatives through it, are errors with 
                                  y[k] = 1;
                                  return x[k];
                              }),
-                    taut::impl::tape_error);
+                    taut::tape_error);
     y[0] = 2; // the failed loop is closed again
     const sym<float> a = x[0];
     const auto sum = sum_over(0, 9, [&](traced_index k) { return a * x[k]; });
-    CHECK_THROWS_WITH_AS(differentiate(sum, a), "cannot differentiate through sum_over", taut::impl::tape_error);
+    CHECK_THROWS_WITH_AS(differentiate(sum, a), "cannot differentiate through sum_over", taut::tape_error);
     const sym<float> b = x[1];
     CHECK(differentiate(sum * b, b).id() == sum.id()); // it does not depend on b
 }

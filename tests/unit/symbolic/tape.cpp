@@ -10,8 +10,8 @@ using taut::sym;
 
 TEST_CASE("tape: equal operations on equal operands are one node")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<double>::variable();
     const auto y = sym<double>::variable();
     CHECK(x.id() != y.id());
@@ -25,8 +25,8 @@ TEST_CASE("tape: equal operations on equal operands are one node")
 
 TEST_CASE("tape: constants are shared bit for bit, by type and by the sign of zero")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     CHECK(sym<double>(0.1).id() == sym<double>(0.1).id());
     CHECK(sym<double>(0.5).id() != sym<double>(0.25).id());
     CHECK(sym<double>(0.0).id() != sym<double>(-0.0).id());
@@ -36,8 +36,8 @@ TEST_CASE("tape: constants are shared bit for bit, by type and by the sign of ze
 
 TEST_CASE("tape: many nodes keep their identity while the table grows")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<double>::variable();
     std::vector<taut::impl::node_id> ids;
     for (int k = 2; k < 5000; ++k) ids.push_back((x * k).id());
@@ -50,32 +50,32 @@ TEST_CASE("tape: many nodes keep their identity while the table grows")
 
 TEST_CASE("tape: without a scope a sym says so")
 {
-    CHECK_THROWS_AS(sym<double>(1.0), taut::impl::tape_error);
+    CHECK_THROWS_AS(sym<double>(1.0), taut::tape_error);
     CHECK_THROWS_WITH_AS(sym<float>::variable(),
-                         "no tape: a sym was used outside of a recording; create a taut::impl::tape_scope first",
+                         "no tape: a sym was used outside of a recording; create a taut::tape_scope first",
                          taut::error);
 }
 
 TEST_CASE("tape: scopes nest, and the outer tape comes back")
 {
-    taut::impl::tape outer;
-    const taut::impl::tape_scope scope(outer);
+    taut::tape outer;
+    const taut::tape_scope scope(outer);
     const auto x = sym<double>::variable();
     const auto later = x * 2 + 1;
     {
-        taut::impl::tape inner;
-        const taut::impl::tape_scope nested(inner);
-        CHECK(&taut::impl::tape::current() == &inner);
-        CHECK_THROWS_AS(-later, taut::impl::tape_error); // a node that the inner tape does not have
+        taut::tape inner;
+        const taut::tape_scope nested(inner);
+        CHECK(&taut::tape::current() == &inner);
+        CHECK_THROWS_AS(-later, taut::tape_error); // a node that the inner tape does not have
     }
-    CHECK(&taut::impl::tape::current() == &outer);
+    CHECK(&taut::tape::current() == &outer);
     CHECK(taut::evaluate(x + 1.0, {{x, 2.0}}) == 3.0);
 }
 
 TEST_CASE("tape: each thread has its own current tape")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     bool threw = false;
     double value = 0;
     std::thread(
@@ -85,25 +85,25 @@ TEST_CASE("tape: each thread has its own current tape")
             {
                 static_cast<void>(sym<double>(1.0));
             }
-            catch (const taut::impl::tape_error&)
+            catch (const taut::tape_error&)
             {
                 threw = true;
             }
-            taut::impl::tape own;
-            const taut::impl::tape_scope own_scope(own);
+            taut::tape own;
+            const taut::tape_scope own_scope(own);
             const auto x = sym<double>::variable();
             value = taut::evaluate(x * x, {{x, 3.0}});
         })
         .join();
     CHECK(threw);
     CHECK(value == 9.0);
-    CHECK(&taut::impl::tape::current() == &t);
+    CHECK(&taut::tape::current() == &t);
 }
 
 TEST_CASE_TEMPLATE("sym: a value-initialised one is zero", T, float, double, taut::idx)
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     sym<T> sum{};
     CHECK(taut::evaluate(sum) == T(0));
     const auto x = sym<T>::variable();
@@ -114,9 +114,9 @@ TEST_CASE_TEMPLATE("sym: a value-initialised one is zero", T, float, double, tau
 
 TEST_CASE("sym: an integer constant outside of 32 bits is refused")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
-    CHECK_THROWS_AS(sym<taut::idx>(std::int64_t{1} << 31), taut::impl::tape_error);
+    taut::tape t;
+    const taut::tape_scope scope(t);
+    CHECK_THROWS_AS(sym<taut::idx>(std::int64_t{1} << 31), taut::tape_error);
     CHECK(taut::evaluate(sym<taut::idx>(std::size_t{7})) == 7);
     CHECK_FALSE(std::is_constructible_v<sym<taut::idx>, double>);
     CHECK_FALSE(std::is_convertible_v<sym<double>, sym<float>>);
@@ -124,8 +124,8 @@ TEST_CASE("sym: an integer constant outside of 32 bits is refused")
 
 TEST_CASE_TEMPLATE("tape: identities are applied only where they hold bit for bit", T, float, double)
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<T>::variable();
     const auto y = sym<T>::variable();
     CHECK((x * 1).id() == x.id());
@@ -148,8 +148,8 @@ TEST_CASE_TEMPLATE("tape: identities are applied only where they hold bit for bi
 
 TEST_CASE_TEMPLATE("tape: constants fold in their own precision", T, float, double)
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const T third = T(1) / T(3);
     const auto folded = sym<T>(1) / sym<T>(3) + sqrt(sym<T>(2)) * 3;
     CHECK(t[folded.id()].op == taut::impl::opcode::constant);
@@ -159,8 +159,8 @@ TEST_CASE_TEMPLATE("tape: constants fold in their own precision", T, float, doub
 
 TEST_CASE("tape: logic simplifies")
 {
-    taut::impl::tape t;
-    const taut::impl::tape_scope scope(t);
+    taut::tape t;
+    const taut::tape_scope scope(t);
     const auto x = sym<double>::variable();
     const auto y = sym<double>::variable();
     const taut::sym_bool c = x < y;

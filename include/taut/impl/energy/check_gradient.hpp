@@ -101,8 +101,8 @@ template <int D>
 gradient_check check_gradient(const any_energy& energy, int trials = 100, unsigned seed = 1)
 {
     using real = sym<double>;
-    impl::tape recorded;
-    const impl::tape_scope scope(recorded);
+    tape recorded;
+    const tape_scope scope(recorded);
     std::vector<real> unknowns;
     glm::mat<D, D, real> S;
     for (int c = 0; c < D; ++c)

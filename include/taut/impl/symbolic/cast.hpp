@@ -14,13 +14,13 @@ namespace taut
 template <impl::traceable To, impl::traceable From>
 sym<To> cast(sym<From> x)
 {
-    return sym<To>::of(impl::build(impl::tape::current(), impl::opcode::cast, impl::scalar_type_of<To>, x.id()));
+    return sym<To>::of(impl::build(tape::current(), impl::opcode::cast, impl::scalar_type_of<To>, x.id()));
 }
 
 /// A traced real number in a precision that is chosen when the kernel is recorded: f32 or f64.
 inline sym<double> cast(scalar_type to, sym<double> x)
 {
-    return sym<double>::of(impl::build(impl::tape::current(), impl::opcode::cast, to, x.id()));
+    return sym<double>::of(impl::build(tape::current(), impl::opcode::cast, to, x.id()));
 }
 
 /// The same on the host, for code that is a template on its scalar.

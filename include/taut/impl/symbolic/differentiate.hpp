@@ -26,7 +26,7 @@ std::vector<sym<X>> differentiate(sym<T> f, std::span<const sym<X>> x)
 
     std::vector<sym<X>> partials;
     partials.reserve(x.size());
-    for (const impl::node_id partial : impl::reverse_sweep(impl::tape::current(), f.id(), ids))
+    for (const impl::node_id partial : impl::reverse_sweep(tape::current(), f.id(), ids))
         partials.push_back(partial == impl::no_node ? sym<X>(X(0)) : sym<X>::of(partial));
     return partials;
 }

@@ -121,7 +121,7 @@ namespace taut
 template <impl::traceable T>
 T evaluate(sym<T> f, std::initializer_list<impl::binding> bindings = {})
 {
-    return impl::evaluator(impl::tape::current(), {bindings.begin(), bindings.size()})(std::span<const sym<T>>(&f, 1))
+    return impl::evaluator(tape::current(), {bindings.begin(), bindings.size()})(std::span<const sym<T>>(&f, 1))
         .front();
 }
 
@@ -129,12 +129,12 @@ T evaluate(sym<T> f, std::initializer_list<impl::binding> bindings = {})
 template <impl::traceable T>
 std::vector<T> evaluate(const std::vector<sym<T>>& outputs, std::span<const impl::binding> bindings)
 {
-    return impl::evaluator(impl::tape::current(), bindings)(std::span<const sym<T>>(outputs));
+    return impl::evaluator(tape::current(), bindings)(std::span<const sym<T>>(outputs));
 }
 
 inline bool evaluate(sym_bool f, std::initializer_list<impl::binding> bindings = {})
 {
-    return impl::evaluator(impl::tape::current(), {bindings.begin(), bindings.size()})(f);
+    return impl::evaluator(tape::current(), {bindings.begin(), bindings.size()})(f);
 }
 
 } // namespace taut

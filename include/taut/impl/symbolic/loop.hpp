@@ -17,16 +17,16 @@ namespace taut
 template <class F>
 auto sum_over(sym<idx> begin, sym<idx> end, F&& summand)
 {
-    impl::tape& t = impl::tape::current();
+    tape& t = tape::current();
     using result = decltype(+std::forward<F>(summand)(sym<idx>())); // a proxy becomes its value
 
     struct open_loop // closes also when the summand throws
     {
-        explicit open_loop(impl::tape& on) : t(on), index_node(on.open_loop()) {}
+        explicit open_loop(tape& on) : t(on), index_node(on.open_loop()) {}
         ~open_loop() { t.close_loop(); }
         open_loop(const open_loop&) = delete;
         open_loop& operator=(const open_loop&) = delete;
-        impl::tape& t;
+        tape& t;
         impl::node_id index_node;
     };
 

@@ -73,7 +73,7 @@ public:
     }
 
     const std::vector<impl::kernel_argument>& arguments() const noexcept { return arguments_; }
-    const impl::tape& recorded() const noexcept { return tape_; }
+    const tape& recorded() const noexcept { return tape_; }
 
     /// The kernel as recorded so far. Its form depends on the device; see kernel_form.
     impl::kernel_text finish(std::string name, impl::kernel_form form = impl::kernel_form::item,
@@ -108,8 +108,8 @@ private:
             throw parameter_error(name, "t or i and a number names a value of the kernel");
     }
 
-    impl::tape tape_;
-    impl::tape_scope scope_; // after the tape, as it must go first
+    tape tape_;
+    tape_scope scope_; // after the tape, as it must go first
     std::vector<impl::kernel_argument> arguments_;
 };
 

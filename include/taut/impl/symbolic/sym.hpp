@@ -43,7 +43,7 @@ public:
     }
 
     /// A new independent variable.
-    static sym variable() { return of(impl::tape::current().variable(impl::scalar_type_of<T>)); }
+    static sym variable() { return of(tape::current().variable(impl::scalar_type_of<T>)); }
 
     /// The number of the node on the current tape.
     impl::node_id id() const
@@ -55,16 +55,16 @@ private:
     static impl::node_id constant(T value)
     {
         if constexpr (std::same_as<T, double>)
-            return impl::tape::current().real_constant(value);
+            return tape::current().real_constant(value);
         else
-            return impl::tape::current().constant(value);
+            return tape::current().constant(value);
     }
 
     template <class A>
     static T narrow(A value)
     {
         if constexpr (std::same_as<T, idx>)
-            if (!std::in_range<idx>(value)) throw impl::tape_error("an integer constant does not fit into 32 bits");
+            if (!std::in_range<idx>(value)) throw tape_error("an integer constant does not fit into 32 bits");
         return static_cast<T>(value);
     }
 

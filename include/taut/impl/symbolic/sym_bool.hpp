@@ -16,7 +16,7 @@ public:
     sym_bool() = default;
 
     template <std::same_as<bool> B>
-    sym_bool(B value) : id_(impl::tape::current().constant(value))
+    sym_bool(B value) : id_(tape::current().constant(value))
     {
     }
 
@@ -43,18 +43,18 @@ public:
     /// !(a < b) is not a >= b: with NaN the first is true and the second is false.
     friend sym_bool operator!(sym_bool a)
     {
-        return of(impl::build(impl::tape::current(), impl::opcode::logical_not, scalar_type::boolean, a.id_));
+        return of(impl::build(tape::current(), impl::opcode::logical_not, scalar_type::boolean, a.id_));
     }
 
     /// Both sides are always computed: there is no short circuit in a recording.
     friend sym_bool operator&&(sym_bool a, sym_bool b)
     {
-        return of(impl::build(impl::tape::current(), impl::opcode::logical_and, scalar_type::boolean, a.id_, b.id_));
+        return of(impl::build(tape::current(), impl::opcode::logical_and, scalar_type::boolean, a.id_, b.id_));
     }
 
     friend sym_bool operator||(sym_bool a, sym_bool b)
     {
-        return of(impl::build(impl::tape::current(), impl::opcode::logical_or, scalar_type::boolean, a.id_, b.id_));
+        return of(impl::build(tape::current(), impl::opcode::logical_or, scalar_type::boolean, a.id_, b.id_));
     }
 
     // exact matches, for the built-in operators on bool are candidates, too

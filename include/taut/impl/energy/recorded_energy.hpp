@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/energy/element.hpp>
-#include <taut/symbolic/detail/apply.hpp>
-#include <taut/symbolic/glm.hpp>
+#include <taut/impl/energy/element.hpp>
+#include <taut/impl/symbolic/apply.hpp>
+#include <taut/impl/symbolic/glm.hpp>
 
 namespace taut
 {
@@ -59,12 +59,12 @@ public:
         root_ = value.id();
         std::vector<char> needed(static_cast<std::size_t>(root_) + 1, 0);
         needed.back() = 1;
-        for (node_id id = root_; id >= 0; --id)
+        for (impl::node_id id = root_; id >= 0; --id)
             if (needed[static_cast<std::size_t>(id)])
-                for (const node_id operand : tape_[id].operands)
-                    if (operand != no_node) needed[static_cast<std::size_t>(operand)] = 1;
+                for (const impl::node_id operand : tape_[id].operands)
+                    if (operand != impl::no_node) needed[static_cast<std::size_t>(operand)] = 1;
         order_.clear();
-        for (node_id id = 0; id <= root_; ++id)
+        for (impl::node_id id = 0; id <= root_; ++id)
             if (needed[static_cast<std::size_t>(id)]) order_.push_back(id);
     }
 
@@ -72,37 +72,37 @@ public:
     double operator()(const element<double, D>& e) const
     {
         std::vector<std::uint64_t> value(static_cast<std::size_t>(root_) + 1, 0);
-        const auto at = [&](node_id id) { return id == no_node ? 0 : value[static_cast<std::size_t>(id)]; };
+        const auto at = [&](impl::node_id id) { return id == impl::no_node ? 0 : value[static_cast<std::size_t>(id)]; };
         for_each_leaf(e,
-                      [&](node_id id, double x)
+                      [&](impl::node_id id, double x)
                       {
-                          if (id <= root_) value[static_cast<std::size_t>(id)] = detail::to_bits(x);
+                          if (id <= root_) value[static_cast<std::size_t>(id)] = impl::to_bits(x);
                       });
-        for (const node_id id : order_)
+        for (const impl::node_id id : order_)
         {
-            const node& n = tape_[id];
-            if (n.op == opcode::variable) continue;
-            if (n.op == opcode::constant)
+            const impl::node& n = tape_[id];
+            if (n.op == impl::opcode::variable) continue;
+            if (n.op == impl::opcode::constant)
                 value.at(static_cast<std::size_t>(id)) = n.payload;
             else
-                value.at(static_cast<std::size_t>(id)) = *detail::apply(n, tape_[n.operands[0]].type, at(n.operands[0]),
+                value.at(static_cast<std::size_t>(id)) = *impl::apply(n, tape_[n.operands[0]].type, at(n.operands[0]),
                                                                         at(n.operands[1]), at(n.operands[2]));
         }
-        return detail::from_bits<double>(at(root_));
+        return impl::from_bits<double>(at(root_));
     }
 
     /// The function of traced values, written to the current tape: the same operations in the same order.
     real operator()(const element<real, D>& e) const
     {
         tape& t = tape::current();
-        std::vector<node_id> place(static_cast<std::size_t>(root_) + 1, no_node);
+        std::vector<impl::node_id> place(static_cast<std::size_t>(root_) + 1, impl::no_node);
         for_each_leaf(e,
-                      [&](node_id id, const real& x)
+                      [&](impl::node_id id, const real& x)
                       {
                           if (id <= root_) place[static_cast<std::size_t>(id)] = x.id();
                       });
-        for (const node_id id : order_)
-            if (const node& n = tape_[id]; n.op != opcode::variable)
+        for (const impl::node_id id : order_)
+            if (const impl::node& n = tape_[id]; n.op != impl::opcode::variable)
                 place[static_cast<std::size_t>(id)] = copied(t, n, place);
         return real::of(place[static_cast<std::size_t>(root_)]);
     }
@@ -129,30 +129,30 @@ private:
     }
 
     /// One operation on another tape, whose real numbers may be in single precision.
-    static node_id copied(tape& t, const node& n, const std::vector<node_id>& place)
+    static impl::node_id copied(tape& t, const impl::node& n, const std::vector<impl::node_id>& place)
     {
-        if (n.op == opcode::constant)
+        if (n.op == impl::opcode::constant)
             return n.type == scalar_type::boolean ? t.constant(n.payload != 0)
-                                                  : t.real_constant(detail::from_bits<double>(n.payload));
-        const auto at = [&](node_id id) { return id == no_node ? no_node : place[static_cast<std::size_t>(id)]; };
-        node_id a = at(n.operands[0]), b = at(n.operands[1]), c = at(n.operands[2]);
+                                                  : t.real_constant(impl::from_bits<double>(n.payload));
+        const auto at = [&](impl::node_id id) { return id == impl::no_node ? impl::no_node : place[static_cast<std::size_t>(id)]; };
+        impl::node_id a = at(n.operands[0]), b = at(n.operands[1]), c = at(n.operands[2]);
         scalar_type type = n.type;
-        if (n.op == opcode::select)
-            type = detail::shared_type(t, b, c);
+        if (n.op == impl::opcode::select)
+            type = impl::shared_type(t, b, c);
         else if (t[a].type != scalar_type::boolean)
         {
-            const scalar_type real_type = b == no_node ? t[a].type : detail::shared_type(t, a, b);
+            const scalar_type real_type = b == impl::no_node ? t[a].type : impl::shared_type(t, a, b);
             if (type != scalar_type::boolean) type = real_type;
         }
-        return detail::build(t, n.op, type, a, b, c);
+        return impl::build(t, n.op, type, a, b, c);
     }
 
     tape tape_;
     glm::mat<D, D, real> S_;
     real det_, measure_;
     std::vector<real> attributes_, parameters_;
-    node_id root_ = 0;
-    std::vector<node_id> order_; ///< the operations that the value needs, operands first
+    impl::node_id root_ = 0;
+    std::vector<impl::node_id> order_; ///< the operations that the value needs, operands first
 };
 
 /// Recordings as an energy, of the plane, of space, or of both. As an any_energy it takes derivatives and becomes
