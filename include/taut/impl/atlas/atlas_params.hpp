@@ -15,7 +15,7 @@
 namespace taut
 {
 
-/// Where a run of make_atlas() is.
+/// Progress of a run of make_atlas().
 struct atlas_progress
 {
     std::string_view stage;                                  ///< "charts", "flatten", "pack" or "certify"
@@ -25,7 +25,7 @@ struct atlas_progress
     bool usable = false;                                     ///< a run that ends now has a result
 };
 
-/// How an atlas is made. Every field has a sensible default.
+/// Parameters of make_atlas(). Every field has a sensible default.
 struct atlas_params
 {
     segment_params charts = {}; ///< how far charts go, and seams that are given

@@ -14,7 +14,7 @@
 namespace taut
 {
 
-/// One chart of an atlas.
+/// Summary of one chart of an atlas.
 struct chart_summary
 {
     idx triangles = 0;
@@ -52,7 +52,7 @@ struct atlas_symmetry
 namespace taut
 {
 
-/// What one run did and what its atlas is like.
+/// Report of one run of make_atlas(): its phases and the measures of the atlas.
 struct atlas_report
 {
     bool complete = true;              ///< false: the clock or the observer ended it; the atlas is valid all the same

@@ -17,8 +17,8 @@
 namespace taut
 {
 
-/// A surface cut apart into charts: one mesh, with the triangles and the vertices of a chart in one piece, charts in
-/// the order of their first triangles, triangles and vertices of a chart in the order of the surface.
+/// Surface cut apart into charts: one mesh, with the triangles and the vertices of a chart in one piece, charts in the
+/// order of their first triangles, triangles and vertices of a chart in the order of the surface.
 struct chart_mesh
 {
     mesh<triangle> surface;
@@ -67,9 +67,9 @@ inline std::vector<idx> polygons_of(const facet_table& f, std::span<const char> 
 namespace taut
 {
 
-/// Marks the sides along which a map by corners is torn: where two triangles have other places for a common vertex, or
-/// places that are no numbers.
-/// uv: a triple for each triangle of m, whose facets `f` are. Returns one flag a side.
+/// Marks the sides along which a map by corners is discontinuous: where two triangles have different texture
+/// coordinates for a common vertex, or non-finite ones.
+/// uv: a triple for each triangle of m, whose facets `f` are. Returns one flag per side.
 inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table& f,
                                       std::span<const std::array<vec2, 3>> uv)
 {
@@ -189,8 +189,8 @@ namespace taut
 
 /// Cuts a surface apart along seams. What hangs together across other edges is a chart, and a vertex becomes one vertex
 /// for each of the fans that seams part its triangles into.
-/// m:    without crowded facets (mesh/facets.hpp), which are `f`
-/// seam: one flag a side, the same on both sides of an edge; sides without a twin need none
+/// m:    without non-manifold facets (mesh/facets.hpp), which are `f`
+/// seam: one flag per side, the same on both sides of an edge; sides without a twin need none
 inline chart_mesh cut_charts(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };

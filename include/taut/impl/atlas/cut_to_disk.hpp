@@ -248,11 +248,11 @@ private:
 namespace taut
 {
 
-/// Seams that make every component of a surface one disk: handles are cut along short loops, boundaries joined by short
-/// ways, and a closed component without handles is cut along ways between points that lie far apart, such as the tips
-/// of limbs. Seams prefer creases. For cut_charts().
+/// Computes seams that cut every component of a surface to one disk: handles are cut along short loops, boundaries
+/// joined by short ways, and a closed component without handles is cut along ways between points that lie far apart,
+/// such as the tips of limbs. Seams prefer creases. For cut_charts().
 ///
-/// m: an oriented manifold; f: its facets. Returns one flag a side. Time O(n log n).
+/// m: an oriented manifold; f: its facets. Returns one flag per side. Time O(n log n).
 inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const facet_table& f)
 {
     return impl::disk_cutting(m, f).run();

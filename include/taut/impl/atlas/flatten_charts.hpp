@@ -15,7 +15,7 @@
 namespace taut
 {
 
-/// How to flatten charts. Every field has a sensible default.
+/// Parameters of flatten_charts(). Every field has a sensible default.
 struct flatten_params
 {
     /// A chart is done when the decrease that Newton's model still predicts is below this part of its energy; 1e-12 to
@@ -45,7 +45,7 @@ struct flatten_params
     void validate() const;
 };
 
-/// What became of a chart.
+/// Outcome of flattening one chart.
 enum class chart_outcome
 {
     converged,  ///< the map is that of least energy, to the tolerance

@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// A surface as a set of charts that lie side by side in squares.
+/// Texture atlas of a surface: charts packed side by side into unit squares.
 struct atlas
 {
     chart_mesh charts; ///< the surface cut apart
@@ -36,7 +36,7 @@ struct atlas
     explicit operator bool() const { return report.reason.empty(); }
 };
 
-/// What make_atlas() asks of a surface.
+/// Requirements of make_atlas() on a surface.
 inline constexpr mesh_requirements atlas_requirements{
     .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
 

@@ -16,7 +16,7 @@
 namespace taut
 {
 
-/// How to make charts of a surface. Distortions are area means of energy::isometric, 4 at least.
+/// Parameters of segment(). Distortions are area means of energy::isometric, 4 at least.
 struct segment_params
 {
     /// Bound of a chart, above 4. Charts above it are cut further.
@@ -86,7 +86,7 @@ struct segment_report
 namespace taut
 {
 
-/// Charts of a surface, and their maps.
+/// Segmentation of a surface into charts, with their maps.
 struct segmentation
 {
     std::vector<char> seam; ///< one flag a side of the surface; some have one chart on both sides
@@ -169,7 +169,7 @@ namespace taut
 /// beside that of `flatten`.
 ///
 /// m: an oriented manifold without flat triangles; f: its facets
-/// flatten: callable with a chart_mesh, returns uv (one a vertex), and charts with `valid` and `energy` each. It may
+/// flatten: callable with a chart_mesh, returns uv (one per vertex), and charts with `valid` and `energy` each. It may
 ///    take a second argument, std::span<const vec2>, and say settled() of charts: then it need not make much effort for
 ///    charts that most often are cut anyway. Those that stay and are not settled come again with the maps so far.
 /// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).

@@ -14,7 +14,7 @@
 namespace taut
 {
 
-/// A surface that is not its own mirror image. what() says which vertices have none in the best plane.
+/// Error of a surface that is not its own mirror image. what() says which vertices have none in the best plane.
 class symmetry_error : public error
 {
 public:

@@ -17,8 +17,8 @@
 namespace taut
 {
 
-/// n numbers in the memory of a device. Move-only; n = 0 is legal. Transfers are explicit and block the host; nothing
-/// is written back by a destructor. Fresh memory is uninitialised.
+/// Array of n numbers in the memory of a device. Move-only; n = 0 is legal. Transfers are explicit and block the host;
+/// nothing is written back by a destructor. Fresh memory is uninitialised.
 template <class T>
 class buffer
 {

@@ -6,8 +6,7 @@
 namespace taut
 {
 
-/// What a queue has done since it was made: the cost model of the library is waits first, launches
-/// second.
+/// Counts of what a queue has done since its construction: host waits dominate costs, then launches.
 struct queue_counters
 {
     std::uint64_t launches = 0;      ///< kernels enqueued

@@ -22,8 +22,7 @@
 namespace taut
 {
 
-/// What a traced kernel does with an argument: a buffer that it reads, writes, or reads and writes, or a number that
-/// may change from launch to launch.
+/// Tag of a traced kernel's argument: a buffer that it reads.
 template <impl::traceable T>
 struct in
 {
@@ -292,7 +291,7 @@ private:
 namespace taut
 {
 
-/// The same with tags for its arguments. See trace().
+/// Kernel recorded from C++, with tags for its arguments. See trace().
 template <class... Tags>
 class traced_kernel
 {

@@ -56,9 +56,8 @@ private:
 namespace taut
 {
 
-/// The space of n-vectors of one type on a device: what the solvers need, on their own terms (see
-/// solve/vector_space.hpp). dot and multi_dot wait once for the host; everything else is only enqueued. Copies share
-/// one workspace and one queue.
+/// Vector space of n-vectors of one type on a device, a model of the concept solve::vector_space. dot and multi_dot
+/// wait once for the host; everything else is only enqueued. Copies share one workspace and one queue.
 class device_vectors
 {
 public:

@@ -11,7 +11,7 @@
 namespace taut
 {
 
-/// What can be wrong with constraints. The comment says what constraint_error::ids() holds.
+/// Faults of constraints. The comment says what constraint_error::ids() holds.
 enum class constraint_fault
 {
     out_of_range,  ///< numbers of vertices that the mesh does not have
@@ -27,7 +27,7 @@ enum class constraint_fault
     bad_polygon    ///< no ids: fewer than three corners, a corner that is not finite, or no length
 };
 
-/// A word for programs.
+/// Stable identifier of a fault, for programs.
 constexpr const char* to_string(constraint_fault fault)
 {
     switch (fault)
@@ -58,7 +58,8 @@ constexpr const char* to_string(constraint_fault fault)
     return "unknown";
 }
 
-/// Constraints that cannot hold, or that say the same twice. what() names the first ids and the remedy; ids() has all.
+/// Error of constraints that contradict each other or are given twice. what() names the first ids and the remedy; ids()
+/// has all.
 class constraint_error : public error
 {
 public:

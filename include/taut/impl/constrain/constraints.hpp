@@ -21,7 +21,7 @@
 namespace taut
 {
 
-/// Coordinates of a vertex that hold exactly: bit k of `held` says that coordinate k is value[k].
+/// Hard pin: coordinates of a vertex that are fixed exactly: bit k of `held` says that coordinate k is value[k].
 template <int D>
 struct hard_pin
 {
@@ -29,7 +29,7 @@ struct hard_pin
     vec<D> value{0.0};
 };
 
-/// A wish: weight * |x - target|^2 is added to what is minimised.
+/// Spring (soft constraint): weight * |x - target|^2 is added to the objective.
 template <int D>
 struct spring
 {
@@ -38,13 +38,13 @@ struct spring
     double weight;
 };
 
-/// Where vertices of a map have to be (pins, which hold bit for bit), and where they should rather be (springs).
+/// Positional constraints of a map: pins, which are met bit for bit, and springs, which are penalties.
 ///
 ///     auto pins = taut::constraints(mesh).pin(12, {0, 0}).pin_u(5, 0.3).spring(40, {0.5, 0.5}, 10.0);
 ///
 /// Positions are in units of the map; vertices count from 0. The mesh has to live as long as constraints are added, not
 /// longer. A call that throws changes nothing. All of them throw constraint_error: out_of_range, not_finite;
-/// contradictory and duplicate where a coordinate is held already.
+/// contradictory and duplicate where a coordinate is fixed already.
 template <class Element = triangle>
 class constraints
 {

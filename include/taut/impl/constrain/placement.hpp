@@ -4,7 +4,7 @@
 namespace taut
 {
 
-/// Where a map with a free boundary and no constraints comes to lie. Others lie where they are held.
+/// Placement of a map with a free boundary and no constraints, which is unique up to rigid motions only.
 enum class placement
 {
     upright,     ///< in the units of the surface, y up or x to the right, the lower left corner of its box at (0, 0)

@@ -8,7 +8,7 @@
 namespace taut
 {
 
-/// A vertex that may move along a line or in a plane through where it is, and nowhere else.
+/// Sliding constraint: a vertex that moves along a line, or in a plane, through its position.
 template <int D>
 struct slide
 {

@@ -14,7 +14,7 @@
 namespace taut
 {
 
-/// A map to be made injective while some coordinates of some vertices stay exactly where they are.
+/// Untangling problem: a map to be made injective while some coordinates of some vertices are fixed exactly.
 template <class Element>
 struct untangle_problem
 {

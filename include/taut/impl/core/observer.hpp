@@ -9,7 +9,7 @@
 namespace taut
 {
 
-/// Where a run stands.
+/// Progress of a run.
 struct progress
 {
     int iteration = 0;   ///< accepted steps so far
@@ -30,8 +30,8 @@ struct progress
     std::function<std::vector<vec3>()> positions = {};
 };
 
-/// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with
-/// the best iterate so far (solve::stop::user). It runs on the thread of the solver; an exception passes through.
+/// Callback at every iterate and after every evaluation of a line search. Returning false ends the run with the best
+/// iterate so far (solve::stop::user). It runs on the thread of the solver; an exception passes through.
 using observer = std::function<bool(const progress&)>;
 
 } // namespace taut

@@ -8,14 +8,14 @@
 namespace taut
 {
 
-/// Vertex, cell and edge numbers: 32 bits, signed, 0-based; the same type on the host and on the device.
+/// Index type of vertices, cells and edges: 32 bits, signed, 0-based; the same type on the host and on the device.
 using idx = std::int32_t;
 
-/// A column vector of D numbers.
+/// Column vector of D numbers.
 template <int D, class T = double>
 using vec = glm::vec<D, T>;
 
-/// A D by D matrix, column-major as in GLM: m[c][r].
+/// D by D matrix, column-major as in GLM: m[c][r].
 template <int D, class T = double>
 using mat = glm::mat<D, D, T>;
 

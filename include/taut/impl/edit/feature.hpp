@@ -12,8 +12,8 @@
 namespace taut
 {
 
-/// What is cut from one surface to be pasted on another: a region with its base. The base is the plane that the rim
-/// encloses best; what the region does above it is the detail.
+/// Feature cut from one surface to be pasted on another: a region with its base. The base is the plane fitted to the
+/// rim; the displacement of the region from it is the detail.
 struct feature
 {
     surface_region
@@ -31,7 +31,7 @@ struct feature
     }
 };
 
-/// Throws parameter_error for a region whose rim encloses no area: its base has no direction.
+/// Makes a feature of a region. Throws parameter_error for a region whose rim encloses no area: its base has no normal.
 inline feature make_feature(surface_region region)
 {
     feature f{.region = impl::split_chords(std::move(region))};

@@ -23,9 +23,9 @@
 namespace taut
 {
 
-/// A feature pasted on a surface. The constructor looks for the place of the rim, makes room for it, fills the gap and
-/// factors the systems of the fields that bend both sides of the seam. pose() then moves, turns and scales the feature
-/// while it stays attached, at the cost of back-substitutions and kernels.
+/// Paste of a feature on a surface. The constructor looks for the place of the rim, makes room for it, fills the gap
+/// and factors the systems of the fields that bend both sides of the seam. pose() then moves, turns and scales the
+/// feature while it stays attached, at the cost of back-substitutions and kernels.
 ///
 ///     taut::paste p(queue, target, taut::make_feature(taut::geodesic_disk(source, v, radius)), onto);
 ///     p.pose({.turn = 0.3, .softness = 0.5});

@@ -11,8 +11,8 @@
 namespace taut
 {
 
-/// How a feature is put on its place: at first as the smallest rotation takes the normal of its base to the normal of
-/// the target, half of its rim above the surface and half below.
+/// Pose of a feature on the target: by default, the smallest rotation takes the normal of its base to the normal of the
+/// target, half of its rim above the surface and half below.
 struct paste_pose
 {
     double turn = 0;     ///< about the target's normal, in radians, counter-clockwise as seen from outside

@@ -32,7 +32,7 @@ struct paste_seconds
 namespace taut
 {
 
-/// What a paste did.
+/// Report of a paste.
 struct paste_report
 {
     std::string way;           ///< how the rim was brought to the target: projected, laid, smoothed or circle
@@ -45,7 +45,7 @@ struct paste_report
     impl::paste_seconds seconds;
 };
 
-/// What a surface is like where a feature was pasted.
+/// Quality of a surface along the seam of a paste.
 struct seam_quality
 {
     idx boundary_edges = 0;    ///< of the whole surface: 0 where it is watertight
@@ -97,7 +97,7 @@ inline std::vector<std::array<idx, 2>> folded_edges(const mesh<triangle>& m, idx
 namespace taut
 {
 
-/// Looks at the result of a paste: triangles from first_gap on are of the gap, from first_feature on of the feature.
+/// Measures the result of a paste: triangles from first_gap on are of the gap, from first_feature on of the feature.
 inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx first_feature)
 {
     seam_quality q;

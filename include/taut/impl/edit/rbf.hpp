@@ -39,9 +39,9 @@ struct rbf_params
     }
 };
 
-/// Interpolation at points in space, factored once: solve() takes values and costs a back-substitution. Points in one
-/// place are merged. The polynomial is that on the affine hull of the points, so that points in a plane or on a line
-/// will do. Dense LU with pivots of the symmetric system
+/// Radial basis function interpolation at points in space, factored once: solve() takes values and costs a
+/// back-substitution. Points in one place are merged. The polynomial is that on the affine hull of the points, so that
+/// points in a plane or on a line will do. Dense LU with pivots of the symmetric system
 ///
 ///     | Phi  P | | w |   | values |
 ///     | P^T  0 | | c | = | 0      |      (paper, eq. 27, with P the polynomial at the points)

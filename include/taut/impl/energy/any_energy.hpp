@@ -16,7 +16,7 @@
 namespace taut
 {
 
-/// Any energy behind one type. An energy is traced once per problem, so the indirection costs nothing per element,
+/// Type-erased energy. An energy is traced once per problem, so the indirection costs nothing per element,
 /// and functions that take one need not be templates. Converts from every energy_function.
 ///
 /// An energy may exist for triangles, for tetrahedra or for both; calling it in a dimension that it does not have
@@ -85,7 +85,8 @@ public:
     ///     template <class T>
     ///     symmetric_matrix<T, D * D> hessian(const element<T, D>&, const eigenvalue_filter<T>&, scalar_type) const;
     ///
-    /// does, traced; nothing of others. Filtered they are to be positive semi-definite, and else what they are.
+    /// does, traced; nothing of others. With a filter the result must be positive semi-definite; without, it is the
+    /// exact Hessian.
     template <int D>
     std::optional<impl::symmetric_matrix<sym<double>, D * D>>
     hessian(const element<sym<double>, D>& e, const impl::eigenvalue_filter<sym<double>>& filter,

@@ -20,7 +20,7 @@
 namespace taut
 {
 
-/// What check_gradient found.
+/// Result of check_gradient().
 struct gradient_check
 {
     double worst = 0;    ///< largest |derivative - finite difference| / max(1, |derivative|) over all trials
@@ -92,9 +92,9 @@ bool grows_without_bound(F&& f)
 namespace taut
 {
 
-/// Holds the traced derivative of an energy against central differences of its host values on random elements of
-/// positive determinant; whether it is the same in turned frames of the rest shape; and whether a barrier is one. For
-/// energies of your own: a tape differentiates what was traced, so a disagreement means that
+/// Checks an energy on random elements of positive determinant: its traced derivative against central differences of
+/// its host values, its invariance to rotations of the rest shape's frame, and that a barrier is one. For energies of
+/// your own: a tape differentiates what was traced, so a disagreement means that
 /// the function takes other paths for numbers than for traced scalars (a cast, a table, a branch on T), or that it is
 /// not smooth.
 template <int D>

@@ -57,7 +57,7 @@ std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Elem
     return result;
 }
 
-/// Isometric distortion of every element, for pictures: 4 (triangles) or 2 (tetrahedra) where nothing is distorted.
+/// Isometric distortion of every element: 4 (triangles) or 2 (tetrahedra) where nothing is distorted.
 template <class Element>
 std::vector<double> distortion(const mesh<Element>& m, std::span<const vec<Element::dimension>> x)
 {

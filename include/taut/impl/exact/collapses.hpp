@@ -14,8 +14,8 @@
 namespace taut
 {
 
-/// Whether the corners of a triangle in space lie on a line, or are not finite: its projections on all three coordinate
-/// planes are flat. Exact.
+/// Returns whether the corners of a triangle in space are collinear or not finite: its projections on all three
+/// coordinate planes are flat. Exact.
 inline bool collapsed(const vec3& a, const vec3& b, const vec3& c)
 {
     for (const vec3& p : {a, b, c})

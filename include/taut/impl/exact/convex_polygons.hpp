@@ -17,8 +17,8 @@
 namespace taut
 {
 
-/// The convex polygons among the faces of a surface, whichever way they are cut into triangles. Whoever reads a file
-/// may cut them another way: all triangles of all of these ways are positive in a map where every corner turns left.
+/// Convex polygons among the faces of a surface. A reader of a file may triangulate them another way: all triangles of
+/// all of these ways are positive in a map where every corner turns left.
 struct convex_polygons
 {
     std::vector<std::array<idx, 3>> corners; ///< each corner between those before and after it, polygon by polygon
@@ -91,7 +91,7 @@ namespace taut
 {
 
 /// Finds the polygons of more than three corners that are convex in space.
-/// cells: triangles; polygon: a number for each, from 0, that of its polygon; points: one a vertex
+/// cells: triangles; polygon: a number for each, from 0, that of its polygon; points: one per vertex
 inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon,
                                             std::span<const vec3> points)
 {
@@ -118,7 +118,7 @@ inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> 
     return found;
 }
 
-/// The polygons that are not convex in a map, or have a straight corner there, ascending; exact.
+/// Finds the polygons that are not strictly convex in a map, ascending; exact.
 inline std::vector<idx> find_concave(const convex_polygons& polygons, std::span<const vec2> x)
 {
     const auto at = [x](idx v) { return x[static_cast<std::size_t>(v)]; };

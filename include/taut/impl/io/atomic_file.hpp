@@ -30,10 +30,9 @@ inline void remove_temporaries() noexcept {}
 namespace taut::io
 {
 
-/// A file that appears complete or not at all: it is written beside the one of that name, which it replaces in
+/// Output file that appears complete or not at all: it is written beside the one of that name, which it replaces in
 /// commit(). Without commit() nothing is left behind, and an older file stays. Permissions of the older file stay, its
-/// other hard links keep the older text, a link is followed. What is no regular file (a device, a pipe, /dev/stdout)
-/// is written directly.
+/// other hard links keep the older text, a link is followed. Devices, pipes and /dev/stdout are written directly.
 /// All members throw io_error, also where the disk is full.
 class atomic_file
 {

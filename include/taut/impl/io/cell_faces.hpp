@@ -39,7 +39,7 @@ struct cell_face
 namespace taut::io
 {
 
-/// The sides of all cells of the file's dimension, those of a cell together, and which meet.
+/// Faces of all cells of the file's dimension, in the order of the cells, and their adjacency.
 struct cell_faces
 {
     static constexpr idx boundary = -1; ///< no cell is on the other side
@@ -101,7 +101,7 @@ inline std::span<const std::array<int, 4>> face_table(cell_kind kind)
 namespace taut::io
 {
 
-/// Time O(n log(largest valence)).
+/// Computes the faces of all cells and their adjacency. Time O(n log(largest valence)).
 inline cell_faces cell_faces_of(const volume_file& file)
 {
     std::size_t n = 0;

@@ -9,7 +9,7 @@
 namespace taut::io
 {
 
-/// A surface cut open along the seams of its texture coordinates, so that each vertex has one: the vertices of the file
+/// Surface cut open along the seams of its texture coordinates, so that each vertex has one: the vertices of the file
 /// in their order, then a further one for each further sheet of a vertex on a seam. Triangles keep their order.
 struct cut_surface
 {
@@ -21,7 +21,7 @@ struct cut_surface
 };
 
 /// Cuts a surface open along the edges where the texture coordinates of neighbours disagree in value; many programs
-/// write one vt a corner. Nothing if every vertex has one texture coordinate.
+/// write one vt per corner. Nothing if every vertex has one texture coordinate.
 /// Throws texcoord_error if a corner has none.
 std::optional<cut_surface> cut_seams(const surface_file& file);
 

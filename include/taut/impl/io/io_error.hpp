@@ -42,7 +42,7 @@ inline std::string place_prefix(const std::string& path, const std::optional<fil
 namespace taut::io
 {
 
-/// A file that cannot be read, understood or written.
+/// Error of a file that cannot be read, parsed or written.
 class io_error : public error
 {
 public:

@@ -23,7 +23,7 @@
 namespace taut::io
 {
 
-/// A line of a file of pins. An infinite weight makes it hard: the coordinates in `held` (bit k: coordinate k) hold
+/// One line of a file of pins. An infinite weight makes it hard: the coordinates in `held` (bit k: coordinate k) hold
 /// exactly. A finite one makes it a spring to `target`, of which all coordinates are given.
 template <int D>
 struct pin

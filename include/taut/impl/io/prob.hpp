@@ -21,8 +21,8 @@
 namespace taut::io
 {
 
-/// An untangling problem as a file states it: every index is in range, every number finite, no cell names a vertex
-/// twice. Whether it has a solution is another matter.
+/// Untangling problem as a file states it: every index is in range, every number finite, no cell names a vertex twice.
+/// Whether it has a solution is another matter.
 template <class Element>
 struct prob_file
 {

@@ -18,7 +18,7 @@
 namespace taut::io
 {
 
-/// A vertex whose corners carry no texture coordinate, or several: a flat map of the surface cannot be read off.
+/// Error of a vertex whose corners carry no texture coordinate, or several: the file defines no map of the surface.
 class texcoord_error : public error
 {
 public:
@@ -88,7 +88,7 @@ struct file_vertices
 namespace taut::io
 {
 
-/// What a file of a surface holds. Vertices and faces are in the order of the file, unreferenced vertices included.
+/// Content of a surface file. Vertices and faces are in the order of the file, unreferenced vertices included.
 struct surface_file
 {
     mesh<triangle> surface;
@@ -138,8 +138,8 @@ struct surface_file
     }
 };
 
-/// What a file of a surface holds, as it is: triangles may name vertices that are not there, or one twice, coordinates
-/// may be no numbers, and there may be no triangle. repair_surface() makes a surface of it.
+/// Content of a surface file without validation: triangles may name vertices that do not exist, or one twice,
+/// coordinates may be non-finite, and there may be no triangle. repair_surface() makes a surface of it.
 struct surface_soup
 {
     std::vector<vec3> points;

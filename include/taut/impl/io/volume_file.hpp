@@ -18,7 +18,7 @@
 namespace taut::io
 {
 
-/// The kinds of files that volumes are read from. automatic: as the extension says, in either case.
+/// File formats of volumes. automatic: by the extension, in either case.
 enum class volume_format
 {
     automatic,
@@ -117,7 +117,7 @@ struct cell_block
     }
 };
 
-/// The vertices of what a file names together.
+/// Named group of vertices in a volume file.
 struct volume_group
 {
     std::string name;
@@ -125,8 +125,8 @@ struct volume_group
     std::vector<idx> vertices; ///< ascending, each once
 };
 
-/// Integers that a file gives its points, or its cells of all kinds in their order: references of MEDIT, tags of gmsh,
-/// arrays of VTK, attributes and markers of TetGen, markers of SU2.
+/// Integer labels of the points of a file, or of its cells of all kinds in their order: references of MEDIT, tags of
+/// gmsh, arrays of VTK, attributes and markers of TetGen, markers of SU2.
 struct volume_label
 {
     std::string name;
@@ -134,7 +134,7 @@ struct volume_label
     std::vector<long long> values;
 };
 
-/// A group that is not there, or a name that several have. what() lists those there are.
+/// Error of a group that does not exist, or of a name that several have. what() lists those that exist.
 class group_error : public error
 {
 public:
@@ -190,8 +190,8 @@ struct companion_file
 namespace taut::io
 {
 
-/// What a file of a volume mesh, or of a planar triangle mesh, says, and its bytes. Points and cells are in the order
-/// of the file, unreferenced points included.
+/// Content and bytes of a file of a volume mesh, or of a planar triangle mesh. Points and cells are in the order of the
+/// file, unreferenced points included.
 struct volume_file
 {
     std::string path;   ///< as it was given
@@ -243,11 +243,11 @@ std::string describe_turned(const volume_file& file);
 namespace taut::io
 {
 
-/// The tetrahedra at rest, cells in the order of the file. Some may be inverted: which, validate() tells.
+/// Tetrahedral mesh of the file at rest, cells in the order of the file. Some may be inverted: which, validate() tells.
 /// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty).
 mesh<tetrahedron> tetrahedra_of(const volume_file& file);
 
-/// The triangles of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
+/// Triangle mesh of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
 /// are no triangles, or the file is of dimension 3.
 mesh<triangle> triangles_of(const volume_file& file);
 
@@ -273,10 +273,11 @@ struct corner_simplices
 namespace taut::io
 {
 
-/// A simplex a corner with `dimension` edges, which these edges span: 4 a quad, 4 a pyramid (at the corners of its
-/// base), 6 a wedge, 8 a hexahedron; cells of lower dimension have none. That all are positive is necessary for a
-/// wedge, pyramid or hexahedron to be valid, not sufficient (exact/cell_validity.hpp decides it); for a quad it is
-/// both. Throws mesh_error (empty) as tetrahedra_of does; triangles: also where the file has dimension 3.
+/// Corner simplices of cells: one per corner with `dimension` edges, spanned by these edges: 4 per quad, 4 per pyramid
+/// (at the corners of its base), 6 per wedge, 8 per hexahedron; cells of lower dimension have none. That all are
+/// positive is necessary for a wedge, pyramid or hexahedron to be valid, not sufficient (exact/cell_validity.hpp
+/// decides it); for a quad it is both. Throws mesh_error (empty) as tetrahedra_of does; triangles: also where the file
+/// has dimension 3.
 ///
 /// edged: wedges and hexahedra, ascending, that have the tetrahedra at their edges, too, after those at the corners, 6
 /// and 24 (exact/cell_tetrahedra.hpp). Where all are positive a wedge is valid; of a hexahedron that is not proved, but

@@ -18,7 +18,7 @@
 namespace taut
 {
 
-/// How to deform a volume, or a mesh of the plane. Every field has a sensible default.
+/// Parameters of deform() and of sessions of volumes and planar meshes. Every field has a sensible default.
 template <class Element>
 struct deform_params
 {

@@ -11,7 +11,7 @@
 namespace taut
 {
 
-/// What a deformation came to, and on which mesh.
+/// Result of deform_refined(): the deformation, and the refined mesh.
 template <class Element>
 struct refined_deformation
 {
@@ -22,11 +22,11 @@ struct refined_deformation
     int rounds = 0;                 ///< of splits
 };
 
-/// deform(), on a mesh whose elements are split before where it is proved that its pins admit no map without inverted
-/// elements: edges inside between pinned vertices, say, where all corners of an element are pinned so that it turns
-/// over. The boundary is not split. `infeasible`: what is proved is not mended by splits inside; reason says what.
-/// Throws parameter_error for params with targets, data of elements or owners, which refined elements do not have, and
-/// as deform() does.
+/// Deforms a mesh after splitting elements where it is proved that the pins admit no map without inverted elements:
+/// inner edges between pinned vertices, say, where all corners of an element are pinned so that it is inverted. The
+/// boundary is not split. `infeasible`: what is proved is not mended by splits inside; reason says what. Throws
+/// parameter_error for params with targets, data of elements or owners, which refined elements do not have, and as
+/// deform() does.
 template <class Element>
 refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, deform_params<Element> params,
                                             const refine_params& refine = {})

@@ -15,8 +15,8 @@
 namespace taut
 {
 
-/// Shapes between two shapes of one mesh, all without inverted elements: of each element the rotation and the stretch
-/// between the two shapes are interpolated by themselves, and the shape at t is the one whose elements differ least, by
+/// Interpolation between two shapes of one mesh without inverted elements: of each element the rotation and the stretch
+/// between the two shapes are interpolated separately, and the shape at t is the one whose elements differ least, by
 /// the energy, from those that this gives. Rotations are consistent among neighbours, so that twists by a turn or more
 /// are ways of that length.
 template <class Element>

@@ -18,8 +18,8 @@
 namespace taut
 {
 
-/// What became of a map. Only `valid` comes with a certified map: no triangle is flipped, and there is no inner vertex
-/// that the map winds around other than once; in exact arithmetic.
+/// Outcome of a run. Only `valid` comes with a certified map: no triangle is flipped, and there is no inner vertex that
+/// the map winds around other than once; in exact arithmetic.
 enum class outcome
 {
     valid,          ///< the map is certified; map_report::solve says why the optimisation ended
@@ -41,7 +41,7 @@ struct map_seconds
     double overlap = 0;   ///< looking for crossings of the boundary, and minimisation without them
 };
 
-/// What became of crossings of the boundary: pairs of its edges that have a common point beyond a common end.
+/// Report on crossings of the boundary: pairs of its edges that have a common point beyond a common end.
 struct overlap_report
 {
     impl::crossing_count before; ///< of the map as it would be without parameterize_params::no_overlap
@@ -50,7 +50,7 @@ struct overlap_report
     std::size_t crossings = 0;   ///< of the map that is returned, exact: 0 in valid ones
 };
 
-/// What one run did and what its map is like.
+/// Report of one run of parameterize(): its phases, and the measures and certificate of the map.
 struct map_report
 {
     taut::outcome outcome = outcome::no_valid_start;
@@ -78,7 +78,7 @@ inline std::ostream& operator<<(std::ostream& out, const map_report& r)
                << " flipped";
 }
 
-/// A map and its report; `auto [uv, report] = parameterize(...)`.
+/// Result of parameterize(): a map and its report; `auto [uv, report] = parameterize(...)`.
 struct map_result
 {
     std::vector<vec2> uv; ///< one a vertex, in the user's order; units and place by parameterize_params::placement

@@ -18,14 +18,14 @@
 namespace taut
 {
 
-/// What becomes of the boundary during the optimisation.
+/// Treatment of the boundary during the optimisation.
 enum class boundary_mode
 {
     free, ///< it moves like everything else
     fixed ///< it stays where the start map has it
 };
 
-/// Where the first map comes from.
+/// Method of the initial map.
 enum class start_method
 {
     automatic,   ///< `initial` if there is one; else coarse for Newton's method and barycentric for the others
@@ -34,7 +34,7 @@ enum class start_method
     conformal    ///< spectral conformal, or coarse_start() where that has flips (start/conformal.hpp)
 };
 
-/// How to parameterize. Every field has a sensible default.
+/// Parameters of parameterize(). Every field has a sensible default.
 struct parameterize_params
 {
     /// What to minimise. A user's struct converts; so do sums and products of energies.

@@ -17,18 +17,18 @@
 namespace taut
 {
 
-/// A map, or a shape that deforms, that stays open: it keeps the mesh, its order and hierarchy, the tables and kernels
-/// of all levels, and the last map, so that a call of solve() costs steps of Newton's method and nothing else. Pins may
-/// come, move and go between calls; who is pinned is a mask, of which no table depends.
+/// Interactive session of a map or of a deforming shape. It keeps the mesh, its order and hierarchy, the tables and
+/// kernels of all levels, and the last map, so that a call of solve() costs steps of Newton's method and nothing else.
+/// Pins may be added, moved and removed between calls: no table depends on them.
 ///
 ///     taut::session s(queue, surface);
 ///     auto [uv, report] = s.solve();                // as parameterize()
 ///     s.pin(v, uv[v]);
 ///     while (dragging) show(s.pin(v, mouse()).solve({.time = 12ms}).x);
 ///
-/// Each map that is returned is injective and certified as those of parameterize(). Pins are not put to their places
-/// but brought there through injective maps, so a map changes as much as its pins move: it does not jump to another
-/// minimum, nor wind twice around a vertex. What the budget leaves is reported, and the next call goes on.
+/// Each map that is returned is injective and certified as those of parameterize(). Pins are brought to their targets
+/// through injective maps, so a map changes as much as its pins move: it does not jump to another minimum, nor wind
+/// twice around a vertex. What the budget leaves is reported, and the next call goes on.
 ///
 /// Not to be used from two threads at once. Objects may be moved, not copied.
 template <class Element>

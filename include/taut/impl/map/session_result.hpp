@@ -11,8 +11,8 @@
 namespace taut
 {
 
-/// How much one call of session::solve may do. What ends first ends it; one step is made in any case, if there is
-/// something to do, but by the first call, which may end with the shape that it began with.
+/// Limits of one call of session::solve. The first that is reached ends it. At least one step is made if there is
+/// something to do, except by the first call, which may return its initial shape.
 struct session_budget
 {
     /// Wall-clock limit. A step that would take longer than what is left, as the last one did, is not begun.
@@ -41,7 +41,7 @@ struct session_seconds
     double total() const { return start + constrain + follow + repair + solve + certificate; }
 };
 
-/// What one call of session::solve did, and what the map is like.
+/// Report of one call of session::solve: its steps, and the measures and certificate of the map.
 struct session_report
 {
     /// `valid`: there is a certified map. Otherwise there are no coordinates, and reason and ids are as in map_report.
@@ -63,7 +63,7 @@ struct session_report
     queue_counters counters;          ///< of this call
 };
 
-/// Positions and a report; `auto [uv, report] = s.solve(...)`.
+/// Result of session::solve: positions and a report; `auto [uv, report] = s.solve(...)`.
 template <class Element>
 struct session_result
 {

@@ -16,7 +16,7 @@
 namespace taut
 {
 
-/// How to deform a surface in space. Every field has a sensible default.
+/// Parameters of deform() and of sessions of thin shells. Every field has a sensible default.
 struct shell_params
 {
     /// Where vertices have to be, bit for bit, and where they should rather be: of thin_shell::hinges().

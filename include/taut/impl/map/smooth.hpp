@@ -19,7 +19,7 @@
 namespace taut
 {
 
-/// What the boundary of a mesh may do while it is smoothed.
+/// Treatment of the boundary of a mesh during smoothing.
 enum class smooth_boundary
 {
     fixed,   ///< nothing
@@ -27,7 +27,7 @@ enum class smooth_boundary
     free     ///< all; the shape changes
 };
 
-/// How to smooth a mesh. Every field has a sensible default.
+/// Parameters of smooth(). Every field has a sensible default.
 template <class Element>
 struct smooth_params
 {
@@ -73,7 +73,8 @@ struct smooth_params
     }
 };
 
-/// A smoothed mesh, its report, and the shapes of its elements; `auto [x, report, before, after] = smooth(...)`.
+/// Result of smooth(): positions, a report, and the qualities of the elements before and after; `auto [x, report,
+/// before, after] = smooth(...)`.
 template <class Element>
 struct smooth_result
 {
@@ -85,8 +86,8 @@ struct smooth_result
     explicit operator bool() const { return report.outcome == outcome::valid; }
 };
 
-/// Moves the vertices of a volume, or a mesh of the plane (z = 0), to where its elements are best shaped, without
-/// inverting one; what is inverted is untangled first. Connectivity stays.
+/// Moves the vertices of a volume, or a mesh of the plane (z = 0), to improve the shapes of its elements, without
+/// inverting one; inverted elements are untangled first. Connectivity is kept.
 /// Throws mesh_error, parameter_error, constraint_error for wrong ids, device_error.
 template <class Element>
 smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth_params<Element>& params = {})

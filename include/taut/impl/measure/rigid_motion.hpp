@@ -12,8 +12,7 @@
 namespace taut
 {
 
-/// A motion of the plane or of space that keeps shapes: it turns by an angle about an axis through `from`, which goes
-/// to `to`.
+/// Rigid motion of the plane or of space: a rotation by an angle about an axis through `from`, which is moved to `to`.
 template <int D>
 struct rigid_motion
 {
@@ -38,8 +37,8 @@ struct rigid_motion
     }
 };
 
-/// The rigid motion that brings points closest to their images, in the sum of squares. Points on a line leave the turn
-/// about it open: of all that are as close it is the one that turns least. The two are of one length, at least 1.
+/// Fits the rigid motion that takes points to their images in the sense of least squares. For collinear points, which
+/// leave the rotation about their line open, it is the one of smallest angle. Both have one length, at least 1.
 inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<const vec2> images)
 {
     rigid_motion<2> m;
@@ -56,8 +55,8 @@ inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<
     return m;
 }
 
-/// In space by Horn, "Closed-form solution of absolute orientation using unit quaternions" (1987): the eigenvector of
-/// the largest eigenvalue of a symmetric 4 x 4 matrix, found by squaring it again and again.
+/// Fits a rigid motion of space after Horn, "Closed-form solution of absolute orientation using unit quaternions"
+/// (1987): the eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix, found by squaring it again and again.
 inline rigid_motion<3> fit_rigid_motion(std::span<const vec3> points, std::span<const vec3> images)
 {
     rigid_motion<3> m;

@@ -13,8 +13,8 @@
 namespace taut
 {
 
-/// What a user says of single cells of a mesh, in its order: how much a cell counts, numbers that energies read, and a
-/// direction that anisotropic ones see. All parts may be left out.
+/// Data of the cells of a mesh, in its order: weights, parameters that energies read, and directions for anisotropic
+/// energies. All parts are optional.
 struct cell_data
 {
     /// One a cell, positive: a factor of its weight in the sum of energies (a painted importance).

@@ -15,8 +15,8 @@
 namespace taut
 {
 
-/// Facets (edges of triangles, faces of tetrahedra) with their two sides. Side s = corners * cell + k is the facet of
-/// `cell` opposite its corner k.
+/// Table of facets (edges of triangles, faces of tetrahedra) with their two sides. Side s = corners * cell + k is the
+/// facet of `cell` opposite its corner k.
 struct facet_table
 {
     static constexpr idx boundary = -1; ///< the side has no other side
@@ -148,7 +148,7 @@ void sort_bucket(side_key<D>* first, side_key<D>* last)
 namespace taut
 {
 
-/// Finds the two sides of every facet: a counting sort by smallest vertex, then a small sort in each bucket.
+/// Computes the facet table of a mesh: a counting sort by smallest vertex, then a small sort in each bucket.
 /// Time O(n log(largest valence)), memory O(n).
 template <class Element>
 facet_table facets(const mesh<Element>& m)

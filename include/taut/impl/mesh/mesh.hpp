@@ -19,10 +19,10 @@
 namespace taut
 {
 
-/// A mesh at rest: points in space and cells (triangles or tetrahedra) that name them. A planar mesh has z = 0.
+/// Mesh at rest: points in space and cells (triangles or tetrahedra) of vertex indices. A planar mesh has z = 0.
 /// It cannot be changed, and what it holds can always be indexed and computed with: there is at least one cell, every
-/// index is in range, no cell names a vertex twice and every coordinate is finite. What a map needs beyond that (a
-/// disk, ...) is the matter of validate().
+/// index is in range, no cell names a vertex twice and every coordinate is finite. Further requirements of a map (disk
+/// topology, ...) are checked by validate().
 template <class Element>
 class mesh
 {

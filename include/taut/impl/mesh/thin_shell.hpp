@@ -15,7 +15,7 @@
 namespace taut
 {
 
-/// The attributes of a hinge that energy::shell reads.
+/// Attributes of a hinge that energy::shell reads.
 struct shell_attributes
 {
     static constexpr std::size_t first = 0;   ///< W^-1 of triangle (0, 1, 2) in lengths of the common edge: xx, xy, yy
@@ -26,8 +26,8 @@ struct shell_attributes
     static constexpr std::size_t count = 11;
 };
 
-/// A surface in space that bends and stretches: its hinges, and what they are like at rest. Vertices are those of the
-/// surface. Sums over hinges are integrals over the surface: a triangle is shared out evenly among its hinges.
+/// Thin shell: a surface in space that bends and stretches, as its hinges and their rest shapes. Vertices are those of
+/// the surface. Sums over hinges are integrals over the surface: a triangle is shared out evenly among its hinges.
 class thin_shell
 {
 public:

@@ -15,7 +15,7 @@
 namespace taut
 {
 
-/// What becomes of the negative eigenvalues of an element's Hessian, in the space of S: before the change to corners,
+/// Treatment of the negative eigenvalues of an element's Hessian, in the space of S, before the change to corners,
 /// which keeps their sign.
 enum class definiteness
 {
@@ -24,7 +24,7 @@ enum class definiteness
     absolute    ///< without it: negative_eigenvalues::absolute
 };
 
-/// The stand-in for the Hessian.
+/// Treatment of the projected (PSD) Hessian.
 inline definiteness definite(impl::negative_eigenvalues treated)
 {
     return treated == impl::negative_eigenvalues::absolute ? definiteness::absolute : definiteness::projected;

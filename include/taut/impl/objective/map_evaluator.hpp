@@ -18,7 +18,7 @@
 namespace taut
 {
 
-/// Energy, gradient and Hessian of a map as numbers, for people with a solver of their own:
+/// Evaluator of the energy, gradient and Hessian of a map, for solvers of one's own:
 ///
 ///     f(x) = sum over cells of w_c E(S_c(x)) / sum of w_c
 ///

@@ -15,7 +15,8 @@
 namespace taut
 {
 
-/// One stage of a run: a start, a reinsertion, a minimisation, on one level. docs/reference/api.md has their names.
+/// Report of one stage of a run: a start, a reinsertion, a minimisation, on one level. docs/reference/api.md has their
+/// names.
 struct stage_report
 {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();

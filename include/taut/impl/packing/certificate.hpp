@@ -17,7 +17,7 @@
 namespace taut
 {
 
-/// What a packing is worth in the coordinates that it was asked about.
+/// Certificate of a packing: overlaps, distances and fill in the given coordinates.
 struct packing_certificate
 {
     chart_overlaps overlaps; ///< exact
@@ -123,13 +123,13 @@ inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<
 namespace taut
 {
 
-/// Certifies charts in unit squares, whoever laid them there: the square of a chart is the one of the middle of its
-/// box, so that tiles may lie side by side or in UDIM's rows of ten. Give it the coordinates as they were written:
-/// rounded to floats or decimals, and read back. O(n log n) for n edges of borders.
+/// Certifies charts in unit squares, from any packer: the square of a chart is that of the middle of its box, so that
+/// tiles may lie side by side or in UDIM's rows of ten. Pass the coordinates as written: rounded to floats or decimals,
+/// and read back. O(n log n) for n edges of borders.
 ///
 /// uv, cells, first_cell, first_vertex: as for pack()
-/// pinned: charts that others were laid around, one flag each: distances of two of them, and of one and the border, do
-/// not count; or empty
+/// pinned: charts with a given place, one flag each: distances of two of them, and of one and the border, do not count;
+/// or empty
 /// Throws packing_error.
 inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
                                            std::span<const idx> first_cell, std::span<const idx> first_vertex,

@@ -21,7 +21,7 @@
 namespace taut
 {
 
-/// Charts that cover each other.
+/// Overlaps of charts.
 struct chart_overlaps
 {
     std::size_t pairs = 0;            ///< of charts with an area in common
@@ -220,9 +220,9 @@ private:
 namespace taut
 {
 
-/// Pairs of charts that have an area in common, of any atlas: O(n log n) where few do. Charts that touch along edges or
+/// Finds pairs of charts whose images overlap, in any atlas: O(n log n) where few do. Charts that touch along edges or
 /// in points do not count, nor does a chart in the hole of another. Exact for charts that are injective; of one that is
-/// folded, what its triangles cover is taken. Ends at `most` pairs, or where there is too much to look at.
+/// folded, the union of its triangles counts. Ends at `most` pairs, or at a limit of work.
 ///
 /// uv, cells, first_cell, first_vertex: as for pack()
 /// Throws packing_error.

@@ -27,7 +27,7 @@ struct tile_wall
 namespace taut
 {
 
-/// How charts are laid side by side.
+/// Parameters of pack().
 struct pack_params
 {
     /// Texels along a side of a tile, 1 to 65536. It gives `padding` its length and nothing else.

@@ -36,16 +36,16 @@ struct repair_params
     void validate(std::size_t points, std::size_t triangles) const;
 };
 
-/// How far apart corners may be that rounding has parted: 1e-7 of the size of the surface, or eight units of the last
-/// digit that coordinates have in the file, single precision or 6 to 12 decimal digits, if these are more; 0 if there
-/// is no finite size. At most 1e-3 of the size.
+/// Default weld tolerance, for corners that rounding has separated: 1e-7 of the size of the surface, or eight units of
+/// the last digit that coordinates have in the file, single precision or 6 to 12 decimal digits, if these are more; 0
+/// if there is no finite size. At most 1e-3 of the size.
 double usual_weld_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
 
-/// How many open edges repair_surface() would sew with this tolerance. bodies: as repair_params has them
+/// Counts the open edges that repair_surface() would stitch with this tolerance. bodies: as repair_params has them
 std::size_t count_near_edges(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
                              double weld_tolerance, std::span<const idx> bodies = {});
 
-/// A surface made of raw triangles.
+/// Result of repair_surface(): a surface, and what was repaired.
 struct repaired_surface
 {
     mesh<triangle> surface;               ///< an oriented manifold of one or more parts, no triangle flat
@@ -58,13 +58,13 @@ struct repaired_surface
     std::size_t corner_origin(std::size_t c, std::size_t k) const { return turned[c] != 0 && k > 0 ? 3 - k : k; }
 };
 
-/// Makes a surface of triangles as a file has them: indices out of range, coordinates that are no numbers, repeated
-/// vertices, flat triangles, copies, cracks between equal vertices, any winding, edges with many triangles. Triangles
-/// keep their order and their places; vertices do (apart from a tolerance), and come in the order of their origins.
-/// What is wrong with a part is mended there: all else stays as it was. O(n log n), the same on any number of threads.
+/// Repairs a triangle soup to an oriented manifold surface: indices out of range, non-finite coordinates, repeated
+/// vertices, degenerate triangles, duplicates, cracks between equal vertices, any winding, non-manifold edges.
+/// Triangles keep their order and their places; vertices do (apart from a tolerance), and come in the order of their
+/// origins. Repairs are local: all else stays as it was. O(n log n), the same on any number of threads.
 ///
-/// - Two triangles at an edge of the input stay neighbours. Open edges are sewn to open ones at the same place.
-/// - Of copies the first stays: of triangles at the same place that face the same way, and of those with the same
+/// - Two triangles at an edge of the input stay neighbours. Open edges are stitched to open ones at the same place.
+/// - Of duplicates the first stays: of triangles at the same place that face the same way, and of those with the same
 ///   vertices that face either way.
 /// - Neighbours are turned to agree. A closed part whose triangles disagree ends with its normals outward, another as
 ///   the larger part of its area was. A one-sided part is cut open.

@@ -31,7 +31,7 @@ struct wolfe_params
     }
 };
 
-/// The exact part of the paper's line search.
+/// Parameters of the exact part of the paper's line search.
 struct exact_params
 {
     /// Relative tolerance of Brent's method on the step. Range (0, 1); below 1.5e-8 it means 1.5e-8.
@@ -66,8 +66,8 @@ struct exact_params
 
 enum class line_search_method : int; // solve/line/line_search.hpp has their names, and includes them
 
-/// Of the descent methods. Newton's method has a search of its own, which takes wolfe.sufficient_decrease,
-/// barrier_fraction and rounding alone (newton_search_params).
+/// Line search parameters of the descent methods. Newton's method has a search of its own, which takes
+/// wolfe.sufficient_decrease, barrier_fraction and rounding alone (newton_search_params).
 struct line_search_params
 {
     /// hybrid, the default, where values are cheaper than gradients; strong_wolfe where they come together anyway.
@@ -110,7 +110,7 @@ struct line_search_params
     }
 };
 
-/// When to stop. A tolerance of 0 switches its test off.
+/// Stopping criteria. A tolerance of 0 switches its test off.
 struct stopping_params
 {
     /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
@@ -207,7 +207,7 @@ struct descent_params
 namespace taut::solve
 {
 
-/// The factor gamma of H0 = gamma I (or gamma times the objective's own H0).
+/// Choice of the factor gamma of H0 = gamma I (or gamma times the objective's own H0).
 enum class scaling
 {
     newest, ///< s'y / y'H0 y of the newest pair (Nocedal & Wright, 7.20)
@@ -232,7 +232,7 @@ struct memory_params
     }
 };
 
-/// The limited-memory BFGS method.
+/// Parameters of the limited-memory BFGS method.
 struct lbfgs_params
 {
     memory_params memory = {};
@@ -258,7 +258,7 @@ enum class conjugacy
 namespace taut::solve
 {
 
-/// The paper's preconditioned nonlinear conjugate gradient.
+/// Parameters of the paper's preconditioned nonlinear conjugate gradient method.
 struct conjugate_gradient_params
 {
     impl::conjugacy beta = impl::conjugacy::hestenes_stiefel;
@@ -278,7 +278,7 @@ struct conjugate_gradient_params
     }
 };
 
-/// How exactly a Newton system is solved.
+/// Parameters of conjugate gradients on a Newton system.
 struct pcg_params
 {
     /// Products with the matrix, and with the preconditioner, at most. Range 1..1000. Newton's method doubles it, up to
@@ -302,7 +302,7 @@ struct pcg_params
     }
 };
 
-/// Newton's method with inexact directions.
+/// Parameters of Newton's method with inexact directions.
 struct newton_params
 {
     pcg_params pcg = {};
@@ -382,7 +382,7 @@ enum class method
     gradient_descent    ///< steepest descent, for comparison
 };
 
-/// Everything that can be set, by algorithm. Nested aggregates with defaults:
+/// Parameters of minimize(), by algorithm. Nested aggregates with defaults:
 ///
 ///     minimize(f, x, {.method = method::conjugate_gradient, .stopping = {.gradient_tolerance = 1e-8}});
 struct params

@@ -13,7 +13,7 @@
 namespace taut::solve
 {
 
-/// What preconditioned conjugate gradients found.
+/// Result of preconditioned conjugate gradients.
 struct pcg_result
 {
     int steps = 0;               ///< dimension of the space where the model was minimised
@@ -24,12 +24,12 @@ struct pcg_result
     bool negative = false; ///< a direction of negative curvature was met, and is a part of d
 };
 
-/// The minimiser d of the model g'd + d'A d / 2 over the Krylov space of M A and M g, which is what k steps of
-/// preconditioned conjugate gradients from 0 reach (Nocedal & Wright, Algorithm 5.3). The s-step form (Chronopoulos &
-/// Gear 1989): a block of s vectors is made without any inner product, then all products come in one wait, and the
-/// small system of the model is solved on the host. A block is conjugate to all before it once it is to the last. The
-/// polynomials of the block are products of M A - theta (a Newton basis: Bai, Hu, Reichel 1994), as powers of M A would
-/// soon be parallel in float; theta runs over where a good M has the spectrum of M A.
+/// Preconditioned conjugate gradients: the minimiser d of the model g'd + d'A d / 2 over the Krylov space of M A and M
+/// g, which is what k steps of preconditioned conjugate gradients from 0 reach (Nocedal & Wright, Algorithm 5.3). The
+/// s-step form (Chronopoulos & Gear 1989): a block of s vectors is made without any inner product, then all products
+/// come in one wait, and the small system of the model is solved on the host. A block is conjugate to all before it
+/// once it is to the last. The polynomials of the block are products of M A - theta (a Newton basis: Bai, Hu, Reichel
+/// 1994), as powers of M A would soon be parallel in float; theta runs over where a good M has the spectrum of M A.
 ///
 /// Where the next direction n of conjugate gradients has a negative curvature, the model has no minimiser, and falls
 /// along n for ever. d is then what was found before and as much of n as makes g'd twice what it was: how far it is to

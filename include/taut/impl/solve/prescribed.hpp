@@ -17,7 +17,7 @@
 namespace taut::solve
 {
 
-/// How prescribed coordinates are brought to their values.
+/// Parameters of incremental loading: how prescribed coordinates are brought to their values.
 struct prescribed_params
 {
     /// Of the steps of the others: the system is dominated by the neighbours of what moves, so that a small gain does
@@ -52,7 +52,7 @@ struct prescribed_params
     }
 };
 
-/// How far prescribed coordinates have come.
+/// Report of incremental loading.
 struct prescribed_report
 {
     bool arrived = false;   ///< they have their values

@@ -14,7 +14,7 @@
 namespace taut::solve
 {
 
-/// One accepted iterate; number 0 is the start.
+/// Record of one accepted iterate; number 0 is the start.
 struct history_entry
 {
     int iteration = 0;
@@ -27,7 +27,7 @@ struct history_entry
     std::uint64_t waits = 0; ///< of the host for a device, since the start of the run
 };
 
-/// What a minimisation did. Values in the history never rise by more than the rounding error of a value.
+/// Report of a minimisation. Values in the history never increase by more than the rounding error of a value.
 struct report
 {
     solve::stop stop = solve::stop::iterations;

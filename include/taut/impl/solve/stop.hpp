@@ -7,7 +7,8 @@
 namespace taut::solve
 {
 
-/// Why a minimisation ended. All of them are results, none is an exception; the best iterate is kept in each case.
+/// Reasons for which a minimisation ends. All of them are results, none is an exception; the best iterate is kept in
+/// each case.
 enum class stop
 {
     gradient,        ///< the relative gradient fell below its tolerance: converged

@@ -15,7 +15,7 @@
 namespace taut::solve
 {
 
-/// An accepted step as the stopping tests see it.
+/// Record of an accepted step, for the stopping tests.
 struct step_record
 {
     int iteration = 0;       ///< 1 for the first step

@@ -13,7 +13,7 @@ enum class boundary_shape
     square
 };
 
-/// How boundary vertices are spread: all gaps alike, as the boundary edges' lengths, or as the roots of the lengths.
+/// Spacing of boundary vertices: uniform, by the boundary edges' lengths, or by the square roots of the lengths.
 enum class boundary_spacing
 {
     uniform,
@@ -21,7 +21,7 @@ enum class boundary_spacing
     centripetal
 };
 
-/// The fixed boundary of a barycentric map.
+/// Parameters of the fixed boundary of a barycentric map.
 struct boundary_params
 {
     boundary_shape shape = boundary_shape::circle;
@@ -39,7 +39,7 @@ enum class barycentric_weights
     mean_value
 };
 
-/// How to lay a surface on a convex polygon.
+/// Parameters of a barycentric map onto a convex polygon.
 struct barycentric_params
 {
     boundary_params boundary = {};

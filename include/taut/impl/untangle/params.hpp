@@ -12,7 +12,7 @@
 namespace taut
 {
 
-/// How to untangle. Every field has a sensible default.
+/// Parameters of untangle(). Every field has a sensible default.
 struct untangle_params
 {
     /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned. Range >= 0.

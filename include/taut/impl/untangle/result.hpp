@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// What became of an untangling problem.
+/// Outcome of untangling.
 enum class untangle_outcome
 {
     injective,  ///< no element is inverted and there is no branch point, in exact arithmetic
@@ -57,7 +57,7 @@ struct untangle_stage_report : stage_report
 namespace taut
 {
 
-/// The outcome, the best map and how it came about.
+/// Result of untangle(): the outcome, the best map and its stages.
 template <class Element>
 struct untangle_result
 {

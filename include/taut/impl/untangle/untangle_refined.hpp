@@ -21,7 +21,7 @@
 namespace taut
 {
 
-/// How much a mesh may be refined. Every field has a sensible default.
+/// Limits of the refinement of a mesh. Every field has a sensible default.
 struct refine_params
 {
     /// So often at most elements are split and the problem is looked at again. Range >= 0.
@@ -59,7 +59,7 @@ struct refined_problem
 namespace taut
 {
 
-/// What untangling came to, and on which mesh.
+/// Result of untangle_refined(): the untangling, and the refined mesh.
 template <class Element>
 struct refined_untangling
 {
@@ -224,12 +224,12 @@ void untangle_around(const queue& q, untangle_problem<Element> p, untangle_param
 namespace taut
 {
 
-/// untangle(), and where it is proved that no map is injective, or none was found, elements are split and it is tried
-/// again: the edges inside between held vertices of what the proofs name, else of or around the elements left inverted
-/// (proofs/mending_splits.hpp), where it is untangled then. Held vertices stay where they are, the boundary is not
-/// split, and the certificate is of all elements of the refined mesh. Tries but the last, which is of the whole mesh,
-/// are short ones, in space by the operator and one round of Newton's steps. `infeasible`: what is proved is not mended
-/// by splits inside the mesh; reason says what.
+/// Untangles a map with refinement: where it is proved that no map is injective, or none was found, elements are split
+/// and it is tried again. Split are the inner edges between fixed vertices that the proofs name, else those of or
+/// around the elements left inverted (proofs/mending_splits.hpp). Fixed vertices keep their positions, the boundary is
+/// not split, and the certificate is of all elements of the refined mesh. Tries but the last, which is of the whole
+/// mesh, are short ones, in space by the operator and one round of Newton's steps. `infeasible`: the proof holds for
+/// all splits inside the mesh; reason says what.
 /// Throws parameter_error as untangle() and refine_problem() do, device_error.
 template <class Element>
 refined_untangling<Element> untangle_refined(const queue& q, const untangle_problem<Element>& problem,

@@ -36,15 +36,15 @@ struct search_result
 namespace taut::solve
 {
 
-/// phi of a line search. Values outside the domain are +inf, never NaN, and so is every value once interrupted() is
-/// true: searches then run dry and their caller asks why.
+/// Line function phi of a line search. Values outside the domain are +inf, never NaN, and so is every value once
+/// interrupted() is true: searches then run dry and their caller asks why.
 ///
 /// | call                       | meaning                                                                         |
 /// |----------------------------|---------------------------------------------------------------------------------|
 /// | `start()`                  | phi(0) and phi'(0) < 0                                                          |
 /// | `bound()`                  | the longest step allowed, inf without a barrier                                 |
 /// | `noise()`                  | the rounding error of a value                                                   |
-/// | `ceiling()`                | the highest value that is no rise: the lowest so far, plus noise                 |
+/// | `ceiling()`                | the highest value that is no increase: the lowest, plus noise                 |
 /// | `batch()`                  | how many values cost as much as one; 1 if they are computed one by one          |
 /// | `value(a)`, `values(a, v)` | phi at one step, at several                                                     |
 /// | `value_gradient(a)`        | phi(a), and keeps the gradient there                                            |

@@ -10,7 +10,7 @@
 namespace taut
 {
 
-/// Why pins admit no map of positive elements. The comment says what the ids of a finding are.
+/// Kinds of proof that pins admit no map of positive elements. The comment says what the ids of a finding are.
 enum class infeasibility_kind
 {
     inverted_element, ///< elements with all vertices pinned, of negative or no measure
@@ -28,7 +28,7 @@ enum class infeasibility_kind
     not_globally_injective
 };
 
-/// A word for programs.
+/// Stable identifier of a kind, for programs.
 constexpr const char* to_string(infeasibility_kind kind)
 {
     switch (kind)
@@ -77,7 +77,7 @@ struct infeasibility_finding
 namespace taut
 {
 
-/// What can be said about pins before anything is solved.
+/// Proof that pins are infeasible, found before anything is solved.
 struct infeasibility
 {
     std::vector<impl::infeasibility_finding> proofs;   ///< each is enough: no map is locally injective
