@@ -82,6 +82,8 @@ def name_of(head):
     if "->" in flat and "auto" not in flat:
         return None  # a deduction guide
     called = re.search(r"\b(?!requires\b|noexcept\b|decltype\b|template\b)(\w+)\s*\(", flat)
+    if called and flat[:called.start()].endswith("::"):
+        return None  # a member, defined out of its class
     words = [called.group(1)] if called else re.findall(r"[\w:]+", before.split("=")[0])
     if not words or "::" in words[-1]:
         return None

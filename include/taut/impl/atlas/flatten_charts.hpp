@@ -90,6 +90,7 @@ struct flatten_seconds
 namespace taut
 {
 
+/// Result of flatten_charts(): one map for all charts, and a report for each.
 struct flattened_charts
 {
     std::vector<vec2> uv; ///< one a vertex of charts.surface, in units of the surface; (0, 0) where there is no map

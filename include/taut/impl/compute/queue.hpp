@@ -38,6 +38,7 @@ class typed_kernel;
 namespace taut
 {
 
+/// Options of a queue.
 struct queue_options
 {
     bool profiling = false; ///< event::seconds() works; costs a little at each launch

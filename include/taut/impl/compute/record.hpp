@@ -27,14 +27,17 @@ template <impl::traceable T>
 struct in
 {
 };
+/// Tag of a traced kernel's argument: a buffer that it writes.
 template <impl::traceable T>
 struct out
 {
 };
+/// Tag of a traced kernel's argument: a buffer that it reads and writes.
 template <impl::traceable T>
 struct inout
 {
 };
+/// Tag of a traced kernel's argument: a number that may change from launch to launch.
 template <impl::traceable T>
 struct uniform
 {

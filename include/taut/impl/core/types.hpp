@@ -19,9 +19,16 @@ using vec = glm::vec<D, T>;
 template <int D, class T = double>
 using mat = glm::mat<D, D, T>;
 
+/// Point or vector of the plane.
 using vec2 = vec<2>;
+
+/// Point or vector of space.
 using vec3 = vec<3>;
+
+/// 2 by 2 matrix.
 using mat2 = mat<2>;
+
+/// 3 by 3 matrix.
 using mat3 = mat<3>;
 
 } // namespace taut

@@ -32,6 +32,7 @@ struct paste_pose
     }
 };
 
+/// Parameters of a paste. Every field has a sensible default.
 struct paste_params
 {
     paste_pose pose = {}; ///< where the feature is at first

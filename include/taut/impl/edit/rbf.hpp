@@ -24,6 +24,7 @@
 namespace taut
 {
 
+/// Parameters of an rbf interpolation. Every field has a sensible default.
 struct rbf_params
 {
     rbf_basis basis = rbf_basis::cubic;

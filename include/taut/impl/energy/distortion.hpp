@@ -42,7 +42,7 @@ double bounded(const Energy& energy, const element<double, D>& e)
 namespace taut
 {
 
-/// An energy's value for every element, as bounded() has it.
+/// Value of an energy for every element, as bounded() has it.
 template <class Element, class Energy>
 std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Element>& ideal,
                                std::span<const vec<Element::dimension>> x, const Energy& energy)
@@ -64,7 +64,7 @@ std::vector<double> distortion(const mesh<Element>& m, std::span<const vec<Eleme
     return distortion(m, ideal_elements<Element>(m), x, energy::isometric{});
 }
 
-/// The two means of a value per element.
+/// Means of a value over elements, unweighted and weighted by the rest measure.
 struct means
 {
     double uniform = 0; ///< every element counts 1, as in the paper
@@ -88,6 +88,7 @@ struct means
     }
 };
 
+/// Computes both means of values, one value and one measure per element.
 inline means mean(std::span<const double> value, std::span<const double> measure)
 {
     means sums;

@@ -193,6 +193,8 @@ std::vector<pin<D>> parse_pins(std::string_view text, const std::string& path = 
 namespace taut::io
 {
 
+/// Reads a file of pins and springs. vertices: their number in the mesh. Throws io_error with the line: unreadable,
+/// malformed, or a vertex out of range.
 template <int D>
 std::vector<pin<D>> read_pins(const std::filesystem::path& path, idx vertices = std::numeric_limits<idx>::max())
 {

@@ -221,6 +221,7 @@ prob_file<Element> parse_prob(std::string_view text, const std::string& path = "
 namespace taut::io
 {
 
+/// Reads an untangling problem. Throws io_error with the line: unreadable or malformed.
 template <class Element>
 prob_file<Element> read_prob(const std::filesystem::path& path)
 {

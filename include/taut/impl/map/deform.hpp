@@ -37,8 +37,8 @@ namespace taut
 /// first.
 ///
 /// The outcome is gave_up or infeasible, as in a map_report, where no certified shape was found, or pins could not be
-/// brought to their targets; then the injective shape nearest to them is returned, with pins_held false. It is stopped
-/// where the limits ended the run before the pins reached their targets.
+/// brought to their targets; in the latter case the injective shape with the pins as far as they came is returned,
+/// pins_held false. It is stopped where the limits ended the run before the pins reached their targets.
 /// Throws mesh_error, parameter_error, constraint_error, device_error.
 template <class Element>
 session_result<Element> deform(queue& q, const mesh<Element>& m, const deform_params<Element>& params)

@@ -12,6 +12,7 @@
 namespace taut
 {
 
+/// Parameters of repair_surface(). Every field has a sensible default.
 struct repair_params
 {
     /// Ends of open edges at most so far apart are one place, which is that of the first of them; in units of the

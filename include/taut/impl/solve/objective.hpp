@@ -14,6 +14,7 @@ namespace taut::solve
 template <class O>
 using space_of = std::remove_reference_t<decltype(std::declval<O&>().space())>;
 
+/// Vector type of an objective, for gradients and directions.
 template <class O>
 using vector_of = typename space_of<O>::vector;
 

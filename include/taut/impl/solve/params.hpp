@@ -214,6 +214,7 @@ enum class scaling
     largest ///< the larger of those of the oldest and the newest pair: the paper's [24] as its authors use it
 };
 
+/// Parameters of the limited memory of L-BFGS and of the preconditioned conjugate gradient method.
 struct memory_params
 {
     /// m: pairs (s, y) kept. Range 0..64; 0 leaves H0. 5 to 20 are usual: more memory, fewer iterations.
@@ -373,6 +374,7 @@ struct newton_common_params
 namespace taut::solve
 {
 
+/// Minimisation methods.
 enum class method
 {
     automatic,          ///< newton where the objective has a Hessian, else lbfgs

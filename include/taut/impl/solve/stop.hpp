@@ -41,6 +41,7 @@ constexpr bool converged(stop reason) noexcept
 namespace taut::solve
 {
 
+/// Stable name of a reason, for programs.
 constexpr std::string_view to_string(stop reason) noexcept
 {
     switch (reason)

@@ -67,18 +67,21 @@ glm::mat<C, R, sym<T>, Q> operator/(const glm::mat<C, R, sym<T>, Q>& m, A a)
     return m / sym<T>(a);
 }
 
+/// Square root of each component of a traced vector.
 template <glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<T>, Q> sqrt(const glm::vec<L, sym<T>, Q>& v)
 {
     return impl::map(v, [](sym<T> x) { return sqrt(x); });
 }
 
+/// Absolute value of each component of a traced vector.
 template <glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<T>, Q> abs(const glm::vec<L, sym<T>, Q>& v)
 {
     return impl::map(v, [](sym<T> x) { return abs(x); });
 }
 
+/// Componentwise minimum of two traced vectors.
 template <glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<T>, Q> min(const glm::vec<L, sym<T>, Q>& v, const glm::vec<L, sym<T>, Q>& w)
 {
@@ -87,6 +90,7 @@ glm::vec<L, sym<T>, Q> min(const glm::vec<L, sym<T>, Q>& v, const glm::vec<L, sy
     return result;
 }
 
+/// Componentwise maximum of two traced vectors.
 template <glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<T>, Q> max(const glm::vec<L, sym<T>, Q>& v, const glm::vec<L, sym<T>, Q>& w)
 {

@@ -21,6 +21,7 @@ enum class untangle_outcome
     gave_up     ///< none was found, and none is known not to exist
 };
 
+/// Stable name of an outcome, for programs.
 constexpr std::string_view to_string(untangle_outcome outcome) noexcept
 {
     switch (outcome)
