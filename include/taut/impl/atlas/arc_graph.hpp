@@ -82,10 +82,10 @@ public:
     bool alive(idx h) const { return next_[u(h)] >= 0; }
     idx arc(idx h) const { return std::min(h, twin_[u(h)]); } ///< one number for both directions
 
-    /// Whether h ends freely inside its polygon, and is not all that bounds it.
+    /// Returns whether h ends freely inside its polygon, and is not all that bounds it.
     bool dangles(idx h) const { return next_[u(h)] == twin_[u(h)] && prev_[u(h)] != twin_[u(h)]; }
 
-    /// Whether the polygons beside h differ and have further sides, so that they may become one.
+    /// Returns whether the polygons beside h differ and have further sides, so that they may become one.
     bool parts(idx h)
     {
         const idx t = twin_[u(h)];
@@ -102,7 +102,7 @@ public:
         return slit && next_[u(x)] == twin_[u(x)] && next_[u(twin_[u(x)])] == (dangles(h) ? h : t) ? arc(x) : -1;
     }
 
-    /// Whether two arcs meet at the start of h, and nothing else.
+    /// Returns whether two arcs meet at the start of h, and nothing else.
     bool passes(idx h) const { return degree(start(h)) == 2 && arc(prev_[u(h)]) != arc(h); }
 
     /// Removes an arc that parts two polygons, or that dangles. Returns the half arcs that now start where it started

@@ -250,14 +250,14 @@ private:
         return (cost + without(h).strain()) / arcs_[u(h)].worth;
     }
 
-    /// Whether all that would bound the piece is a slit of one edge, which opens nothing.
+    /// Returns whether all that would bound the piece is a slit of one edge, which opens nothing.
     bool leaves_one_edge(idx h) const
     {
         const idx last = graph_.last_without(h);
         return last >= 0 && arcs_[u(last)].first == arcs_[u(last)].last;
     }
 
-    /// Whether two pieces, by their polygons, have triangles that are to be apart.
+    /// Returns whether two pieces, by their polygons, have triangles that are to be apart.
     bool are_rivals(idx p, idx q)
     {
         if (rivals_.empty()) return false;

@@ -110,7 +110,7 @@ private:
         energy_.push_back(sum / area);
     }
 
-    /// Whether the border of the last patch, which is a disk, meets itself.
+    /// Returns whether the border of the last patch, which is a disk, meets itself.
     bool overlaps()
     {
         const auto id = static_cast<idx>(energy_.size()) - 1;
@@ -139,8 +139,8 @@ private:
         return t >= 0 && regions_[u(t) / 3] == own_ && (keep_.empty() || !keep_[u(side)]);
     }
 
-    /// Whether the patch remains a disk with the triangle behind a side: it meets it in that edge and nothing else, or
-    /// in edges that meet.
+    /// Returns whether the patch remains a disk with the triangle behind a side: it meets it in that edge and nothing
+    /// else, or in edges that meet.
     bool stays_disk(idx side, idx id) const
     {
         const idx c = side / 3;

@@ -353,7 +353,7 @@ private:
         return !tried.empty() && try_pairs(arcs, tried, room, what);
     }
 
-    /// Whether a chart is a disk, or one with holes: by Euler, V - E + F = 2 - loops.
+    /// Returns whether a chart is a disk, or one with holes: by Euler, V - E + F = 2 - loops.
     static std::vector<char> planar(const chart_mesh& charts)
     {
         std::vector<idx> twice(u(charts.charts()), 0), loops(twice.size(), 0); // twice V - E + F

@@ -57,7 +57,7 @@ public:
         const auto found = entries_.find(options + '\0' + source);
         return found == entries_.end() ? nullptr : found->second.whole;
     }
-    /// Whether that kernel of it is.
+    /// Returns whether that kernel of it is.
     build_under_way under_way(const std::string& source, const std::string& options, const std::string& name) const
     {
         const auto found = entries_.find(options + '\0' + source);

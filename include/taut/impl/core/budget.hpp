@@ -34,7 +34,8 @@ public:
     bool in_time() const { return total() < limit_.count(); }
     seconds left() const { return std::max(limit_ - seconds(total()), seconds(0)); }
 
-    /// Whether a run that ends from now on has a result, as it mostly has. The observer is told at the next question.
+    /// Returns whether a run that ends from now on has a result, as it mostly has. The observer is told at the next
+    /// question.
     void has_result(bool usable) { usable_ = usable; }
 
     /// Asks the observer alone, where others keep the time: go on?

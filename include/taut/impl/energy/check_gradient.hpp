@@ -78,8 +78,8 @@ mat<D> random_rotation(Random& random)
     return R;
 }
 
-/// Whether a function of t grows without bound as t falls to 0, as far as three numbers tell: a bounded one has gained
-/// nearly all there is by the second.
+/// Returns whether a function of t grows without bound as t falls to 0, as far as three numbers tell: a bounded one has
+/// gained nearly all there is by the second.
 template <class F>
 bool grows_without_bound(F&& f)
 {

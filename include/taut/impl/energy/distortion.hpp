@@ -42,7 +42,7 @@ double bounded(const Energy& energy, const element<double, D>& e)
 namespace taut
 {
 
-/// Value of an energy for every element, as bounded() has it.
+/// Value of an energy for every element; +infinity beyond its barrier.
 template <class Element, class Energy>
 std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Element>& ideal,
                                std::span<const vec<Element::dimension>> x, const Energy& energy)

@@ -162,7 +162,7 @@ inline jacobian_polynomial pyramid_jacobian(std::span<const vec3> x)
     return p;
 }
 
-/// Whether a simplex at a corner of the cell is not positive, by exact signs.
+/// Returns whether a simplex at a corner of the cell is not positive, by exact signs.
 inline bool has_bad_corner(std::span<const vec3> x)
 {
     const auto all = corner_tetrahedra(x.size());

@@ -66,7 +66,8 @@ inline std::span<const idx> outline_of(std::span<const std::array<idx, 3>> cells
     return loop;
 }
 
-/// Whether an outline in space is convex, as it is seen along its normal; almost straight corners do not count as that.
+/// Returns whether an outline in space is convex, as it is seen along its normal; almost straight corners do not count
+/// as that.
 inline bool is_convex(std::span<const idx> loop, std::span<const vec3> points)
 {
     constexpr double straight = 1e-6; // sine of the angle

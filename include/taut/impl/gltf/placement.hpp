@@ -34,7 +34,7 @@ struct gltf_placement
     }
 };
 
-/// Whether three points lie on a line or in one point, in exact arithmetic.
+/// Returns whether three points lie on a line or in one point, in exact arithmetic.
 inline bool collinear(const vec3& a, const vec3& b, const vec3& c)
 {
     for (int i = 0; i < 3; ++i)

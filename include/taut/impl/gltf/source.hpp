@@ -139,7 +139,7 @@ private:
     std::size_t left_;
 };
 
-/// Whether brackets are nested deeper than in any glTF.
+/// Returns whether brackets are nested deeper than in any glTF.
 inline bool is_deep(std::string_view text)
 {
     constexpr int deepest = 256; // a document is walked through recursively

@@ -207,7 +207,7 @@ private:
         return worst;
     }
 
-    /// Whether no face of the boundary turns much.
+    /// Returns whether no face of the boundary turns much.
     bool faces_stay(idx v, idx u, double least) const
     {
         return std::all_of(rim_.begin(), rim_.end(),

@@ -66,8 +66,8 @@ private:
 namespace taut::io::impl
 {
 
-/// Whether what is written to a path goes there at once: a device, a pipe, an open file such as /dev/stdout. Throws
-/// io_error for a folder.
+/// Returns whether what is written to a path goes there at once: a device, a pipe, an open file such as /dev/stdout.
+/// Throws io_error for a folder.
 inline bool is_stream(const std::filesystem::path& path)
 {
     return impl::resolve_target(path).stream;

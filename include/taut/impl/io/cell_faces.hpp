@@ -48,7 +48,7 @@ struct cell_faces
     std::vector<impl::cell_face> faces;
     std::vector<idx> twin; ///< the other side of each, or boundary, or crowded
 
-    /// Whether a side goes around as its twin does: one of the two cells has its corners in the other order.
+    /// Returns whether a side goes around as its twin does: one of the two cells has its corners in the other order.
     bool clashes(std::size_t side) const
     {
         if (twin[side] < 0) return false;

@@ -73,7 +73,7 @@ public:
         return true;
     }
 
-    /// Whether the faces name only what there is.
+    /// Returns whether the faces name only what there is.
     bool in_range() const
     {
         const auto within = [](const largest& most, std::size_t count)

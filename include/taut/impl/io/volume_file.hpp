@@ -174,7 +174,7 @@ struct coordinate_places
     std::vector<std::size_t> offsets;        ///< the first byte of each, one point after the other, ascending
     std::optional<coded_coordinates> coded;  ///< then there are no offsets
 
-    /// Whether coordinates are rounded when they are written. A text holds all digits, which readers may round.
+    /// Returns whether coordinates are rounded when they are written. A text holds all digits, which readers may round.
     bool rounds() const { return single && !text; }
 };
 

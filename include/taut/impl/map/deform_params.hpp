@@ -27,7 +27,7 @@ struct deform_params
     /// What to minimise. A user's struct converts; so do sums and products of energies.
     any_energy energy = impl::default_energy();
 
-    /// Whether elements count by rest measure, as is usual, or all the same.
+    /// True if elements count by rest measure, as is usual, or all the same.
     energy::weighting weights = energy::weighting::measure;
 
     /// What energies see of single elements beside their shape, in the order of the mesh.

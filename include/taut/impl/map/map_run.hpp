@@ -65,7 +65,7 @@ struct map_run
         return made;
     }
 
-    /// Whether nothing holds the map.
+    /// Returns whether nothing holds the map.
     bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
 
     /// Without iterations the start is returned as it is.
@@ -79,7 +79,8 @@ struct map_run
         return levels ? precision::mixed : precision::fp64;
     }
 
-    /// Whether a start that is not given is made on coarser levels: of nothing that is held, as part of an attempt.
+    /// Returns whether a start that is not given is made on coarser levels: of nothing that is held, as part of an
+    /// attempt.
     bool starts_coarse() const { return may_start_coarse() && !held.constrained(); }
 
     /// The same where pins are to be drawn to their places there.

@@ -40,7 +40,7 @@ struct parameterize_params
     /// What to minimise. A user's struct converts; so do sums and products of energies.
     any_energy energy = impl::default_energy();
 
-    /// Whether elements count by rest area, as is usual, or all the same, as in the paper.
+    /// True if elements count by rest area, as is usual, or all the same, as in the paper.
     energy::weighting weights = energy::weighting::measure;
 
     /// What energies see of single triangles beside their shape, in the order of the mesh: weights, attributes,
@@ -68,17 +68,17 @@ struct parameterize_params
     /// Where the map comes to lie if nothing holds it: a free boundary without pins and springs.
     taut::placement placement = placement::upright;
 
-    /// Whether a surface with holes (more than one boundary loop) is taken. Its map is locally injective.
+    /// True if a surface with holes (more than one boundary loop) is taken. Its map is locally injective.
     bool holes = false;
 
-    /// Whether the boundary of the map must not cross or touch itself, so that no two triangles overlap. Where it
+    /// True if the boundary of the map must not cross or touch itself, so that no two triangles overlap. Where it
     /// would, the energy is minimised once more, through maps in which it does not (docs/howto/overlap.md); others stay
     /// as they are.
     bool no_overlap = false;
 
     taut::precision precision = precision::automatic;
 
-    /// Whether lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.
+    /// True if lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.
     /// Newton's method always is.
     bool multigrid = false;
 
@@ -118,7 +118,7 @@ struct parameterize_params
         if (solve.method == solve::method::automatic) solve.require_newton_search();
     }
 
-    /// Whether the method works on a hierarchy of levels.
+    /// Returns whether the method works on a hierarchy of levels.
     bool uses_levels() const
     {
         return multigrid || solve.method == solve::method::automatic || solve.method == solve::method::newton;

@@ -67,7 +67,8 @@ std::vector<idx> clashing_cells(const mesh<Element>& m, const facet_table& f)
     return ids;
 }
 
-/// Whether turning cells over can make all neighbours agree: two-colours (as it is, turned over) the graph of cells.
+/// Returns whether turning cells over can make all neighbours agree: two-colours (as it is, turned over) the graph of
+/// cells.
 inline bool orientable(const facet_table& f, idx corners)
 {
     if (f.clash.empty()) return true;

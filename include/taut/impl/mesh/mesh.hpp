@@ -86,7 +86,7 @@ private:
         return !twice;
     }
 
-    /// Whether a vertex or a cell cannot be computed with; which ones is found out where there are any.
+    /// Returns whether a vertex or a cell cannot be computed with; which ones is found out where there are any.
     bool any_fault() const
     {
         const auto n = static_cast<std::uint32_t>(vertex_count());

@@ -138,7 +138,7 @@ private:
 
         std::size_t first_cell() const { return first_cell_; }
         bool done() const { return done_; }
-        /// Whether its next step is to be along the Hessian itself.
+        /// Returns whether its next step is to be along the Hessian itself.
         bool exact() const { return !done_ && pause_ <= 0; }
         const std::vector<vec<D>>& x() const { return x_; }
         /// The longest step to be tried, as a vector a vertex; 0 where it is done.

@@ -165,7 +165,7 @@ private:
         return {uv_[u(c[0])], uv_[u(c[1])], uv_[u(c[2])]};
     }
 
-    /// Whether an edge begins in the smallest vertex of a connected part of a border, as one of each part does.
+    /// Returns whether an edge begins in the smallest vertex of a connected part of a border, as one of each part does.
     bool begins_part(std::size_t edge)
     {
         if (begins_part_.empty())

@@ -91,7 +91,7 @@ public:
         return {};
     }
 
-    /// Whether values() takes one pass for all.
+    /// True if values() takes one pass for all.
     static constexpr bool batches =
         requires(O & f, const point& x, const vector& d, std::span<const double> a, std::span<double> out)
     {
@@ -139,21 +139,21 @@ public:
         return std::nullopt;
     }
 
-    /// Whether there is anything to eliminate() with.
+    /// True if there is anything to eliminate() with.
     static constexpr bool eliminates =
         requires(O & f, point& x, const vector& unexpected, const std::function<bool()>& proceed)
     {
         f.eliminate(x, unexpected, proceed);
     };
 
-    /// Whether x was moved.
+    /// Returns whether x was moved.
     bool relax(point& x)
     {
         if constexpr (requires { f_.relax(x); }) return f_.relax(x);
         return false;
     }
 
-    /// Whether x was moved.
+    /// Returns whether x was moved.
     bool eliminate(point& x, const vector& unexpected, const std::function<bool()>& proceed)
     {
         if constexpr (eliminates) return f_.eliminate(x, unexpected, proceed);

@@ -29,7 +29,7 @@ enum class stop
 namespace taut::solve::impl
 {
 
-/// Whether a run ended near a minimum rather than by a limit, a failure or a request.
+/// Returns whether a run ended near a minimum rather than by a limit, a failure or a request.
 constexpr bool converged(stop reason) noexcept
 {
     return reason == stop::gradient || reason == stop::decrement || reason == stop::settled ||

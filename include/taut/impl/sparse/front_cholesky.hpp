@@ -117,8 +117,8 @@ public:
             0, 2);
     }
 
-    /// Whether the last sum was positive definite, up to rounding: if not, directions without stiffness, or with a
-    /// negative one, were left out.
+    /// Returns whether the last sum was positive definite, up to rounding: if not, directions without stiffness, or
+    /// with a negative one, were left out.
     bool definite() const { return definite_; }
 
     /// b: one vector a vertex; the result is 0 at fixed vertices.

@@ -23,7 +23,7 @@ struct robust_start_params
     /// Outline of the barycentric map that it begins with.
     boundary_params boundary = {};
 
-    /// Whether the boundary stays on that outline; the inside is optimised in any case.
+    /// True if the boundary stays on that outline; the inside is optimised in any case.
     bool fixed_boundary = false;
 
     /// On each level Newton's method ends once an iteration lowers the energy by less than this part; 1e-6 to 1.

@@ -122,7 +122,7 @@ private:
         for (const idx s : arc) seam_[u(s)] = seam_[u(facets_.twin[u(s)])] = value;
     }
 
-    /// Whether an edge runs through the inside of the charts beside the arc.
+    /// Returns whether an edge runs through the inside of the charts beside the arc.
     bool inside(idx side) const
     {
         const idx t = facets_.twin[u(side)];

@@ -94,7 +94,7 @@ private:
         return result;
     }
 
-    /// Whether a side is a diagonal of a polygon.
+    /// Returns whether a side is a diagonal of a polygon.
     bool inner(std::size_t side) const { return !together_.empty() && together_[side] != 0 && facets_.twin[side] >= 0; }
 
     /// True if it is one of symmetry, which is then in found_.

@@ -91,7 +91,7 @@ private:
         return side;
     }
 
-    /// Whether what lies across, the half and its image meet at a side.
+    /// Returns whether what lies across, the half and its image meet at a side.
     bool parts(std::size_t s) const { return facets_.twin[s] >= 0 && of_[s / 3] != of_[u(facets_.twin[s]) / 3]; }
 
     surface_part part() const

@@ -46,7 +46,7 @@ inline std::vector<vec2> rim_of(const landing_place& place)
     return rim;
 }
 
-/// Whether a polygon is simple, counter-clockwise and within the map of a place.
+/// Returns whether a polygon is simple, counter-clockwise and within the map of a place.
 inline bool fits(const landing_place& place, std::span<const vec2> polygon)
 {
     double area = 0;

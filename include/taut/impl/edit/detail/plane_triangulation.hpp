@@ -139,7 +139,7 @@ private:
         make_delaunay({t, u, s, w});
     }
 
-    /// Whether the angles opposite side k of t and of its neighbour exceed 180 degrees by more than rounding.
+    /// Returns whether the angles opposite side k of t and of its neighbour exceed 180 degrees by more than rounding.
     bool wants_flip(idx t, idx k)
     {
         const idx s = across(t, k);

@@ -84,7 +84,7 @@ public:
 #endif
     }
 
-    /// Whether `from` is a stream of as many bytes as `to` has, which are then there.
+    /// Returns whether `from` is a stream of as many bytes as `to` has, which are then there.
     bool unpack([[maybe_unused]] std::string_view from, [[maybe_unused]] std::span<char> to)
     {
         switch (kind_)

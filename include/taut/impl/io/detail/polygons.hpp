@@ -187,7 +187,7 @@ private:
         return {l, r};
     }
 
-    /// Whether a way out and back, from corner l to corner r of one vertex, leads into the polygon.
+    /// Returns whether a way out and back, from corner l to corner r of one vertex, leads into the polygon.
     bool leads_in(std::size_t l, std::size_t r) const
     {
         const vec2 &a = x_[before_[l]], &b = x_[l], &c = x_[after_[r]], &x = x_[after_[l]];
@@ -202,7 +202,7 @@ private:
         return glm::dot(d, d);
     }
 
-    /// Whether the outline goes to corner i and back.
+    /// Returns whether the outline goes to corner i and back.
     bool returns(std::size_t i) const { return vertices_[before_[i]] == vertices_[after_[i]]; }
 
     /// 0: corner i is an ear. 1: one that is thin, or leaves corners on its diagonal. Those with a crowded diagonal
@@ -235,7 +235,7 @@ private:
         return rank;
     }
 
-    /// Whether a segment has a point inside a triangle: no line along one of their sides parts them.
+    /// Returns whether a segment has a point inside a triangle: no line along one of their sides parts them.
     static bool enters(const std::array<vec2, 3>& t, const vec2& p, const vec2& q)
     {
         for (std::size_t k = 0; k < 3; ++k)

@@ -58,7 +58,7 @@ struct removable_name
 inline std::array<removable_name, 64> removable_names;
 static_assert(std::atomic<int>::is_always_lock_free); // as handlers demand
 
-/// Whether hidden names may still be given, and how many are being given now.
+/// True if hidden names may still be given, and how many are being given now.
 inline std::atomic<bool> naming_is_over{false};
 inline std::atomic<int> being_named{0};
 

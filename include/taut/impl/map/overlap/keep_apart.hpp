@@ -57,7 +57,7 @@ private:
     static constexpr int most_rounds = 100, most_steps = 20;
     static constexpr double tolerance = 1e-4; ///< of the energy, by it
 
-    /// Whether it made a difference.
+    /// Returns whether it made a difference.
     bool round()
     {
         auto [plane, how] = scaffolded_.around(x_);

@@ -93,7 +93,7 @@ protected:
     /// Puts the map at hand on the device in double; false where it is so already, or may not be.
     virtual bool in_double() { return false; }
 
-    /// Whether in_double() would do so.
+    /// Returns whether in_double() would do so.
     virtual bool may_be_doubled() const { return false; }
 
     /// Makes the first map, and puts it on the device; called again where there was none to be put there.
@@ -161,7 +161,7 @@ protected:
         return D == 3 && Element::oriented && held_.slides().empty() && lasts(clock, 20);
     }
 
-    /// Whether bodies of held vertices turn on the way.
+    /// Returns whether bodies of held vertices turn on the way.
     bool turns() const
     {
         return held_paths<D>(rest().cells(), marks(), scaled(last.x), scaled(held_.places())).parts() > 1;
@@ -252,7 +252,7 @@ protected:
         return found.arrived;
     }
 
-    /// Whether it is proved that no map has the held coordinates at their places; x: any map.
+    /// Returns whether it is proved that no map has the held coordinates at their places; x: any map.
     bool proved(const map& x)
     {
         if constexpr (Element::oriented)
@@ -279,7 +279,7 @@ protected:
         return found;
     }
 
-    /// Whether the budget would last for so many steps.
+    /// Returns whether the budget would last for so many steps.
     bool lasts(const run_clock& clock, int steps) const
     {
         return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_;
@@ -345,7 +345,7 @@ protected:
         return found;
     }
 
-    /// Whether it ended by rounding, and not where it should.
+    /// Returns whether it ended by rounding, and not where it should.
     bool stalled(const solve::report& r) const
     {
         constexpr double of_rounding = 1e-8;                      // a tolerance that is larger is meant

@@ -74,7 +74,7 @@ struct mended_draft
     std::vector<untangle_stage_report> stages; ///< of untanglings
 };
 
-/// Whether a gradient inverts, or shrinks to less than `least` in some direction.
+/// Returns whether a gradient inverts, or shrinks to less than `least` in some direction.
 inline bool shrinks(const mat3& F, double least)
 {
     return !(glm::determinant(F) > 0 && norm2(glm::inverse(F)) < 2 + 1 / (least * least));

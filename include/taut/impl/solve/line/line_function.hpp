@@ -95,7 +95,8 @@ inline double finite_or_inf(double value) noexcept
     return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
 }
 
-/// Whether a step is so short that phi cannot change by more than rounding along it: no use to try a shorter one.
+/// Returns whether a step is so short that phi cannot change by more than rounding along it: no use to try a shorter
+/// one.
 template <line_function Line>
 bool lost_in_rounding(Line& phi, double step)
 {

@@ -82,7 +82,7 @@ public:
         return r;
     }
 
-    /// Whether energies and directions are in single precision.
+    /// Returns whether energies and directions are in single precision.
     bool in_float() const { return objective_.rounding() > 1e-12; }
 
     map coordinates() const

@@ -122,7 +122,7 @@ bool split_star(const untangle_problem<Element>& p, idx v, inner_simplices<Eleme
     return count > 0;
 }
 
-/// Whether splits were found against a proof.
+/// Returns whether splits were found against a proof.
 template <class Element>
 bool split_against(const untangle_problem<Element>& p, const infeasibility_finding& proof,
                    inner_simplices<Element>& inner)
