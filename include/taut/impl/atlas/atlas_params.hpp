@@ -33,7 +33,7 @@ struct atlas_params
     /// Charts are what `charts.seams` part, and stay: they are flattened, from `initial` if it is given, and packed.
     bool keep_charts = false;
 
-    /// Of kept and pinned charts: the map to start from, or to stay at, one coordinate a corner; or empty.
+    /// Initial map of kept and pinned charts, or their final one, one coordinate per corner; or empty.
     std::vector<std::array<vec2, 3>> initial = {};
 
     /// Triangles that stay at `initial`, bit for bit: one flag each, or empty. They are charts by themselves, parted
@@ -52,7 +52,7 @@ struct atlas_params
     /// coordinates are (u, -v), which is exact where 1 - v is not.
     vec2 origin = vec2(0.0);
 
-    /// What a file makes of a coordinate, as by rounding to floats: the certificate is of these. Null: nothing.
+    /// Rounding of coordinates by the file format, such as to floats: the certificate is of the results. Null: none.
     vec2 (*stored)(vec2) = nullptr;
 
     /// Wall-clock limit of the whole call. What has no good map by then is laid in patches, as it is seen from one

@@ -23,7 +23,7 @@
 namespace taut::impl
 {
 
-/// What the device gets of one chart: triangles, vertices in band order, profile of its Hessian, and its map.
+/// Data of one chart on the device: triangles, vertices in band order, profile of its Hessian, and its map.
 struct chart_problem
 {
     const ideal_elements<triangle>* ideal = nullptr;
@@ -93,7 +93,7 @@ private:
 class chart_batch
 {
 public:
-    /// Of a chart after a step, as the kernel says.
+    /// State of a chart after a step, as written by the kernel.
     enum state : idx
     {
         going,

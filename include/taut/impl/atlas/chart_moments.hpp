@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// What the union of pieces of a surface is judged by; all of it adds up.
+/// Additive moments of pieces of a surface, from which the distortion of a union is estimated.
 struct chart_moments
 {
     double area = 0;

@@ -21,7 +21,7 @@
 namespace taut::impl
 {
 
-/// How triangles were united, pair by pair, to ever larger pieces of a surface. Every piece is a disk, or one with
+/// Binary tree of the pairwise unions of triangles to larger pieces of a surface. Every piece is a disk, or one with
 /// holes of the surface in it, and can be flattened. Any antichain of nodes that covers the surface is a set of charts.
 ///
 /// Nodes 0 .. leaves - 1 are the triangles, then the holes; those behind are pieces in the order in which they were
@@ -236,7 +236,7 @@ private:
         return result;
     }
 
-    /// Distortion that the removal of an arc costs, by what it is worth.
+    /// Merge cost: added distortion per saved seam length.
     double price_of(idx h)
     {
         const idx t = graph_.twin(h);
@@ -322,7 +322,7 @@ private:
         if (other >= 0) settle(graph_.alive(other) ? other : graph_.twin(before));
     }
 
-    /// Where h starts: joins the two arcs that meet there, or offers the one that ends there.
+    /// Settles the start of h: joins the two arcs that meet there, or queues the one that ends there.
     void settle(idx h)
     {
         const auto node = u(graph_.start(h));

@@ -58,7 +58,7 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// What is known of a chart on the way.
+    /// Working state of a chart.
     struct chart_work
     {
         std::optional<single_chart> chart;
@@ -124,7 +124,7 @@ private:
         result_.seconds.start = clock_.lap();
     }
 
-    /// What the user gave of a chart, in its units.
+    /// Initial map of a chart as given by the user, in its units.
     std::vector<vec2> given(std::size_t k) const
     {
         if (params_.initial.empty()) return {};

@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// What a chart is like in the plane.
+/// Shape of a chart in the plane.
 struct laid_shape
 {
     bool crosses = false;                     ///< it overlaps itself

@@ -156,7 +156,7 @@ private:
                                     (count == 1 ? "it" : "them"));
     }
 
-    /// How much larger than others each chart is laid; empty if none is.
+    /// Texel density of each chart relative to the others; empty if all are equal.
     std::vector<double> densities_of(const chart_mesh& charts) const
     {
         std::vector<double> densities;

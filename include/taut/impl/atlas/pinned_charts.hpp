@@ -48,7 +48,7 @@ public:
     /// The surface without them.
     const mesh<triangle>& rest() const { return rest_.charts.surface; }
 
-    /// What is asked of that. seams, together: for what they refer to
+    /// Parameters for that surface. seams, together: storage that they refer to
     atlas_params of_rest(std::vector<char>& seams, std::vector<char>& together) const
     {
         atlas_params params = params_;

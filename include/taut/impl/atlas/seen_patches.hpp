@@ -150,7 +150,7 @@ private:
         return false;
     }
 
-    /// How a triangle is seen: twice its area, and the cosine of its angle to the axis; 0 at a slant.
+    /// View of a triangle from the axis: twice its area, and the cosine of its angle to the axis; 0 at a slant.
     struct sight
     {
         double area, cosine;

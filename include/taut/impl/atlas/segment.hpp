@@ -65,7 +65,7 @@ struct segment_params
 namespace taut::impl
 {
 
-/// What was done, and how long it took in seconds.
+/// Report of a segmentation, with its seconds.
 struct segment_report
 {
     double distortion = 4;         ///< of the whole surface, charts without a map left out

@@ -279,7 +279,7 @@ private:
         renew(triangles);
     }
 
-    /// What is tried as one chart.
+    /// Candidates for unions of charts.
     enum class unions
     {
         all,   ///< pairs of neighbours

@@ -65,7 +65,7 @@ protected:
 
     double allowed() const { return (params_.mean_distortion - 4) * total_area_; }
 
-    /// Of the charts that have a map.
+    /// Total excess of distortion over the charts that have a map.
     double total_excess() const
     {
         double sum = 0;
@@ -74,13 +74,13 @@ protected:
         return sum;
     }
 
-    /// What a chart takes of what is allowed to all. The pieces of one above the bound will be below it.
+    /// Share of a chart in the total distortion that is allowed. Pieces of a chart above the bound will be below it.
     double to_share(const record& r) const
     {
         return r.energy < infinite ? std::min(r.excess(), (params_.max_distortion - 4) * r.area) : 0;
     }
 
-    /// Of each node of a tree.
+    /// Number of triangles below each node of a tree.
     static std::vector<idx> triangles_below(const cluster_tree& tree)
     {
         std::vector<idx> triangles(u(tree.nodes()), 0);

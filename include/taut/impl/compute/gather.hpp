@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// Which corners of which cells meet at each vertex, and how their arrays lie on the device.
+/// Incidence of cell corners to vertices, and the layout of their arrays on the device.
 struct gather_layout
 {
     int components = 2;            ///< D: numbers a corner contributes

@@ -108,7 +108,7 @@ public:
         done_ = state_->launch(kernel, name, impl::items_for(text.form, r));
     }
 
-    /// Of the kernel, once it is enqueued.
+    /// Event of the kernel, once it is enqueued.
     const event& done() const noexcept { return done_; }
 
 private:

@@ -135,7 +135,7 @@ private:
         return (is_memory ? "a buffer of " : "a number of type ") + std::string(type);
     }
 
-    /// Of the parameter; guess: where it is if the arguments come in their order.
+    /// Position of the parameter; guess: its position if the arguments come in order.
     std::size_t position(const char* name, std::size_t guess) const
     {
         for (std::size_t k = 0; k < signature_.size(); ++k, ++guess)

@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// How rows are dealt to the lanes of a device: `slice` rows lie together, an item does `lanes` of them (1 or 16).
+/// Distribution of rows over the lanes of a device: `slice` rows lie together, an item does `lanes` of them (1 or 16).
 struct lane_form
 {
     idx slice = 16;

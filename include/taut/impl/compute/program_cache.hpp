@@ -57,7 +57,7 @@ public:
         const auto found = entries_.find(options + '\0' + source);
         return found == entries_.end() ? nullptr : found->second.whole;
     }
-    /// Returns whether that kernel of it is.
+    /// Returns whether a kernel of the program is being built.
     build_under_way under_way(const std::string& source, const std::string& options, const std::string& name) const
     {
         const auto found = entries_.find(options + '\0' + source);
@@ -143,7 +143,7 @@ private:
         }
     }
 
-    /// What the compiler said; a driver that failed earlier may have nothing to say.
+    /// Log of the compiler; empty if the driver failed earlier.
     static std::string log_of(const boost::compute::program& program)
     {
         try

@@ -22,7 +22,7 @@ struct queue_counters
 namespace taut::impl
 {
 
-/// What a queue counted since `before`.
+/// Counts of a queue since `before`.
 inline queue_counters counted_since(const queue_counters& before, queue_counters now)
 {
     now.launches -= before.launches;

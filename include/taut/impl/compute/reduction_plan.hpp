@@ -9,8 +9,8 @@
 namespace taut::impl
 {
 
-/// How a reduction of n elements is cut into blocks, one a work-group. It depends on n and on the form alone, so a sum
-/// is the same bit for bit on any number of cores; not with any driver, whose compiler may fuse multiply and add.
+/// Partition of a reduction of n elements into blocks, one per work-group. It depends on n and on the form alone, so a
+/// sum is the same bit for bit on any number of cores; not with any driver, whose compiler may fuse multiply and add.
 struct reduction_plan
 {
     std::size_t local = 1;          ///< items a group: 1 (serial form) or a power of two, at least 4 (group form)

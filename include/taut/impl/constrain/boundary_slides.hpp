@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// How the vertices of a boundary may move without changing its shape.
+/// Sliding constraints of boundary vertices that keep the shape of the boundary.
 template <class Element>
 struct boundary_motion
 {

@@ -18,8 +18,8 @@
 namespace taut::impl
 {
 
-/// What does not move while a map of a surface is made: a fixed boundary, and what the constraints hold. Maps are in
-/// lengths of `unit` times those of the constraints.
+/// Fixed coordinates of a map of a surface: those of a fixed boundary and of pins. Lengths of maps are `unit` times
+/// those of the constraints.
 class held_coordinates
 {
 public:
@@ -115,8 +115,8 @@ public:
         for (vec2& p : uv) p = map(p);
     }
 
-    /// How far pinned vertices of a map are from their places, as a part of how far those are from their centre: root
-    /// mean squares.
+    /// Distance of pinned vertices of a map from their targets relative to the distance of the targets from their
+    /// centre: root mean squares.
     double misfit(const std::vector<vec2>& uv) const
     {
         const vec2 middle = centre();
@@ -160,7 +160,7 @@ public:
         return {m, std::move(uv), marks_.empty() ? held_marks<2>(m.points().size()) : marks_};
     }
 
-    /// What is asked of vertices that are not pinned, for a map whose origin is `centre`.
+    /// Constraints other than pins, for a map whose origin is `centre`.
     point_constraints<2> beyond_pins(const vec2& centre) const
     {
         point_constraints<2> r;

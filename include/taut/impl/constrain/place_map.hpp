@@ -17,8 +17,8 @@
 namespace taut::impl
 {
 
-/// How the axes x, y, z of space run in a map on the average: component k is the integral over the surface of the image
-/// of axis k, projected to the surface, as a complex number. It turns with the map, and changes as little as that.
+/// Mean directions of the axes x, y, z of space in a map: component k is the integral over the surface of the image of
+/// axis k, projected to the surface, as a complex number. It turns with the map, and changes as little as that.
 inline std::array<std::complex<double>, 3> images_of_axes(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     std::array<std::complex<double>, 3> images;

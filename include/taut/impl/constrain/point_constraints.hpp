@@ -30,8 +30,8 @@ std::vector<directed_spring<D>> directed(const std::vector<spring<D>>& springs)
     return all;
 }
 
-/// What is asked of single vertices besides being pinned, which is the matter of the layout: coordinates that are held
-/// alone, springs, and vertices that slide. Units are those of the map.
+/// Constraints of single vertices other than pins, which are eliminated by the layout: single fixed coordinates,
+/// springs, and sliding vertices. In units of the map.
 template <int D>
 struct point_constraints
 {

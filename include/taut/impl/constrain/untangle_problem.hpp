@@ -26,8 +26,8 @@ struct untangle_problem
     /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
     /// empty: none is known.
     std::vector<vec<D>> draft = {};
-    /// What elements are wanted to look like, if not as they are at rest: edge matrices, upper triangular with a
-    /// positive diagonal, one a cell; their measures are weights, too.
+    /// Target shapes of elements, if not those at rest: edge matrices, upper triangular with a positive diagonal, one
+    /// per cell; their measures are weights, too.
     std::vector<mat<D>> wanted = {};
     /// The cell that each simplex is a corner of (mesh/cell_corners.hpp), where they are corners of others; else empty.
     std::vector<idx> owners = {};
@@ -35,7 +35,7 @@ struct untangle_problem
     /// on their places.
     std::vector<idx> sliding = {};
 
-    /// What proofs may count on.
+    /// Fixed coordinates that proofs may rely on.
     impl::held_marks<D> held_for_sure() const
     {
         auto marks = held;

@@ -54,7 +54,7 @@ public:
         return !late_ && ask(p);
     }
 
-    /// What they have answered so far.
+    /// Returns whether a limit is reached or the observer has refused so far.
     bool over() const { return late_ || refused_; }
     bool refused() const { return refused_; } ///< by the observer
 

@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// Who is held, and in which coordinate: a byte a vertex, whose bit k says that coordinate k does not move.
+/// Flags of fixed coordinates: one byte per vertex, whose bit k says that coordinate k is fixed.
 template <int D>
 class held_marks
 {

@@ -33,7 +33,7 @@ public:
     made_ahead(const made_ahead&) = delete;
     made_ahead& operator=(const made_ahead&) = delete;
 
-    /// What is not begun is not made.
+    /// Drops results whose computation has not begun.
     ~made_ahead()
     {
         unwanted_ = true;

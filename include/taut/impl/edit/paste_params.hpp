@@ -41,11 +41,11 @@ struct paste_params
     /// rim covers is replaced, and what is around it bends.
     double reach = 1.8;
 
-    /// Of the fields that bend target and feature. `linear` overshoots least.
+    /// Basis of the fields that bend target and feature. `linear` overshoots least.
     rbf_basis basis = rbf_basis::linear;
 
-    /// Of the map that lays the feature on the target, for the first soft pose: where the rim is hard to fit it takes
-    /// an untangling, which may never end.
+    /// Time limit of the map of the feature to the target, for the first soft pose: a rim that is hard to fit takes an
+    /// untangling, which may not end.
     std::chrono::duration<double> time_limit{20};
 
     /// At most so many control points of each kind: along the rim, and where nothing moves.

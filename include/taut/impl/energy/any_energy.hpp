@@ -171,7 +171,7 @@ private:
 namespace taut::impl
 {
 
-/// What is minimised where nothing else is asked for: energy::isometric.
+/// Default energy: energy::isometric.
 any_energy default_energy();
 
 } // namespace taut::impl

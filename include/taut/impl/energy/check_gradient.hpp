@@ -38,7 +38,7 @@ struct gradient_check
     explicit operator bool() const { return derivative() && isotropic() && barrier; }
 };
 
-/// What is wrong, in words.
+/// Prints the faults in words.
 inline std::ostream& operator<<(std::ostream& out, const gradient_check& c)
 {
     std::ostringstream text; // so that the user's stream keeps its format

@@ -52,7 +52,7 @@ struct certificate
 namespace taut::impl
 {
 
-/// What is known of some elements.
+/// Flip counts of a range of elements.
 struct flip_count
 {
     std::size_t flipped = 0;

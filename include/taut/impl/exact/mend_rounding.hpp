@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// How good the simplices around a vertex are: fewer that are not positive first, then the smallest determinant.
+/// Rank of the simplices around a vertex: fewer that are not positive first, then the smallest determinant.
 struct star_rank
 {
     std::size_t defects = 0;

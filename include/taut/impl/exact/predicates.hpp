@@ -62,7 +62,8 @@ inline orientation exact_orient(const vec3& a, const vec3& b, const vec3& c, con
     return {sign, sign * sum.magnitude()};
 }
 
-/// What is safe to decide in floating point, whether products are fused or not; the exact sum decides the rest.
+/// Floating-point filter: returns whether the sign is certain, with fused products or without; else the exact sum
+/// decides.
 /// `terms` is the sum of the magnitudes of the terms, `ulps` bounds the relative error, `underflow` the absolute one.
 inline bool decided(double det, double terms, double ulps, double underflow)
 {

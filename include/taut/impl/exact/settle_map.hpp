@@ -19,7 +19,7 @@
 namespace taut::impl
 {
 
-/// What a map of the plane is settled to.
+/// Parameters of settling a map of the plane.
 struct settling
 {
     vec2 (*stored)(vec2) = nullptr;                         ///< what a file makes of a coordinate; null: nothing
@@ -28,7 +28,7 @@ struct settling
     bool apart = true;                                      ///< borders that meet already are to be parted
 };
 
-/// What is wrong with a map.
+/// Faults of a map.
 struct map_faults
 {
     std::size_t flipped = 0;  ///< triangles that are not positive
@@ -252,8 +252,8 @@ private:
         return count;
     }
 
-    /// How wrong the triangles at v are: how far they are from the other side, in steps, and how many; and edges that
-    /// are shorter than a step, which make triangles flat.
+    /// Penalty of the triangles at v: how far they are from the other side, in steps, and how many; and edges that are
+    /// shorter than a step, which make triangles flat.
     double flips_at(idx v) const
     {
         double sum = 0;

@@ -213,7 +213,7 @@ inline gltf_source gltf_source_of(std::string_view bytes, const std::string& pat
     return source;
 }
 
-/// Where the buffers of a document lie.
+/// Locations of the buffers of a document.
 struct buffer_places
 {
     std::set<std::filesystem::path> files; ///< beside it

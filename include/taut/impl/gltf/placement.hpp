@@ -13,11 +13,11 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/exact/predicates.hpp>
 
-/// Where coordinates lie that floats are to hold.
+/// Placement of coordinates so that floats hold them.
 namespace taut::io::impl
 {
 
-/// What a node does to the points of its mesh.
+/// Transform of a node.
 struct gltf_placement
 {
     vec3 translation = vec3(0.0);

@@ -17,7 +17,7 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/gltf/accessor.hpp>
 
-/// What the meshes of a glTF document are drawn from.
+/// Primitives of the meshes of a glTF document.
 namespace taut::io::impl
 {
 

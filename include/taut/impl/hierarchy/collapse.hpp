@@ -24,7 +24,7 @@ struct thinning_surface
     std::vector<char> keep; ///< never removed
 };
 
-/// What a collapse must satisfy. Strict at first, relaxed when too few vertices qualify.
+/// Conditions of a collapse. Strict at first, relaxed when too few vertices qualify.
 struct collapse_rules
 {
     double quality;         ///< least quality of a new triangle, unless the star has a worse one already; 0 to 1

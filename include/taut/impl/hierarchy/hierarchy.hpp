@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// How to build a hierarchy.
+/// Parameters of a hierarchy.
 struct hierarchy_params
 {
     double factor = 8;     ///< vertices of a level / vertices of the next coarser one; 2 to 64

@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// How to bring removed vertices back into a map.
+/// Parameters of the reinsertion of removed vertices into a map.
 struct reinsert_params
 {
     int newton_steps =
@@ -63,8 +63,8 @@ inline vec2 mean_value_point(const ring_image& ring, std::span<const vec3> rest)
     return p / total;
 }
 
-/// Where a boundary vertex lies relative to its two neighbours along the boundary when its star is laid flat, in the
-/// frame of their images.
+/// Position of a boundary vertex relative to its two neighbours along the boundary with its star unfolded to the plane,
+/// in the frame of their images.
 inline vec2 boundary_point(const ring_image& ring, std::span<const vec3> rest)
 {
     double angle = 0;

@@ -69,7 +69,7 @@ public:
         }
     }
 
-    /// What run() did. The object is then spent, but for coarse().
+    /// Result of run(). Afterwards only coarse() may be called.
     std::pair<prolongation<3>, removals<triangle>> result()
     {
         std::vector<idx> number(surface_.points.size(), 0);
@@ -210,7 +210,8 @@ private:
             threads_, 128);
     }
 
-    /// Where two collapses make the same edge, the one with the larger key is given up; so is one without a target.
+    /// Drops clashing collapses: of two that make the same edge, the one with the larger key; and those without a
+    /// target.
     void drop_clashes()
     {
         given_up_.assign(round_.collapses.size(), 0);

@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// Where a fine vertex lies on the surface that is left: a triangle of it and barycentric coordinates.
+/// Point of the coarse surface that a fine vertex lies on: a triangle and barycentric coordinates.
 struct surface_point
 {
     std::array<idx, 3> vertices{};

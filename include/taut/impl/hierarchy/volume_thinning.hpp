@@ -28,7 +28,7 @@ inline double tetrahedron_quality(const vec3& a, const vec3& b, const vec3& c, c
     return 432 * det * std::abs(det) / (squares * squares * squares);
 }
 
-/// What a collapse must satisfy. Strict at first, relaxed when too few vertices qualify.
+/// Conditions of a collapse. Strict at first, relaxed when too few vertices qualify.
 struct volume_collapse_rules
 {
     double quality; ///< least tetrahedron_quality of a new cell, unless the star has a worse one already
@@ -87,7 +87,7 @@ public:
         return removed;
     }
 
-    /// Of each vertex the one that it is in now: itself where it is left, -1 without cells.
+    /// Vertex that each vertex is collapsed into: itself where it remains, -1 without cells.
     std::vector<idx> into() const
     {
         auto last = into_;

@@ -250,9 +250,9 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
     return kept;
 }
 
-/// What keeps the cells of a file from being a mesh whose cells can all be positive and not overlap: pairs with the
-/// same corners (duplicate_cell), neighbours oriented differently (inconsistent_orientation), and sides that three
-/// cells or more share (non_manifold_facet), each with all of its kind. Cells count as for_each_cell() does.
+/// Finds faults of the cells of a file, because of which they cannot all be positive and disjoint: pairs with the same
+/// corners (duplicate_cell), neighbours oriented differently (inconsistent_orientation), and sides that three cells or
+/// more share (non_manifold_facet), each with all of its kind. Cells count as for_each_cell() does.
 inline std::vector<mesh_finding> check_sides(const volume_file& file)
 {
     const auto sides = cell_faces_of(file);

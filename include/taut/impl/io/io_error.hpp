@@ -12,7 +12,7 @@
 namespace taut::io::impl
 {
 
-/// Where in a file: a line of a text, counted from 1, or a byte of a binary file, counted from 0.
+/// Position in a file: a line of a text, counted from 1, or a byte of a binary file, counted from 0.
 struct file_place
 {
     enum unit

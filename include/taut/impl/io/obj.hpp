@@ -142,7 +142,7 @@ private:
         soup_.end_polygon(first, in_.path(), in_.here());
     }
 
-    /// Of the last corner; that of one which cannot be is none.
+    /// Adds the normal of the last corner; an invalid index means none.
     void add_corner_normal(long long i)
     {
         absolute_ = absolute_ && i > 0;
@@ -193,7 +193,7 @@ private:
                "; numbers start at 1, or at -1 from the end";
     }
 
-    /// What a face names that is not there; empty if all is.
+    /// Describes the indices of a face that are out of range; empty if there are none.
     std::string beyond(const largest& most, std::size_t count, const std::string& what) const
     {
         if (most.number <= static_cast<long long>(count)) return {};

@@ -70,7 +70,7 @@ public:
 
     std::size_t map_dimension() const { return map_dimension_; }
 
-    /// Where the coordinates of the initial map start, in bytes from the first one.
+    /// Byte offsets of the coordinates of the initial map.
     std::vector<std::size_t> take_places() { return std::move(places_); }
 
     template <class Element>
@@ -191,7 +191,7 @@ private:
         if (!in_.line_ends()) in_.fail_at_word("the end of the line after " + what);
     }
 
-    /// What to reserve: a wrong number must not ask for all memory. An item takes two bytes at least.
+    /// Number of items to reserve, which a wrong count must not exaggerate: an item takes two bytes at least.
     std::size_t fitting(std::size_t n) const { return std::min(n, in_.remaining() / 2); }
 
     scanner in_;

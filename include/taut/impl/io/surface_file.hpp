@@ -74,7 +74,7 @@ struct obj_text
     std::vector<piece> pieces; ///< in their order
 };
 
-/// What vertices of OFF and PLY files carry that OBJ can hold.
+/// Vertex attributes of OFF and PLY files that OBJ can hold.
 struct file_vertices
 {
     text_list positions;       ///< coordinates as they are written; none of a binary file

@@ -164,7 +164,7 @@ struct coded_coordinates
     std::vector<later> followed_by; ///< ascending by `begin`
 };
 
-/// Where the bytes of a file have its coordinates, and how.
+/// Locations and encoding of the coordinates in the bytes of a file.
 struct coordinate_places
 {
     bool text = true;                        ///< decimal numbers; else IEEE 754

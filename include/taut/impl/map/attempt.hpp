@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// What making the start on coarser levels came to.
+/// Result of computing the start on coarser levels.
 struct coarse_descent
 {
     start_map start; ///< on its level, without uv
@@ -45,7 +45,7 @@ inline attempt certified(const run_surface& in, attempt a)
     return a;
 }
 
-/// A map without what the solver was free to change and nobody asked for. start: where held coordinates are right.
+/// Removes the solver's translation and scale; restores fixed coordinates. start: where held coordinates are right.
 inline std::vector<vec2> restored(const map_run& run, std::vector<vec2> uv, const vec2& centre,
                                   const std::vector<vec2>& start)
 {

@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// How a start is made and minimised on coarser levels.
+/// Parameters of the start and of the minimisation on coarser levels.
 inline nested_params descent_of(const map_run& run)
 {
     nested_params p;

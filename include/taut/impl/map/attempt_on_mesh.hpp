@@ -71,7 +71,7 @@ inline taut::observer observer_of(const map_run& run, const run_start& start, st
     };
 }
 
-/// How the mesh itself is solved in what is left of the time.
+/// Solver parameters for the finest level, with the remaining time.
 inline solve::params limited(const map_run& run, int max_iterations)
 {
     auto p = run.params.solve;

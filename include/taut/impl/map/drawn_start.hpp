@@ -118,7 +118,7 @@ private:
         return flags;
     }
 
-    /// Of all springs together, in units of a mean energy a squared half of the map's size.
+    /// Total stiffness of all springs, in units of a mean energy per squared half of the map's size.
     static double first_stiffness(std::size_t l) { return 256 / std::pow(growth, static_cast<double>(l)); }
 
     /// In the numbers of a level, about the centre.

@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// What parameterize.hpp declares; include that one.
+/// Implementation of parameterize.hpp; include that one.
 ///
 /// The start on the mesh itself that takes the place of one from coarser levels whose map could not be certified.
 inline run_start second_start(const map_run& run, const run_start& coarse, const attempt& failed)

@@ -37,14 +37,13 @@ enum class start_method
 /// Parameters of parameterize(). Every field has a sensible default.
 struct parameterize_params
 {
-    /// What to minimise. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
     any_energy energy = impl::default_energy();
 
-    /// True if elements count by rest area, as is usual, or all the same, as in the paper.
+    /// Weights of elements in the sum: rest area, as is usual, or all equal, as in the paper.
     energy::weighting weights = energy::weighting::measure;
 
-    /// What energies see of single triangles beside their shape, in the order of the mesh: weights, attributes,
-    /// directions.
+    /// Data of single triangles that energies read, in the order of the mesh: weights, attributes, directions.
     cell_data data = {};
 
     /// Numbers that the energy reads as e.parameter(k): other values take no other kernel.
@@ -65,10 +64,10 @@ struct parameterize_params
     start_method start = start_method::automatic;
     barycentric_params barycentric = {.stretch_rounds = 10};
 
-    /// Where the map comes to lie if nothing holds it: a free boundary without pins and springs.
+    /// Placement of an unconstrained map: a free boundary without pins and springs.
     taut::placement placement = placement::upright;
 
-    /// True if a surface with holes (more than one boundary loop) is taken. Its map is locally injective.
+    /// True if surfaces with holes (more than one boundary loop) are accepted. Its map is locally injective.
     bool holes = false;
 
     /// True if the boundary of the map must not cross or touch itself, so that no two triangles overlap. Where it
@@ -82,7 +81,7 @@ struct parameterize_params
     /// Newton's method always is.
     bool multigrid = false;
 
-    /// How a start with flips is untangled. Its time limit and observer are overruled by those below.
+    /// Parameters of untangling a start with flips. Its time limit and observer are overruled by those below.
     untangle_params untangling = {};
 
     /// Method, line search (not of Newton's method, which `automatic` is here), stopping. `solve.stopping.time_limit`

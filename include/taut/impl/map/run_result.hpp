@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// What there is to report of a start and the last attempt to minimise it, if there was one; the outcome is left open.
+/// Report of a start and of the last attempt to minimise it, if there was one, without the outcome.
 inline map_result run_result(const map_run& run, const run_start& start, attempt a)
 {
     map_result r;

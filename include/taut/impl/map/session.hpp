@@ -108,7 +108,7 @@ public:
         return *this;
     }
 
-    /// What is asked at present.
+    /// Current constraints.
     const taut::constraints<Element>& constraints() const { return body_->wanted; }
 
     /// The last map, empty before there was one.

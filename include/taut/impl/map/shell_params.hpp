@@ -19,7 +19,7 @@ namespace taut
 /// Parameters of deform() and of sessions of thin shells. Every field has a sensible default.
 struct shell_params
 {
-    /// Where vertices have to be, bit for bit, and where they should rather be: of thin_shell::hinges().
+    /// Pins, which are met bit for bit, and springs, of the mesh thin_shell::hinges().
     taut::constraints<hinge> constraints = {};
 
     /// In the lengths of the surface; none: the mean edge. How much bending costs against stretching, as for a plate so

@@ -33,14 +33,14 @@ struct smooth_params
 {
     smooth_boundary boundary = smooth_boundary::sliding;
 
-    /// What elements are wanted to look like: regular, or as in `rest`.
+    /// Target shapes of elements: regular, or as in `rest`.
     wanted_shapes shapes = wanted_shapes::regular;
 
     /// The shape at rest for wanted_shapes::rest, one position a vertex; none: that of the mesh.
     std::vector<vec3> rest = {};
 
-    /// What single elements are wanted to look like, and what they are corners of, as in deform_params: those of
-    /// corner_simplices::regular where they are corners of regular cells.
+    /// Target shapes of single elements, and their owners, as in deform_params: those of corner_simplices::regular
+    /// where they are corners of regular cells.
     std::vector<mat<Element::dimension>> targets = {};
     std::vector<idx> owners = {};
 

@@ -126,7 +126,7 @@ double angular_distortion(const mesh<Element>& m, std::span<const vec<Element::d
     return sum;
 }
 
-/// What a pass over the cells adds up before the scale is known.
+/// Sums of a pass over the cells before the scale is known.
 struct quality_sums
 {
     means isometric, shape, area;

@@ -20,7 +20,7 @@ struct rigid_motion
     vec3 axis{0, 0, 1}; ///< of length 1; in the plane the normal
     double angle = 0;   ///< radians; of a fit -pi to pi in the plane, 0 to pi in space
 
-    /// Where a point is when a share t of the motion is done, 0 to 1.
+    /// Image of a point under the fraction t of the motion, 0 to 1.
     vec<D> operator()(const vec<D>& p, double t = 1) const
     {
         return from + t * (to - from) + turned(p - from, t * angle);

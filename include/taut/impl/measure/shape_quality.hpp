@@ -17,9 +17,9 @@
 namespace taut::impl
 {
 
-/// How well single triangles or tetrahedra are shaped, in the measures of mesh generation; 1 is regular, 0 flat, less
-/// turned over. Definitions as in Stimpson et al., "The Verdict library reference manual" (2007), the mean ratio as in
-/// Liu and Joe, "Relationship between tetrahedron shape measures" (1994).
+/// Shape qualities of a triangle or tetrahedron, the measures of mesh generation: 1 is regular, 0 flat, less inverted.
+/// Definitions as in Stimpson et al., "The Verdict library reference manual" (2007), the mean ratio as in Liu and Joe,
+/// "Relationship between tetrahedron shape measures" (1994).
 struct element_shape
 {
     double mean_ratio = 0; ///< D = 2: 4 sqrt(3) area / sum l^2; D = 3: 12 (3 volume)^(2/3) / sum l^2, with its sign

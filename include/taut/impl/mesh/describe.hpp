@@ -58,7 +58,7 @@ std::string list_first_elements(std::size_t n, const std::vector<idx>& ids, std:
            text.substr(text.find('('));
 }
 
-/// What is said of vertices that no triangle names, where these are no obstacle.
+/// Describes unreferenced vertices, where they are no obstacle.
 inline std::string describe_unused(const std::vector<idx>& ids)
 {
     return list_ids("vertex", "vertices", ids) + " without a triangle: ignored";

@@ -161,7 +161,8 @@ struct ideal_elements
     {
     }
 
-    /// Of the mesh times `scale`: W^-1 in 1 / length and measure in length^D of the scaled mesh.
+    /// Computes the ideal elements of the mesh times `scale`: W^-1 in 1 / length and measure in length^D of the scaled
+    /// mesh.
     /// Throws mesh_error (degenerate_cell, inverted_cell) with every cell that has no ideal element.
     explicit ideal_elements(const mesh<Element>& m, double scale = 1.0)
         : inverse(static_cast<std::size_t>(m.cell_count())), measure(inverse.size())

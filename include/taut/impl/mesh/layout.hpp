@@ -52,8 +52,9 @@ struct layout
     {
     }
 
-    /// Of a mesh that has its final order: its first `free` vertices move, the rest are pinned. `numbers` leads from
-    /// the user's mesh to this one; identity_order() where they are the same. Throws mesh_error for degenerate cells.
+    /// Makes the layout of a mesh in its final order: its first `free` vertices move, the rest are pinned. `numbers`
+    /// leads from the user's mesh to this one; identity_order() where they are the same. Throws mesh_error for
+    /// degenerate cells.
     layout(const mesh<Element>& local, mesh_order numbers, idx free)
         : layout(local, std::move(numbers), free, ideal_elements<Element>(local))
     {

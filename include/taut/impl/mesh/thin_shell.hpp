@@ -115,7 +115,7 @@ private:
         rest_.attributes.insert(rest_.attributes.end(), numbers.begin(), numbers.end());
     }
 
-    /// Of the area of triangle k of a hinge.
+    /// Share of a hinge in the area of its triangle k.
     double share(std::size_t c, std::size_t k) const
     {
         const auto x = surface_.rest(static_cast<idx>(triangles_[c][k]));

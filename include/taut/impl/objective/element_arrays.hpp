@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// What the kernels of elements read of a mesh besides positions, on a device; strides as in layout.hpp.
+/// Arrays of a mesh on a device that the element kernels read, besides positions; strides as in layout.hpp.
 template <class Element>
 struct element_arrays
 {

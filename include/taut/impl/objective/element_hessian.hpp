@@ -35,9 +35,9 @@ inline definiteness definite(impl::negative_eigenvalues treated)
 namespace taut::impl
 {
 
-/// How an element's Hessian is stored: blocks of D x D for pairs of corners k <= l in the order (0,0) (0,1) .. (0,D)
-/// (1,1) .. (D,D). A block on the diagonal has its upper triangle by rows (2D: xx xy yy), the others all entries by
-/// rows, which belong to corner k (2D: xx xy yx yy). Slot n of cell c stands at [n * cell_stride + c].
+/// Storage of an element's Hessian: blocks of D x D for pairs of corners k <= l in the order (0,0) (0,1) .. (0,D) (1,1)
+/// .. (D,D). A block on the diagonal has its upper triangle by rows (2D: xx xy yy), the others all entries by rows,
+/// which belong to corner k (2D: xx xy yx yy). Slot n of cell c stands at [n * cell_stride + c].
 template <int D>
 struct hessian_slots
 {

@@ -69,7 +69,7 @@ public:
         corners_ = buffer_of(corners);
     }
 
-    /// Where held coordinates are wanted: those of a map in the user's numbers and units, of which no others are read.
+    /// Sets the targets of fixed coordinates: those of a map in the user's numbers and units; no others are read.
     void aim(const layout<Element>& mesh_layout, std::span<const vec<D>> map)
     {
         if (empty()) return;

@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    /// What the Hessian takes, made where it is first asked for.
+    /// Data for the Hessian, made on first use.
     struct second_order
     {
         impl::element_hessian_kernel<Element> kernel;

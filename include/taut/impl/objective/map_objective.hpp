@@ -102,8 +102,8 @@ public:
         sliding_.slide(*layout_, c.slides);
     }
 
-    /// Where coordinates that are held besides those of pinned vertices are wanted, for linearize_towards() and put():
-    /// those of a map in the user's numbers and units, of which no others are read.
+    /// Sets the targets of fixed coordinates other than those of pinned vertices, for linearize_towards() and put():
+    /// those of a map in the user's numbers and units; no others are read.
     void aim(std::span<const vec<D>> map) { held_.aim(*layout_, map); }
     /// x = what is wanted at what is held, to the last bit of the type of positions.
     void put(point& x) { held_.put(x); }
@@ -232,9 +232,9 @@ protected:
         springs_.add_gradient(x, corner_gradients_);
     }
 
-    /// What held coordinates that move by d do to the gradients of elements, which are those at the current point, in
-    /// the model of `hessian`, not masked yet: g = the gradient at the others. f here, and by how much the model
-    /// changes. One wait.
+    /// Applies a displacement d of fixed coordinates to the gradients of elements, which are those at the current
+    /// point, in the model of `hessian`, not masked yet: g = the gradient at the others. f here, and by how much the
+    /// model changes. One wait.
     solve::impl::model_change move_held(const real_buffer& hessian, const vector& d, vector& g)
     {
         const auto sum = enqueue_sum();

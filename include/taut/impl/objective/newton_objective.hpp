@@ -22,7 +22,7 @@
 namespace taut::impl
 {
 
-/// What a newton_objective does for elements that cap a step.
+/// Treatment of elements that cap a step in a newton_objective.
 enum class capping_elements
 {
     relaxed, ///< newton_objective::relax() moves their vertices
@@ -160,7 +160,7 @@ public:
         this->mask(out);
     }
 
-    /// What precondition() applies, with its matrices, for measurements.
+    /// Preconditioner with its matrices, for measurements.
     const multigrid& preconditioner() const { return cycle_; }
 
     /// Moves the vertices of the worst elements alone; whether there were any.

@@ -34,7 +34,7 @@ struct newton_plan
     {
     }
 
-    /// Of a level.
+    /// Makes the plan of a level.
     newton_plan(const mesh_levels<Element>& levels, std::size_t l, lane_form form)
         : newton_plan(levels.make_layout(l), levels.cells(l), levels.transfers(l), levels.fixed(l), form)
     {

@@ -221,7 +221,7 @@ private:
             return force;
         }
 
-        /// How far along d_ steps are tried: the stand-in is too stiff.
+        /// Maximum step along d_: above 1, as the projected Hessian is too stiff.
         double reach() const
         {
             constexpr double fraction = 0.9;

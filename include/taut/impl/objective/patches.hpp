@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// Where the patches of a map lie.
+/// Parameters of the patches of a map.
 struct patch_params
 {
     double share = 0.9;               ///< of all weights, that the vertices in the middle of patches have at most

@@ -28,8 +28,9 @@ struct relaxation_kernels
     /// Multiples of Newton's step that are tried. Near a barrier such as 1/det^2 Newton's step multiplies the distance
     /// to it by 4/3 only: the long ones get a sliver away in a few sweeps.
     static constexpr std::array<double, 8> step_lengths = {64, 32, 16, 8, 4, 2, 1, 0.25};
-    /// Of Newton's step. Across a sliver the energy is many orders stiffer than along it; undamped, the way along it is
-    /// long and spoils the long multiples, and slivers take three times as many sweeps (docs/explanation/numerics.md).
+    /// Damping of Newton's step. Across a sliver the energy is many orders stiffer than along it; undamped, the way
+    /// along it is long and spoils the long multiples, and slivers take three times as many sweeps
+    /// (docs/explanation/numerics.md).
     static constexpr double damping = 1e-2;
     static constexpr int trials = static_cast<int>(step_lengths.size());
 

@@ -17,8 +17,7 @@
 namespace taut::impl
 {
 
-/// What every kernel of elements reads of a mesh and a map, by the names under which it is bound
-/// (element_arrays::with).
+/// Common inputs of the element kernels, by the names under which it is bound (element_arrays::with).
 struct element_inputs
 {
     /// energy: says which data of cells and which parameters there are.
@@ -104,7 +103,7 @@ public:
             }
         return S;
     }
-    /// Of the map itself.
+    /// Shape matrix of the map itself.
     matrix shape_matrix() const { return shape_matrix(edges(in_.x)); }
 
     /// The energy at S, which is in the frame of the ideal element; that of the user is its concern.

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// Which elements are bad, and how long their vertices are moved.
+/// Parameters of a vertex relaxation: the threshold for bad elements, and limits.
 struct relaxation_params
 {
     double threshold = 7.5;  ///< an element is bad if its density is above this many times that of the identity
@@ -25,7 +25,7 @@ struct relaxation_params
     int sweeps = 4;          ///< moves a vertex
 };
 
-/// What a relaxation found and did.
+/// Result of a relaxation.
 struct relaxation_result
 {
     std::size_t elements = 0; ///< bad ones, before

@@ -49,7 +49,7 @@ inline double distance(const vec2& p, const vec2& a, const vec2& b)
     return glm::length(a + t * d - p);
 }
 
-/// Of two segments.
+/// Distance of two segments.
 inline double distance(const vec2& a, const vec2& b, const vec2& c, const vec2& d)
 {
     if (segments_meet(a, b, c, d)) return 0;

@@ -192,8 +192,8 @@ private:
 
     static constexpr int through = 1 << 20; ///< more than any winding number
 
-    /// What an edge adds to the winding number about p, by the ray upwards; `through` if it goes through p: charts that
-    /// touch were looked at where they do.
+    /// Contribution of an edge to the winding number about p, by the ray upwards; `through` if it contains p: touching
+    /// charts are checked elsewhere.
     int crossing_above(const vec2& p, std::size_t edge) const
     {
         const vec2 &a = uv_[u(outlines_.edges[edge][0])], &b = uv_[u(outlines_.edges[edge][1])];

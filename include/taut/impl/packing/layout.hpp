@@ -19,7 +19,7 @@
 namespace taut::impl
 {
 
-/// Where a piece lies: its pose, the tile, and the cell of the tile that its mask begins at.
+/// Placement of a piece: its pose, the tile, and the cell of the tile that its mask begins at.
 struct spot
 {
     idx pose = -1, tile = 0, x = 0, y = 0;

@@ -231,7 +231,7 @@ struct room_mask
     }
 };
 
-/// Which cells of a strip are taken.
+/// Occupied cells of a strip.
 class occupancy
 {
 public:

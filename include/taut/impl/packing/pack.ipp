@@ -169,8 +169,8 @@ private:
         if (best.complete) keep(best, fits);
     }
 
-    /// Of a tile, in lengths of the pieces: side^2 = (area + gaps around) / density, where a gap is a share of the
-    /// side.
+    /// Estimated side of a tile, in lengths of the pieces: side^2 = (area + gaps around) / density, where a gap is a
+    /// share of the side.
     double estimated_side() const
     {
         const double density = 0.75 * params_.tiles, share = gap_ / (1 - 2 * border_);

@@ -46,14 +46,14 @@ struct pack_params
     /// number a chart; empty: 1 each.
     std::vector<double> densities;
 
-    /// What is in the tiles already and stays. Charts keep the padding from it.
+    /// Obstacles in the tiles, from which charts keep the padding.
     std::vector<impl::tile_wall> walls;
 
     /// By how much a coordinate in [0, tiles) may be off in the file it is written to; the padding holds there, too.
     /// Default: floats, tiles up to the eighth. 0 to 0.001.
     double rounding = 1e-6;
 
-    /// When it is over the best layout so far is returned; one of shelves costs next to nothing and is made first.
+    /// Time limit, after which the best layout so far is returned; a cheap shelf layout is made first.
     impl::budget::seconds time_limit = impl::budget::unlimited;
     taut::observer observer; ///< asked every 8 charts of a layout
 

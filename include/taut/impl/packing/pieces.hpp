@@ -19,7 +19,7 @@
 namespace taut::impl
 {
 
-/// What the packer knows of a chart. Lengths are its own times its density, points are relative to `centre`.
+/// Chart as the packer sees it. Lengths are its own times its density, points are relative to `centre`.
 struct piece
 {
     std::span<const std::array<idx, 2>> edges; ///< of the border, as vertices
@@ -144,7 +144,7 @@ struct pose
     room_mask mask;
 };
 
-/// How far charts stay away from the borders of their masks, in cells: rounding never carries them across.
+/// Distance of charts from the borders of their masks, in cells: rounding never carries them across.
 inline constexpr double inset = 1e-6;
 
 /// The edges of a piece in a pose, in cells, its box from (inset, inset) on.

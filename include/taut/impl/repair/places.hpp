@@ -14,7 +14,7 @@
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/core/keyed_hash.hpp>
 
-/// Which points are at one place.
+/// Welding of points: finds those at one place.
 namespace taut::impl
 {
 

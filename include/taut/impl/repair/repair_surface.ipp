@@ -202,7 +202,7 @@ private:
         return ones_of(open);
     }
 
-    /// How far each place may be from one that it joins: so that no two corners of a triangle meet.
+    /// Maximum distance at which a place may be welded to another, so that no two corners of a triangle meet.
     std::vector<double> reach() const
     {
         std::vector<double> result(points_.size(), params_.weld_tolerance);

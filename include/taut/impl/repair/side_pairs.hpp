@@ -11,7 +11,7 @@
 
 #include <taut/impl/repair/winding.hpp>
 
-/// Which sides of triangles are the two of an edge of the surface.
+/// Pairing of the sides of triangles that share an edge of the surface.
 namespace taut::impl
 {
 

@@ -8,7 +8,7 @@
 
 #include <taut/impl/repair/placed_triangles.hpp>
 
-/// Which triangles are turned over, so that neighbours agree.
+/// Consistent orientation: the triangles to be reversed so that neighbours agree.
 namespace taut::impl
 {
 

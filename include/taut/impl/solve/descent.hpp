@@ -17,7 +17,7 @@
 namespace taut::solve::impl
 {
 
-/// How a method uses the step before: d = -H g + on_step * s.
+/// Use of the previous step by a method: d = -H g + on_step * s.
 struct momentum
 {
     double on_step = 0;

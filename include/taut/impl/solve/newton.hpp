@@ -136,7 +136,7 @@ private:
         return pending_ ? settle(model_.gradient_squared) : std::nullopt;
     }
 
-    /// Of values near the current one.
+    /// Rounding error of values near the current one.
     double noise() const { return rounding_ * f_.size(value_); }
 
     /// Makes d_, a direction of the stand-in, conjugate to the last one (Hestenes & Stiefel 1952, with the stand-in as

@@ -91,8 +91,9 @@ struct line_search_params
     /// Factor between the steps of backtracking. Range (0, 1).
     double shrink = 0.5;
 
-    /// Relative rounding error of a value. A rise by less is no rise, and such small decreases are judged by slopes.
-    /// Range [0, 1e-3). An objective that computes in float says so by its own rounding(), and the larger one holds.
+    /// Relative rounding error of a value. Changes below this are noise; decreases are then tested by the slope
+    /// (approximate Wolfe conditions, Hager and Zhang). Range [0, 1e-3). An objective that computes in float says so by
+    /// its own rounding(), and the larger one holds.
     double rounding = 1e-14;
 
     friend bool operator==(const line_search_params&, const line_search_params&) = default;
@@ -178,7 +179,7 @@ struct stopping_params
 namespace taut::solve::impl
 {
 
-/// What all descent methods share.
+/// Common parameters of all descent methods.
 struct descent_params
 {
     solve::line_search_params line_search = {};
@@ -290,7 +291,7 @@ struct pcg_params
     /// two, each further one after as many as the one before was found to need. Range 1..8.
     int block = 6;
 
-    /// Go on while the last step brought more than this part of what the steps brought on average (Nash & Sofer 1990,
+    /// Stop when the last decrease of the model is below this fraction of the mean decrease (Nash & Sofer 1990,
     /// "Assessing a search direction within a truncated-Newton method"); of later blocks, their mean step. Range (0,
     /// 1). Lower it for more exact directions.
     double gain = 0.25;
@@ -339,8 +340,7 @@ struct newton_params
 namespace taut::solve::impl
 {
 
-/// How far Newton's method goes along a direction: the best of the full step and fractions of it. As in
-/// line_search_params.
+/// Line search parameters of Newton's method: the best of the full step and fractions of it. As in line_search_params.
 struct newton_search_params
 {
     double sufficient_decrease = wolfe_params{}.sufficient_decrease;
@@ -348,7 +348,7 @@ struct newton_search_params
     double rounding = line_search_params{}.rounding;
 };
 
-/// What Newton's method has in common with the others.
+/// Common parameters of Newton's method and the others.
 struct newton_common_params
 {
     newton_search_params search = {};

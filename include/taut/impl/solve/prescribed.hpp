@@ -20,8 +20,8 @@ namespace taut::solve
 /// Parameters of incremental loading: how prescribed coordinates are brought to their values.
 struct prescribed_params
 {
-    /// Of the steps of the others: the system is dominated by the neighbours of what moves, so that a small gain does
-    /// not say that what is farther off has followed.
+    /// Conjugate gradients of the steps of free coordinates: the system is dominated by the neighbours of the moving
+    /// ones, so that a small gain does not mean that those farther off have followed.
     pcg_params pcg = {.gain = 0.01};
 
     /// As in line_search_params.

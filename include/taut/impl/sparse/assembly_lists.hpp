@@ -12,7 +12,8 @@
 namespace taut::impl
 {
 
-/// Which entries of element blocks each place of a block matrix sums, made on the host: what block_assembly works by.
+/// Assembly lists: the entries of element blocks that each place of a block matrix sums, made on the host for
+/// block_assembly.
 ///
 /// An element with K corners gives one block for each pair k <= l of its corners, pairs in the order (0,0), (0,1), ..,
 /// (0,K-1), (1,1), ..: a block (k, k) has its upper triangle by rows, D (D + 1) / 2 entries, the others all D * D by

@@ -167,7 +167,7 @@ public:
     const buffer<idx>& offsets() const noexcept { return shared_->offsets; }
     const buffer<idx>& columns() const noexcept { return shared_->columns; }
 
-    /// What one product must move: values, columns, the vector read once and the result written.
+    /// Bytes that one product moves: values, columns, the vector read once and the result written.
     std::size_t product_bytes() const
     {
         return values_.bytes() + columns().bytes() + 2 * d() * stride() * size_of(type());
@@ -190,7 +190,7 @@ private:
                                    {"y", y.data()}});
     }
 
-    /// What matrices of one pattern share.
+    /// Data shared by matrices of one pattern.
     struct structure
     {
         structure(taut::queue& q, scalar_type real, block_pattern pattern, int size, lane_form lanes)
@@ -243,7 +243,7 @@ private:
     idx pitch() const { return static_cast<idx>(stride()); }
     range items() const { return form().items(stride()); }
 
-    /// Where entry at % (D * D) of the block of place at / (D * D) is on the device.
+    /// Device index of entry at % (D * D) of the block at / (D * D).
     std::size_t device_place(std::size_t at) const
     {
         const std::size_t C = static_cast<std::size_t>(form().slice), place = at / blocks(), lane = place % C;

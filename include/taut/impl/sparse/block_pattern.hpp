@@ -104,7 +104,7 @@ public:
         std::sort(sorted_.begin(), sorted_.end());
     }
 
-    /// Which nonzero column c is. Throws parameter_error if it is none.
+    /// Index of column c among the nonzeros. Throws parameter_error if it is none.
     std::size_t find(idx c) const
     {
         if (const int k = short_.find(c); k >= 0) return static_cast<std::size_t>(k);

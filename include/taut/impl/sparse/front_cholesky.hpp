@@ -26,7 +26,7 @@ namespace taut::impl
 class front_cholesky
 {
 public:
-    /// Of one triangle, rows and columns (corner 0 x, y, corner 1 x, y, corner 2 x, y); symmetric.
+    /// Element matrix of one triangle, rows and columns (corner 0 x, y, corner 1 x, y, corner 2 x, y); symmetric.
     using block = std::array<std::array<double, 6>, 6>;
 
     /// fixed: one flag a vertex; a fixed vertex has no unknowns.
@@ -257,7 +257,7 @@ private:
         for (const idx i : part(variables_, s.variables)) place[u(i)] = next++;
     }
 
-    /// Of the border of a child. place: by unknown vertex, in the parent.
+    /// Index ranges of the border of a child. place: by unknown vertex, in the parent.
     range runs_of(const step& s, const std::vector<idx>& place)
     {
         const range all{runs_.size(), 0};

@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// How a CPU deals the product P' A P to items: an item sums `size` coarse rows and visits the slices of fine rows that
-/// contribute. Nonzeros of a coarse row are told apart by the colours of their columns.
+/// Distribution of the product P' A P over work-items on a CPU: an item sums `size` coarse rows and visits the slices
+/// of fine rows that contribute. Nonzeros of a coarse row are told apart by the colours of their columns.
 struct product_groups
 {
     static constexpr idx clash = 256;

@@ -30,7 +30,7 @@ struct transfer_weights
     /// places[offsets[J]] and on.
     std::span<const idx> offsets = {}, places = {};
 
-    /// Of rows that are arrays, without the transpose.
+    /// Transfer weights of rows that are arrays, without the transpose.
     template <std::size_t Width>
     static transfer_weights of_rows(const std::vector<std::array<idx, Width>>& columns,
                                     const std::vector<std::array<double, Width>>& weights, std::size_t coarse,

@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// How to find a first map through a hierarchy.
+/// Parameters of an initial map through a hierarchy.
 struct coarse_start_params
 {
     /// robust_start() works on the finest level with at most so many vertices; at least 3.

@@ -14,13 +14,13 @@
 namespace taut::impl
 {
 
-/// How to map a surface conformally.
+/// Parameters of a conformal map.
 struct conformal_start_params
 {
     /// Iterations of the eigenvector: 1 to 50. A few suffice.
     int iterations = 6;
 
-    /// Of the map that is returned where the conformal one has flipped triangles. It has a free boundary.
+    /// Parameters of the map that replaces a conformal one with flipped triangles. It has a free boundary.
     coarse_start_params fallback = {};
 
     /// Throws parameter_error with the name of a field outside its domain.

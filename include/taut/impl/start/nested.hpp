@@ -19,8 +19,8 @@
 namespace taut::impl
 {
 
-/// How the levels above the finest one are solved: roughly, since the next one changes everything a little. Before
-/// each one `start.proceed` is asked, too.
+/// Parameters of the levels above the finest one, which are solved roughly, as the next one changes everything a
+/// little. Before each one `start.proceed` is asked, too.
 struct nested_params
 {
     std::size_t start_vertices = 1000; ///< the start map is made on the finest level with at most so many
@@ -44,7 +44,7 @@ struct nested_params
     static constexpr double hard_above = 1.5, patient_decrease = 2e-5, patient_factor = 4;
     static constexpr std::size_t hard_vertices = 30000;
 
-    /// Of hard shapes, for levels that grow by `patient_factor`.
+    /// Parameters for slow convergence: coarsening ratio `patient_factor` and tighter tolerances.
     nested_params patient() const
     {
         nested_params p = *this;
@@ -114,7 +114,7 @@ public:
         return uv;
     }
 
-    /// Of the start map; its uv are gone.
+    /// Report of the start map; its uv have been moved from.
     const start_map& start() const { return start_; }
     const std::string& reason() const { return reason_; }
     bool hard() const { return hard_; } ///< it ended for that

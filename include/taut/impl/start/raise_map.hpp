@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// How to bring a map up a level.
+/// Parameters of prolonging a map to the next finer level.
 struct raise_params
 {
     std::span<const char> fixed = {}; ///< flags of vertices that stay, one a vertex of the finest level, or none

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// How to find a first map of a small surface.
+/// Parameters of an initial map of a small surface.
 struct robust_start_params
 {
     /// Outline of the barycentric map that it begins with.

@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// What an element is wanted to look like, and how much it counts.
+/// Target shape and weight of an element.
 template <int D>
 struct target_shape
 {
@@ -24,7 +24,7 @@ struct target_shape
     double weight = 0; ///< of all elements they sum to 1
 };
 
-/// How large the image will be, in the unit of x: its signed measure where the boundary is pinned, and that of the box
+/// Estimated size of the image, in the unit of x: its signed measure where the boundary is pinned, and that of the box
 /// around the held vertices or all vertices otherwise.
 template <class Element>
 double expected_measure(const untangle_problem<Element>& problem, const std::vector<vec<Element::dimension>>& x)
@@ -102,7 +102,7 @@ std::vector<target_shape<Element::dimension>> rest_shapes(const mesh<Element>& m
     return shapes;
 }
 
-/// What the problem wants: the shapes that it has, or those at rest.
+/// Target shapes of the problem: those given, or those at rest.
 template <class Element>
 std::vector<target_shape<Element::dimension>> shapes_wanted(const untangle_problem<Element>& problem, double measure)
 {

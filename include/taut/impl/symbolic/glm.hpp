@@ -6,7 +6,7 @@
 #include <taut/impl/symbolic/cast.hpp>
 #include <taut/impl/symbolic/limits.hpp>
 
-/// What GLM's templates miss on traced scalars. Its vectors, matrices, products, determinant(), inverse(),
+/// Completion of GLM's templates for traced scalars. Its vectors, matrices, products, determinant(), inverse(),
 /// transpose(), dot(), cross(), length() and normalize() work as they are.
 ///
 /// GLM deduces one scalar type from both operands, so a host factor needs operators of its own; and its component-wise

@@ -98,7 +98,7 @@ private:
         }
     }
 
-    /// Where m or n holds; none stands for everywhere.
+    /// Disjunction of two conditions; none stands for everywhere.
     node_id either(node_id m, node_id n)
     {
         if (m == no_node || n == no_node) return no_node;
@@ -106,7 +106,7 @@ private:
         return is_constant(t_, mask) ? no_node : mask; // m or not m: everywhere
     }
 
-    /// Where m and n hold.
+    /// Conjunction of two conditions.
     node_id both(node_id m, node_id n) { return m == no_node ? n : boolean(opcode::logical_and, m, n); }
 
     /// Adds the share of a node's operands to their adjoints. `id` itself serves as the value y where a rule needs it.

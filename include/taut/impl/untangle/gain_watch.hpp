@@ -8,7 +8,7 @@
 namespace taut::impl
 {
 
-/// Whether a stage comes nearer to an injective map: fewer inverted elements than ever, or a hundredth less of their
+/// Progress test of a stage towards an injective map: fewer inverted elements than ever, or a hundredth less of their
 /// measure. Energies are no sign of that, as they fall with every epsilon.
 class gain_watch
 {

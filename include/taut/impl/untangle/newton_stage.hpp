@@ -18,7 +18,7 @@
 namespace taut::impl
 {
 
-/// Where a stage starts.
+/// Initial maps of a stage.
 enum class untangle_start
 {
     best,     ///< the better of the initial map and the best so far

@@ -28,8 +28,8 @@ struct pull_stage_params
     std::string name;
     wanted_shapes shapes = wanted_shapes::rest; ///< rest: as they are in the map that it starts from
     double area_weight = 1;                     ///< of det + 1 / det against the shape of a triangle; 0: shape alone
-    /// Where the springs have jammed, go on with weak ones: held vertices that are not at their places go to random
-    /// ones first, so that those that block each other's way get past each other.
+    /// Continues with weak springs once strong ones have jammed: fixed vertices that are not at their targets go to
+    /// random positions first, so that those that block each other get past each other.
     bool detours = false;
     int share = 1; ///< it makes so many times the iterations of a round
 };

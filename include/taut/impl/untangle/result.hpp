@@ -46,7 +46,7 @@ inline std::ostream& operator<<(std::ostream& out, untangle_outcome outcome)
 namespace taut::impl
 {
 
-/// What one stage of an untangling did. Energies are the regularised ones of its first and last step.
+/// Report of one stage of an untangling. Energies are the regularised ones of its first and last step.
 struct untangle_stage_report : stage_report
 {
     std::size_t inverted = 0; ///< elements inverted in the best map when it ended

@@ -25,7 +25,7 @@
 namespace taut::impl
 {
 
-/// What the stages of an untangling share: the problem, the best map so far, the clock and the observer.
+/// Shared state of the stages of an untangling: the problem, the best map so far, the clock and the observer.
 ///
 /// Stages see positions in a unit of length in which the largest coordinate of the initial map is in [1, 2). It is a
 /// power of two, so changing units is exact.

@@ -27,7 +27,7 @@ public:
 
     const mesh<triangle>& surface() const { return part_.charts.surface; }
 
-    /// What is asked of the half. seams, together: for what they refer to
+    /// Parameters for the half. seams, together: storage that they refer to
     atlas_params params(const atlas_params& of_whole, std::vector<char>& seams, std::vector<char>& together) const
     {
         atlas_params params = of_whole;

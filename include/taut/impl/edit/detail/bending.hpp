@@ -48,7 +48,7 @@ public:
         return solver_->solve(values);
     }
 
-    /// How far each point goes.
+    /// Displacement of each point.
     std::vector<vec3> operator()(const rbf_field& field) { return evaluate_(field); }
 
     explicit operator bool() const { return solver_.has_value(); }

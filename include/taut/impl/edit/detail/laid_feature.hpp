@@ -31,7 +31,7 @@ struct laid_feature
     std::vector<vec3> on_target; ///< where they lie
     std::vector<double> from_rim;
 
-    /// How far a vertex follows: 1 at the rim and 0 at the end of the band, flat at both ends.
+    /// Blend weight of a vertex: 1 at the rim and 0 at the end of the band, with zero slope at both ends.
     double share(std::size_t i, double width) const
     {
         const double d = std::min(1.0, from_rim[i] / width);

@@ -30,7 +30,7 @@ struct landing_place
     vec3 normal;          ///< mean over what the feature will cover, of length 1
 };
 
-/// Where the rim of a feature meets the target.
+/// Image of the rim of a feature on the target.
 struct landing
 {
     similarity_transform transform; ///< of the feature

@@ -86,7 +86,7 @@ private:
     idx corner(idx t, idx k) const { return cells_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
     idx& across(idx t, idx k) { return across_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
 
-    /// Which side of triangle t leads to triangle u.
+    /// Finds the side of triangle t that is adjacent to triangle u.
     idx side_to(idx t, idx u)
     {
         for (idx k = 0; k < 2; ++k)

@@ -196,8 +196,8 @@ inline std::span<const vec3> points_of(const surface_soup& file)
     return file.points;
 }
 
-/// What an OFF or PLY file has, as OBJ: comments, vertices with their colours, normals, and the faces as they are.
-/// texcoords: one a corner, or -1.
+/// Writes the content of an OFF or PLY file as OBJ: comments, vertices with their colours, normals, and the faces.
+/// texcoords: one per corner, or -1.
 template <class Out, class File>
 void write_converted(Out& out, const File& file, std::span<const idx> texcoords, std::span<const vec2> uv)
 {

@@ -9,7 +9,7 @@
 
 #include <taut/impl/io/detail/scanner.hpp>
 
-/// How OBJ text falls into statements and faces into corners, for who reads it and who writes it anew.
+/// Splits OBJ text into statements and faces into corners, for reading and for rewriting.
 namespace taut::io::impl
 {
 

@@ -177,7 +177,7 @@ private:
         return left;
     }
 
-    /// Where the outline leaves for corner i, from which it comes back the same way, and where it does: the first and
+    /// Foot of a spike of the outline with tip i, at which the outline goes out and back the same way: the first and
     /// the last corner of that way.
     std::array<std::size_t, 2> foot(std::size_t i) const
     {

@@ -75,7 +75,7 @@ public:
     /// Returns whether no more than blanks and a comment from # on are left on the line.
     bool content_ends() { return line_ends() || at('#'); }
 
-    /// What is left on the line, which is taken, without blanks before it.
+    /// Takes the rest of the line, without leading blanks.
     std::string_view rest_of_line()
     {
         while (at_ != end_ && is_blank(*at_)) ++at_;
@@ -196,7 +196,7 @@ public:
     /// Goes to a position in the text.
     void go_to(const char* position) { at_ = position; }
 
-    /// What stands between an earlier position and this one.
+    /// Text between an earlier position and this one.
     std::string_view since(const char* position) const { return {position, static_cast<std::size_t>(at_ - position)}; }
 
     /// Fails if this is a binary file.
@@ -250,7 +250,7 @@ private:
                (comments_ && *p == '#');
     }
 
-    /// Where the digits start: behind a plus sign that no minus sign follows.
+    /// Start of the digits: behind a plus sign that no minus sign follows.
     const char* after_plus() const { return end_ - at_ > 1 && *at_ == '+' && at_[1] != '-' ? at_ + 1 : at_; }
 
     void skip_line_end()
@@ -331,7 +331,7 @@ private:
         return true;
     }
 
-    /// What a number that fits no double stands for: 0 if it is below 1, else infinity.
+    /// Value of a number beyond the range of double: 0 if it is below 1, else infinity.
     static double beyond_range(std::string_view digits)
     {
         const auto e = std::min(digits.find_first_of("eE"), digits.size());

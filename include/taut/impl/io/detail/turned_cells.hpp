@@ -17,8 +17,8 @@
 namespace taut::io::impl
 {
 
-/// Of each cell the sum of the determinants at its corners, where the shape at rest has about the size of 1. All 0 of a
-/// surface in space, which has no sign.
+/// Sum of the determinants at the corners of each cell, for a rest shape of about size 1. All 0 for a surface in space,
+/// which has no sign.
 template <class Element>
 std::vector<double> corner_measures(const volume_file& file)
 {

@@ -133,8 +133,8 @@ private:
         }
     }
 
-    /// What an entity has is in all its physical groups. A tag takes few bytes of the file and stands for all vertices
-    /// of the entity: there are no groups where these are many times what the mesh has.
+    /// Adds the vertices of entities to their physical groups. A tag takes few bytes of the file and stands for all
+    /// vertices of the entity: there are no groups where these are many times what the mesh has.
     void add_physical_groups()
     {
         auto& file = to_.file();

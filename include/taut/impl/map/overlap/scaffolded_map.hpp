@@ -61,7 +61,7 @@ public:
         gap_ *= 0.05 / static_cast<double>(edges);
     }
 
-    /// What is minimised: the mean over the triangles of the surface, and springs.
+    /// Objective: the mean over the triangles of the surface, and springs.
     double energy(const map& x) const
     {
         const auto& data = run_.params.data;
@@ -122,8 +122,8 @@ public:
     }
 
 private:
-    /// How much the scaffold counts, by the surface. Where that is much distorted it goes far, and were lighter
-    /// scaffolds torn.
+    /// Weight of the scaffold relative to the surface. It grows with the distortion of the surface, which would tear
+    /// lighter scaffolds.
     double scaffold_part(const map& x) const
     {
         const double e = mean_over<triangle>(run_.in.surface, run_.in.ideal, x, energy::isometric{}).measure;

@@ -35,7 +35,7 @@ protected:
     virtual const mesh<Element>& rest() const = 0;
     virtual std::span<const double> rest_measure() const = 0;
 
-    /// What an untangling wants elements to look like, and what they are corners of, as in an untangle_problem.
+    /// Target shapes for untangling, and the owners of elements, as in an untangle_problem.
     virtual std::vector<mat<D>> wanted_elements() const { return {}; }
     virtual std::vector<idx> owners() const { return {}; }
 
@@ -85,7 +85,7 @@ protected:
         return flips;
     }
 
-    /// What an observer sees of the map.
+    /// Progress for the observer.
     progress seen() const
     {
         if constexpr (D == 2)

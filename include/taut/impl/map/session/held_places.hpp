@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// Who is held in a map that stays open, and where: pins, and the vertices of a fixed boundary. Lengths are those of
-/// the map.
+/// Fixed vertices of a session and their targets: pins, and the vertices of a fixed boundary. Lengths are those of the
+/// map.
 template <class Element>
 class held_places
 {

@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// What session.hpp declares; include that one.
+/// Implementation of session.hpp; include that one.
 ///
 /// A session of a map of a surface: it begins as parameterize() does.
 template <class Element>

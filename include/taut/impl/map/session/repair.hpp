@@ -52,7 +52,7 @@ std::vector<char> around_moved(const untangle_problem<Element>& p, double width)
     return near;
 }
 
-/// How an untangling in a session is bounded.
+/// Limits of an untangling in a session.
 struct repair_limits
 {
     bool whole = false; ///< the whole mesh may be untangled, too

@@ -378,7 +378,7 @@ protected:
         book(clock, &session_seconds::certificate, {.stage = "certify"});
     }
 
-    /// How far held coordinates of the last map are from their places.
+    /// Notes the distance of fixed coordinates of the last map from their targets.
     void note_gap()
     {
         const auto gap = held_.gap(last.x);
@@ -387,7 +387,7 @@ protected:
         last.report.distance = gap.distance;
     }
 
-    /// The time since the last stage ended is that of this one.
+    /// Attributes the time since the end of the last stage to this one.
     void book(run_clock& clock, double session_seconds::*phase, stage_report did)
     {
         seconds_.*phase += clock.lap();

@@ -126,7 +126,7 @@ private:
         return true;
     }
 
-    /// Of a shape without inverted elements, by the host.
+    /// Energy of a shape without inverted elements, computed on the host.
     double energy_of(const map& x) const
     {
         const map run_lengths = this->scaled(x);

@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// What session.hpp declares; include that one.
+/// Implementation of session.hpp; include that one.
 ///
 /// A session of a thin shell: a shape of hinges, certified by the triangles of the surface. A template, so that only
 /// files that make a session compile it.

@@ -17,7 +17,7 @@ struct line_point
     double slope = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What a line search found.
+/// Outcomes of a line search.
 enum class search_status
 {
     accepted,   ///< a step that lowers the value; the line's gradient is the one at the step

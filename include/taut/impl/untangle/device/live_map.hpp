@@ -92,7 +92,7 @@ public:
         return x;
     }
 
-    /// What coordinates() gives where the device has what `x` says, to the last bit that it can tell.
+    /// Rounds a map as coordinates() would return it from the device.
     map as_held(map x) const
     {
         for (vec<D>& p : x)

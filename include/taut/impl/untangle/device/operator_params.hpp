@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// When the untangling operator shortens its step.
+/// Step length schedules of the untangling operator.
 enum class operator_schedule
 {
     literal, ///< by half at every increase, as Algorithm 2 is printed; soon stands still (docs/explanation/numerics.md)
@@ -39,9 +39,9 @@ struct operator_params
     double beta = 0.1;
     /// Weight of the shear operator against the area operator (Fig. 10); 0 goes without. Range >= 0.
     double shear = 0.3;
-    /// What det of every element is to exceed, in units of the mean |det|. A margin keeps the result from being barely
-    /// injective, and costs some of the hard problems. Elements are moved a little beyond it, for the rounding to
-    /// single precision. Range >= 0.
+    /// Lower bound that det of every element is to exceed, in units of the mean |det|. A margin keeps the result from
+    /// being barely injective, and costs some of the hard problems. Elements are moved a little beyond it, for the
+    /// rounding to single precision. Range >= 0.
     double margin = 0;
 
     /// At most so many moves. Range >= 0.

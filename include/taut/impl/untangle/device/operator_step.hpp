@@ -69,7 +69,7 @@ struct operator_step
         return sum;
     }
 
-    /// Where corner k should go: the gradient of det and, if the foot of the corner is outside of the opposite facet,
+    /// Direction of corner k: the gradient of det and, if the foot of the corner is outside of the opposite facet,
     /// `factor` times a vector of the same length along the facet, towards its middle. In space both are brought to a
     /// fifth of the square root of their length: a length again and not an area, or large elements overshoot and the
     /// map blows up; and a vertex has some five times as many elements as in the plane.

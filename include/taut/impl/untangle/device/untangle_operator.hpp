@@ -25,7 +25,7 @@
 namespace taut::impl
 {
 
-/// What a run of the untangling operator ended with.
+/// Result of a run of the untangling operator.
 template <int D>
 struct operator_result
 {

@@ -21,7 +21,7 @@
 #include <taut/impl/untangle/proofs/infeasibility.hpp>
 #include <taut/impl/untangle/proofs/side_view.hpp>
 
-/// Whether an edge inside has a direction for which the tetrahedra around it can be positive.
+/// Proof test: whether an inner edge has a direction for which the tetrahedra around it can be positive.
 namespace taut::impl
 {
 
@@ -31,7 +31,7 @@ inline side_view::tetra mirrored(const side_view::tetra& t)
     return {t[1], t[0], t[2], t[3]};
 }
 
-/// What the corners q around an edge of four positive tetrahedra can be seen from u, one of its ends: sets of
+/// Cases of the corners q around an edge of four positive tetrahedra as seen from u, one of its ends: sets of
 /// tetrahedra of one of which all are positive. Either the two on one of the diagonals of q are, or three of the four
 /// on diagonals are negative. For let w be the other end, and let weights m, by sign those of [q1 q2 q3], -[q0 q2 q3],
 /// [q0 q1 q3], -[q0 q1 q2], make the sum of the q - u vanish. So do they in the plane across w - u, where the q run

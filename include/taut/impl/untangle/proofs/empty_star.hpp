@@ -12,7 +12,7 @@
 
 #include <taut/impl/exact/predicates.hpp>
 
-/// Whether a free vertex has a place where all its triangles with two pinned corners are positive.
+/// Proof test: whether a free vertex has a position where all its triangles with two pinned corners are positive.
 namespace taut::impl
 {
 
@@ -92,7 +92,7 @@ inline bool may_contradict(const half_plane& f, const half_plane& g, const half_
     return !(*least < 0 && *most > 0);
 }
 
-/// What is left of a convex polygon in the closed half-plane.
+/// Clips a convex polygon to the closed half-plane.
 inline std::vector<vec2> clip(std::span<const vec2> polygon, const half_plane& h)
 {
     std::vector<vec2> kept;

@@ -63,7 +63,7 @@ public:
 
     const csr& around() const { return around_; } ///< cells of vertices
 
-    /// What was noted, cells first.
+    /// Takes the collected splits, cells first.
     std::vector<std::vector<idx>> take() const
     {
         std::vector<std::vector<idx>> all(chosen_.begin(), chosen_.end());
@@ -173,10 +173,10 @@ bool split_against(const untangle_problem<Element>& p, const infeasibility_findi
     return false;
 }
 
-/// What to split so that these proofs hold no more: edges inside between vertices that are held, of the elements that
-/// they turn over or make flat, of outlines and of pairs that cross; faces where no such edge is inside; edges from a
-/// vertex without a place to its held neighbours. New vertices are free, so nothing on the boundary is split: what a
-/// pinned boundary proves by itself stays proved, and is the obstacle.
+/// Finds splits that invalidate these proofs: edges inside between vertices that are held, of the elements that they
+/// turn over or make flat, of outlines and of pairs that cross; faces where no such edge is inside; edges from a vertex
+/// without a place to its held neighbours. New vertices are free, so nothing on the boundary is split: what a pinned
+/// boundary proves by itself stays proved, and is the obstacle.
 template <class Element>
 mending_splits splits_against(const untangle_problem<Element>& problem, const infeasibility& found)
 {
@@ -188,9 +188,9 @@ mending_splits splits_against(const untangle_problem<Element>& problem, const in
     return result;
 }
 
-/// What to split around elements that no map was found for: the edges inside between held vertices, which straight as
-/// they are may leave no room, of all elements that touch these; where there are none the longest edge inside of each
-/// in the map.
+/// Finds splits around elements that stayed inverted: the edges inside between held vertices, which straight as they
+/// are may leave no room, of all elements that touch these; where there are none the longest edge inside of each in the
+/// map.
 template <class Element>
 mending_splits splits_around(const untangle_problem<Element>& problem, std::span<const idx> cells)
 {

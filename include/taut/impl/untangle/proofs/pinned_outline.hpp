@@ -14,7 +14,7 @@
 #include <taut/impl/exact/crossings.hpp>
 #include <taut/impl/exact/exact_sum.hpp>
 
-/// What the image of a pinned outline says about all maps that have it.
+/// Consequences of the image of a pinned outline for all maps that have it.
 namespace taut::impl
 {
 
@@ -60,7 +60,7 @@ inline double exterior_angle(const vec2& a, const vec2& b, const vec2& c)
     return std::abs(angle) > pi / 2 ? std::copysign(angle, turn) : angle;
 }
 
-/// How often the outline winds about q; nothing if q lies on it. Exact.
+/// Winding number of the outline about q; nothing if q lies on it. Exact.
 inline std::optional<int> winding_number(std::span<const std::array<idx, 2>> outline, std::span<const vec2> x,
                                          const vec2& q)
 {
