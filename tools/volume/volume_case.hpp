@@ -44,7 +44,7 @@ struct volume_state
     shape_quality shapes;
 };
 
-/// Fills in negative_inside and undecided, by validity_of_cell(). x: one a point.
+/// Fills in negative_inside and undecided, by validity_of_cell(). x: one per point.
 void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_state& state);
 
 /// The cells of a volume file, or of a planar one, as simplices.

@@ -13,7 +13,7 @@ namespace taut::tools
 struct drawn_state
 {
     std::string title;
-    std::vector<vec3> points; ///< one a point of the file
+    std::vector<vec3> points; ///< one per point of the file
     std::vector<double> distortion;
     std::vector<idx> inverted; ///< cells
 };

@@ -39,13 +39,13 @@ inline std::pair<double, double> area_and_energy(const chart_mesh& charts, std::
 }
 
 /// Puts in a report what charts are like, each by itself and all of them at one common scale.
-/// uv: one a vertex of charts.surface, in the tiles; layout: without places where there is none
+/// uv: one per vertex of charts.surface, in the tiles; layout: without places where there is none
 inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv, const packing& layout)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const auto& cells = charts.surface.cells();
     const ideal_elements<triangle> ideal(charts.surface);
-    std::vector<double> values(cells.size()); // one a triangle
+    std::vector<double> values(cells.size()); // one per triangle
     const auto for_each_cell = [&](const auto& value)
     {
         parallel_for(values.size(),

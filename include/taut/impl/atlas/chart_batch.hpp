@@ -28,7 +28,7 @@ struct chart_problem
 {
     const ideal_elements<triangle>* ideal = nullptr;
     std::vector<std::array<idx, 3>> cells; ///< renumbered
-    std::vector<idx> order;                ///< the vertex of the chart, one a vertex here
+    std::vector<idx> order;                ///< the vertex of the chart, one per vertex here
     csr fans;                              ///< corners of each vertex
     std::vector<idx> heights;              ///< of panels
     std::vector<vec2> uv;                  ///< in this order

@@ -24,8 +24,8 @@ struct chart_mesh
     mesh<triangle> surface;
     std::vector<idx> first_cell;     ///< #charts + 1
     std::vector<idx> first_vertex;   ///< #charts + 1
-    std::vector<idx> cell_origins;   ///< the triangle of the surface, one a triangle; corners keep their places
-    std::vector<idx> vertex_origins; ///< the vertex of the surface, one a vertex
+    std::vector<idx> cell_origins;   ///< the triangle of the surface, one per triangle; corners keep their places
+    std::vector<idx> vertex_origins; ///< the vertex of the surface, one per vertex
 
     idx charts() const noexcept { return static_cast<idx>(first_cell.size()) - 1; }
 };
@@ -37,7 +37,7 @@ namespace taut::impl
 
 /// Marks the sides where charts meet.
 /// chart: one label a triangle
-/// Returns one flag a side of the surface, whose facets `f` are: 1 where the triangles of an edge differ in label.
+/// Returns one flag per side of the surface, whose facets `f` are: 1 where the triangles of an edge differ in label.
 inline std::vector<char> seams_between(const facet_table& f, std::span<const idx> chart)
 {
     std::vector<char> seam(f.twin.size(), 0);
@@ -51,7 +51,7 @@ inline std::vector<char> seams_between(const facet_table& f, std::span<const idx
 }
 
 /// The polygon of each triangle, by the first of its triangles.
-/// together: one flag a side of the surface, 1 on the diagonals of polygons; or empty
+/// together: one flag per side of the surface, 1 on the diagonals of polygons; or empty
 inline std::vector<idx> polygons_of(const facet_table& f, std::span<const char> together)
 {
     disjoint_sets polygons(static_cast<idx>(f.twin.size()) / 3);
@@ -90,7 +90,7 @@ inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table
 namespace taut::impl
 {
 
-/// seam: one flag a side of a surface, whose facets are `f`
+/// seam: one flag per side of a surface, whose facets are `f`
 inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
 {
     double length = 0;
@@ -152,8 +152,8 @@ inline std::pair<std::vector<idx>, idx> pieces_between(const facet_table& f, std
 /// The fans that seams part the triangles around vertices into.
 struct vertex_fans
 {
-    std::vector<idx> of_corner;    ///< one a corner
-    std::vector<idx> first_corner; ///< one a fan, ascending
+    std::vector<idx> of_corner;    ///< one per corner
+    std::vector<idx> first_corner; ///< one per fan, ascending
 };
 
 inline vertex_fans fans_between(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)

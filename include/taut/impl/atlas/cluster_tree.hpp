@@ -33,15 +33,15 @@ struct cluster_tree
 
     idx triangles = 0;                        ///< of the surface
     idx leaves = 0;                           ///< and its holes
-    std::vector<std::array<idx, 2>> children; ///< one a piece; the second may be none
-    std::vector<idx> parents;                 ///< one a node; none for roots
-    std::vector<idx> sewn;                    ///< one a side: the node that sewed its edge, or never
-    std::vector<double> area;                 ///< one a node
-    std::vector<double> strain;               ///< one a node: estimated distortion above the least possible, times area
+    std::vector<std::array<idx, 2>> children; ///< one per piece; the second may be none
+    std::vector<idx> parents;                 ///< one per node; none for roots
+    std::vector<idx> sewn;                    ///< one per side: the node that sewed its edge, or never
+    std::vector<double> area;                 ///< one per node
+    std::vector<double> strain;               ///< one per node: estimated distortion above the minimum, times area
 
     idx nodes() const { return leaves + static_cast<idx>(children.size()); }
 
-    /// The charts of an antichain: for each triangle the node among `chosen` (one flag a node) that it is in.
+    /// The charts of an antichain: for each triangle the node among `chosen` (one flag per node) that it is in.
     std::vector<idx> labels(std::span<const char> chosen) const
     {
         std::vector<idx> label(static_cast<std::size_t>(nodes()), none);
@@ -57,7 +57,7 @@ struct cluster_tree
         return label;
     }
 
-    /// The seams of charts as labels() gives them, one flag a side: edges between charts, and slits in a chart.
+    /// The seams of charts as labels() gives them, one flag per side: edges between charts, and slits in a chart.
     std::vector<char> seams(const facet_table& f, std::span<const idx> label) const
     {
         std::vector<char> seam = seams_between(f, label);
@@ -75,7 +75,7 @@ struct cluster_tree
 class clustering
 {
 public:
-    /// keep: one flag a side, edges that remain seams, or empty; together: those that go before all others, or empty
+    /// keep: one flag per side, edges that remain seams, or empty; together: those that go before all others, or empty
     /// apart: pairs of triangles that no piece has both of
     clustering(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep,
                std::span<const char> together, std::span<const std::array<idx, 2>> apart)
@@ -344,20 +344,20 @@ private:
     std::span<const char> together_;
     arc_graph graph_;
     idx sides_;
-    std::vector<piece> pieces_;            // one a polygon
-    std::vector<arc> arcs_;                // one an arc, by its number
+    std::vector<piece> pieces_;            // one per polygon
+    std::vector<arc> arcs_;                // one per arc, by its number
     std::vector<int> stamp_;               // of the offer that counts
     std::vector<idx> after_;               // next side of an arc
-    std::vector<double> corner_;           // one a node that stays the end of arcs: distortion if it is inside; 0: none
+    std::vector<double> corner_;           // one per node that remains an end of arcs: distortion if inside; 0: none
     std::vector<char> open_;               // holes
-    std::vector<std::vector<idx>> rivals_; // one a polygon: triangles that its piece is to be without; or empty
+    std::vector<std::vector<idx>> rivals_; // one per polygon: triangles that its piece is to be without; or empty
     std::priority_queue<offered> queue_;
     cluster_tree tree_;
 };
 
 /// Clusters a surface. Deterministic; time O(n log n).
 /// m:    an oriented manifold; several components, handles and holes are welcome; f: its facets
-/// keep: one flag a side, edges that are to remain seams, the same on both sides; or empty
+/// keep: one flag per side, edges that are to remain seams, the same on both sides; or empty
 /// together: edges whose triangles are united before all others, in the same way
 /// apart: pairs of triangles that no piece is to have both of
 /// limits: asked now and then, or null; where it says no, what is united by then is the tree

@@ -43,7 +43,7 @@ inline bool may_overlap(const chart_mesh& charts, std::size_t k)
 }
 
 /// Returns whether a chart, without flips, of genus 0, overlaps itself.
-/// uv: one a vertex of charts.surface, finite
+/// uv: one per vertex of charts.surface, finite
 inline bool overlaps_itself(const chart_mesh& charts, std::size_t k, std::span<const vec2> uv)
 {
     if (!may_overlap(charts, k)) return false;
@@ -59,7 +59,7 @@ inline bool overlaps_itself(const chart_mesh& charts, std::size_t k, std::span<c
     return overlaps_itself(border_loops(charts, static_cast<idx>(k)), uv);
 }
 
-/// One flag a chart, of such charts: 1 where it overlaps itself.
+/// One flag per chart, of such charts: 1 where it overlaps itself.
 inline std::vector<char> crossing_charts(const chart_mesh& charts, std::span<const vec2> uv)
 {
     std::vector<char> crossing(static_cast<std::size_t>(charts.charts()), 0);

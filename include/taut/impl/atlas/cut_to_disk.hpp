@@ -20,8 +20,8 @@ namespace taut::impl
 class edge_ways
 {
 public:
-    std::vector<double> distance; ///< one a vertex
-    std::vector<idx> came;        ///< the last side of the way, one a vertex; -1 at starts
+    std::vector<double> distance; ///< one per vertex
+    std::vector<idx> came;        ///< the last side of the way, one per vertex; -1 at starts
 
     edge_ways(const mesh<triangle>& m, const facet_table& f, const csr& sides, const std::vector<double>& weight)
         : distance(m.points().size(), std::numeric_limits<double>::infinity()),
@@ -238,8 +238,8 @@ private:
     csr sides_;
     std::vector<double> weight_;
     std::vector<char> seam_;
-    std::vector<idx> component_; // one a vertex: the first vertex of it
-    std::vector<char> on_rim_;   // one a vertex
+    std::vector<idx> component_; // one per vertex: the first vertex of it
+    std::vector<char> on_rim_;   // one per vertex
     std::vector<kind> kind_;     // of components, at their first vertex
 };
 

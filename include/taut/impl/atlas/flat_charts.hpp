@@ -53,8 +53,8 @@ protected:
     /// The triangles of the surface in the plane, in its units, each as it lies in its chart.
     struct laid_triangles
     {
-        std::vector<vec2> uv;       // one a corner
-        std::vector<double> energy; // one a triangle: of its chart
+        std::vector<vec2> uv;       // one per corner
+        std::vector<double> energy; // one per triangle: of its chart
     };
 
     /// Asks whether to go on, in a stage.
@@ -149,8 +149,8 @@ protected:
         mend(turned());
     }
 
-    /// One flag a chart: 1 where a triangle is turned over, as it may be where polygons that are mirror images are cut
-    /// along other diagonals.
+    /// One flag per chart: 1 where a triangle is turned over, as it may be where polygons that are mirror images are
+    /// cut along other diagonals.
     std::vector<char> turned() const
     {
         std::vector<char> bad(energy_.size(), 0);
@@ -185,7 +185,7 @@ protected:
             for (std::size_t k = 0; k < 3; ++k) f(u(charts_->cell_origins[i]), k, u(charts_->surface.cells()[i][k]));
     }
 
-    /// One flag a chart: 1 where it has no map, or overlaps itself.
+    /// One flag per chart: 1 where it has no map, or overlaps itself.
     std::vector<char> unfit() const
     {
         auto bad = crossing_charts(*charts_, flat_);
@@ -384,10 +384,10 @@ protected:
     budget budget_;
     atlas_report report_;
     std::optional<mirror_symmetry> mirror_;
-    std::vector<char> seam_; // one a side of the surface
+    std::vector<char> seam_; // one per side of the surface
     std::optional<chart_mesh> charts_;
-    std::vector<vec2> flat_;     // one a vertex of the charts, in units of the surface
-    std::vector<double> energy_; // one a chart
+    std::vector<vec2> flat_;     // one per vertex of the charts, in units of the surface
+    std::vector<double> energy_; // one per chart
     bool usable_ = false;
 };
 

@@ -93,7 +93,7 @@ namespace taut
 /// Result of flatten_charts(): one map for all charts, and a report for each.
 struct flattened_charts
 {
-    std::vector<vec2> uv; ///< one a vertex of charts.surface, in units of the surface; (0, 0) where there is no map
+    std::vector<vec2> uv; ///< one per vertex of charts.surface, in units of the surface; (0, 0) where there is no map
     std::vector<impl::chart_report> charts;
     impl::flatten_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes

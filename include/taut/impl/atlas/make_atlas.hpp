@@ -17,7 +17,7 @@ namespace taut
 struct atlas
 {
     chart_mesh charts; ///< the surface cut apart
-    /// One a vertex of charts.surface; tile t is the unit square at atlas_params::origin + (t % 10, t / 10), as in
+    /// One per vertex of charts.surface; tile t is the unit square at atlas_params::origin + (t % 10, t / 10), as in
     /// UDIM.
     std::vector<vec2> uv;
     packing layout; ///< how charts were turned, scaled and shifted

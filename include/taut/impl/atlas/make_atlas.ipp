@@ -231,10 +231,10 @@ private:
         return text.empty() ? text : text + (report_.flips.flipped > report_.flips.ids.size() ? ", ...)" : ")");
     }
 
-    std::vector<char> bad_;     // one a chart: whether it is not valid as it is laid
+    std::vector<char> bad_;     // one per chart: whether it is not valid as it is laid
     convex_polygons polygons_;  // of the charts
-    std::vector<double> grown_; // one a triangle of the surface: how much larger its chart is laid; empty if none is
-    std::vector<vec2> uv_;      // one a vertex of the charts, in the tiles
+    std::vector<double> grown_; // one per triangle of the surface: how much larger its chart is laid; empty if none is
+    std::vector<vec2> uv_;      // one per vertex of the charts, in the tiles
     packing layout_;
     chart_outlines outlines_; // of the charts as they were laid; the same in the tiles, unless triangles turned over
 };

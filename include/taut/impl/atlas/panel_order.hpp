@@ -55,7 +55,7 @@ inline std::vector<idx> band_order(const csr& near)
     return order;
 }
 
-/// A band matrix of two unknowns a vertex, stored by panels of two vertices (kernels/charts.cl).
+/// A band matrix of two unknowns per vertex, stored by panels of two vertices (kernels/charts.cl).
 struct panel_profile
 {
     permutation order;        ///< vertices in the order of the matrix

@@ -193,7 +193,7 @@ private:
     const mesh<triangle>& mesh_;
     const atlas_params& params_;
     const surface_part pinned_, rest_;
-    std::vector<vec2> uv_;   // one a vertex of the pinned charts
+    std::vector<vec2> uv_;   // one per vertex of the pinned charts
     std::vector<idx> tiles_; // of each
 };
 

@@ -21,9 +21,9 @@ namespace taut::impl
 /// overlaps. They cost next to nothing and have a map whatever the surface is.
 struct seen_patches
 {
-    std::vector<idx> patch;              ///< one a triangle, -1 where none was wanted
+    std::vector<idx> patch;              ///< one per triangle, -1 where none was wanted
     std::vector<std::array<vec2, 3>> uv; ///< by corner, in units of the surface
-    std::vector<double> energy;          ///< one a patch: area mean of the isometric energy
+    std::vector<double> energy;          ///< one per patch: area mean of the isometric energy
 
     static constexpr double most_energy = 6.25; ///< that of a triangle which is seen at 60 degrees
 };
@@ -176,18 +176,18 @@ private:
     std::span<const char> regions_;
     char own_;
     std::span<const char> keep_;
-    std::vector<idx> touched_;               // one a vertex: the last patch that has it
-    std::vector<vec2> seen_;                 // one a vertex: where it was seen last
+    std::vector<idx> touched_;               // one per vertex: the last patch that has it
+    std::vector<vec2> seen_;                 // one per vertex: where it was seen last
     std::vector<idx> front_;                 // the triangles of the last patch
     std::vector<std::array<idx, 2>> border_; // its border
     vec3 origin_{0.0}, normal_{0.0}, across_{0.0}, up_{0.0};
     seen_patches& patches_;
-    std::vector<double> energy_; // one a patch
+    std::vector<double> energy_; // one per patch
 };
 
-/// regions: one a triangle, from 1; 0: no patch is wanted there. None leads from one into another, so that they are
+/// regions: one per triangle, from 1; 0: no patch is wanted there. None leads from one into another, so that they are
 /// parted at the same time.
-/// keep: one flag a side, borders that no patch leads over, or empty; largest: triangles of a patch at most
+/// keep: one flag per side, borders that no patch leads over, or empty; largest: triangles of a patch at most
 inline seen_patches lay_as_seen(const mesh<triangle>& m, const facet_table& f, std::span<const char> regions,
                                 std::span<const char> keep, std::size_t largest)
 {

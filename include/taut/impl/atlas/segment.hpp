@@ -25,10 +25,10 @@ struct segment_params
     /// Bound of the whole surface, above 4, at one common scale: there are as few charts as it allows.
     double mean_distortion = 4.045;
 
-    /// Edges that are to be seams in any case: one flag a side, the same on both sides of an edge; or empty.
+    /// Edges that are to be seams in any case: one flag per side, the same on both sides of an edge; or empty.
     std::span<const char> seams = {};
 
-    /// Edges that are to be none, as the diagonals of a polygon: one flag a side as above; or empty. A seam leads
+    /// Edges that are to be none, as the diagonals of a polygon: one flag per side as above; or empty. A seam leads
     /// through one where nothing else keeps a bound.
     std::span<const char> together = {};
 
@@ -89,10 +89,10 @@ namespace taut
 /// Segmentation of a surface into charts, with their maps.
 struct segmentation
 {
-    std::vector<char> seam; ///< one flag a side of the surface; some have one chart on both sides
+    std::vector<char> seam; ///< one flag per side of the surface; some have one chart on both sides
     chart_mesh charts;
-    std::vector<vec2> uv;       ///< one a vertex of charts.surface: as it was flattened
-    std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
+    std::vector<vec2> uv;       ///< one per vertex of charts.surface: as it was flattened
+    std::vector<double> energy; ///< one per chart; +infinity where there is no valid map
     impl::segment_report report;
 };
 
@@ -104,9 +104,9 @@ namespace taut::impl
 /// Maps of charts, as they come from flatten_charts().
 struct chart_maps
 {
-    std::vector<vec2> uv;       ///< one a vertex
-    std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
-    std::vector<char> settled;  ///< one a chart; 0: the map could be better, for want of effort
+    std::vector<vec2> uv;       ///< one per vertex
+    std::vector<double> energy; ///< one per chart; +infinity where there is no valid map
+    std::vector<char> settled;  ///< one per chart; 0: the map could be better, for want of effort
 };
 
 /// Maps of charts; of those that are given a map to begin with, all that effort can do.
@@ -115,10 +115,10 @@ using charts_to_maps = std::function<chart_maps(const chart_mesh&, std::span<con
 /// A segmentation before the surface is cut apart.
 struct uncut_segmentation
 {
-    std::vector<char> seam;     ///< one flag a side
-    std::vector<vec2> uv;       ///< one a corner
-    std::vector<double> energy; ///< one a triangle: of its chart
-    std::vector<char> crosses;  ///< one a triangle: whether its chart overlaps itself
+    std::vector<char> seam;     ///< one flag per side
+    std::vector<vec2> uv;       ///< one per corner
+    std::vector<double> energy; ///< one per triangle: of its chart
+    std::vector<char> crosses;  ///< one per triangle: whether its chart overlaps itself
     segment_report report;      ///< but for what it says of seams and counts of charts
 };
 

@@ -28,8 +28,8 @@ inline idx turned_triangle(const chart_mesh& charts, std::size_t k, std::span<co
 }
 
 /// Rounds charts to what a file holds, each so that it is valid there, if its vertices need not leave their reach.
-/// polygons: that are to be convex; uv: where vertices are, one a vertex of the charts, and then as the file holds them
-/// Returns one flag a chart: 1 where triangles are turned over still, or the border meets itself.
+/// polygons: that are to be convex; uv: where vertices are, one per vertex of the charts, and then as the file holds
+/// them Returns one flag per chart: 1 where triangles are turned over still, or the border meets itself.
 inline std::vector<char> settle_charts(const chart_mesh& charts, const convex_polygons& polygons, std::span<vec2> uv,
                                        const settling& how)
 {

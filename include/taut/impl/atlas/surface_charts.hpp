@@ -229,9 +229,9 @@ protected:
     const segment_params& params_;
     budget budget_;
     segment_report report_;
-    std::vector<char> seam_;  // one a side
-    std::vector<vec2> uv_;    // one a corner
-    std::vector<idx> chart_;  // one a triangle: its record
+    std::vector<char> seam_;  // one per side
+    std::vector<vec2> uv_;    // one per corner
+    std::vector<idx> chart_;  // one per triangle: its record
     std::vector<idx> number_; // for part_of()
     csr sides_;               // that start at each vertex, once they are asked for
     std::vector<idx> place_;  // of triangles in the part that is cut

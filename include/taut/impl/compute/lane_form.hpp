@@ -16,7 +16,7 @@ struct lane_form
     idx slice = 16;
     idx lanes = 16;
 
-    /// The most coarse rows that an item on a CPU sums together in a product P' A P, for K weights a row of P.
+    /// The most coarse rows that an item on a CPU sums together in a product P' A P, for K weights per row of P.
     static constexpr std::size_t product_rows(std::size_t K) { return K > 3 ? 32 : 64; }
 
     /// Explicit vectors of 16 on CPUs, a row an item and a slice a warp on GPUs.

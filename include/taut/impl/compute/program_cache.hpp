@@ -51,13 +51,13 @@ public:
         found.part = elsewhere_(source, options, kernels);
     }
 
-    /// Says whether the program is being built elsewhere still.
+    /// Returns the build of the program by another thread or process, null if there is none.
     build_under_way under_way(const std::string& source, const std::string& options) const
     {
         const auto found = entries_.find(options + '\0' + source);
         return found == entries_.end() ? nullptr : found->second.whole;
     }
-    /// Returns whether a kernel of the program is being built.
+    /// Returns the build of a kernel of the program, null if there is none.
     build_under_way under_way(const std::string& source, const std::string& options, const std::string& name) const
     {
         const auto found = entries_.find(options + '\0' + source);

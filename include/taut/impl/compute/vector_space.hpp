@@ -112,7 +112,7 @@ public:
         std::copy_n(r.values(products).begin(), products.count, out.begin());
     }
 
-    /// out = a[0] x[0] + a[1] x[1] + ..., up to eight vectors a launch. out may be x[0], and no other of them.
+    /// out = a[0] x[0] + a[1] x[1] + ..., up to eight vectors per launch. out may be x[0], and no other of them.
     void linear_combination(std::span<const double> a, std::span<const vector* const> x, vector& out) const
     {
         if (x.empty()) out.data().fill(0);

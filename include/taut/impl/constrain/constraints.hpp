@@ -252,7 +252,7 @@ public:
         return at == pins_.end() ? std::uint8_t{0} : at->second.held;
     }
 
-    /// held(), one a vertex.
+    /// held(), one per vertex.
     impl::held_marks<D> held() const
     {
         impl::held_marks<D> marks(count());

@@ -40,7 +40,7 @@ public:
     /// Throws constraint_error (unused_vertex) where anything is asked of one of these, which ascend.
     void require_used(std::span<const idx> unused) const { wanted_.require_used(unused); }
 
-    /// One flag a vertex of which anything is asked: coarser surfaces should have it. Springs that are many are left
+    /// One flag per vertex of which anything is asked: coarser surfaces should have it. Springs that are many are left
     /// out; those whose vertices happen to be there will do.
     std::vector<bool> touched(std::size_t vertices) const
     {
@@ -75,7 +75,7 @@ public:
     bool constrained() const { return !wanted_.empty(); }
     bool pinned() const { return !wanted_.pins().empty(); }
 
-    /// One a vertex; none if nothing is held.
+    /// One per vertex; none if nothing is held.
     const held_marks<2>& marks() const { return marks_; }
 
     /// True if the constraints pin every vertex of the boundary.

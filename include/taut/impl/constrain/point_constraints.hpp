@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// A spring with a stiffness a coordinate: it adds the sum over k of stiffness[k] (x - target)[k]^2.
+/// A spring with a stiffness per coordinate: it adds the sum over k of stiffness[k] (x - target)[k]^2.
 template <int D>
 struct directed_spring
 {
@@ -35,9 +35,9 @@ std::vector<directed_spring<D>> directed(const std::vector<spring<D>>& springs)
 template <int D>
 struct point_constraints
 {
-    held_marks<D> held;                      ///< one a vertex, or none
+    held_marks<D> held;                      ///< one per vertex, or none
     std::vector<directed_spring<D>> springs; ///< what they add is added to the energy's mean
-    std::vector<slide<D>> slides{};          ///< at most one a vertex
+    std::vector<slide<D>> slides{};          ///< at most one per vertex
 
     bool empty() const { return held.empty() && springs.empty() && slides.empty(); }
 
@@ -71,7 +71,7 @@ struct point_constraints
         return r;
     }
 
-    /// One flag a vertex: true if it has any.
+    /// One flag per vertex: true if it has any.
     std::vector<bool> touched(std::size_t vertices) const
     {
         std::vector<bool> any(vertices, false);

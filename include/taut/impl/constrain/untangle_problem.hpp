@@ -21,8 +21,8 @@ struct untangle_problem
     static constexpr int D = Element::dimension;
 
     mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
-    std::vector<vec<D>> initial; ///< one a vertex, in any state; a held coordinate is a hard constraint
-    impl::held_marks<D> held;    ///< one a vertex
+    std::vector<vec<D>> initial; ///< one per vertex, in any state; a held coordinate is a hard constraint
+    impl::held_marks<D> held;    ///< one per vertex
     /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
     /// empty: none is known.
     std::vector<vec<D>> draft = {};
@@ -54,7 +54,7 @@ struct untangle_problem
                            });
     }
 
-    /// Throws parameter_error: one initial position and one set of held coordinates a vertex, all of it finite.
+    /// Throws parameter_error: one initial position and one set of held coordinates per vertex, all of it finite.
     void validate() const
     {
         const std::size_t n = rest.points().size();
@@ -72,7 +72,7 @@ struct untangle_problem
             throw parameter_error("wanted", "one matrix a cell, or none at all: " + std::to_string(cells) + ", not " +
                                                 std::to_string(wanted.size()));
         if (!owners.empty() && owners.size() != cells)
-            throw parameter_error("owners", "one a cell, or none at all: " + std::to_string(cells) + ", not " +
+            throw parameter_error("owners", "one per cell, or none at all: " + std::to_string(cells) + ", not " +
                                                 std::to_string(owners.size()));
         for (std::size_t v = 0; v < n; ++v)
         {

@@ -318,9 +318,9 @@ private:
 
     std::vector<vec2> points_;
     std::vector<triangle_corners> cells_;
-    std::vector<idx> twin_;     // one a side
-    std::vector<char> fixed_;   // one a side
-    std::vector<idx> corner_;   // one a vertex: a corner there
+    std::vector<idx> twin_;     // one per side
+    std::vector<char> fixed_;   // one per side
+    std::vector<idx> corner_;   // one per vertex: a corner there
     std::vector<idx> suspects_; // sides to be looked at
     std::uint32_t lots_ = 1;
 };

@@ -36,7 +36,7 @@ inline std::optional<vec2> off_centre(const std::array<vec2, 3>& x)
 /// Adds points to chosen triangles of a triangulation until those have no small angles (Delaunay refinement), as far as
 /// that is possible without a point on an edge that is fixed. Triangles that are chosen and others are parted by fixed
 /// edges. Graded: triangles become as large as their distance from small edges allows.
-/// chosen: one flag a triangle; triangles that are added are chosen ones. most: so many points at most.
+/// chosen: one flag per triangle; triangles that are added are chosen ones. most: so many points at most.
 inline void refine(planar_triangulation& t, std::span<const char> chosen, std::size_t most)
 {
     std::deque<idx> bad;

@@ -34,7 +34,7 @@ struct gltf_model
     std::vector<idx> meshes;                   ///< of each triangle
     std::vector<idx> materials;                ///< of each triangle; -1: none
     std::vector<vec2> texcoords;               ///< of the set that was asked for, as in the file: v runs downwards
-    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: none
+    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple per triangle, into texcoords; -1: none
     std::vector<std::string> notes;                 ///< what was changed in reading or making it, in sentences
     impl::gltf_source source;                       ///< the file
 };

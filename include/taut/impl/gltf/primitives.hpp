@@ -101,7 +101,7 @@ inline gltf_primitive primitive_of(const gltf_source& source, std::size_t mesh, 
         {
             const std::size_t n = accessor_of(source, attribute.second).count;
             if (count.value_or(n) != n)
-                object.fail("has attributes of different counts: " + attribute.first + "; give each one a vertex");
+                object.fail("has attributes of different counts: " + attribute.first + "; give each one per vertex");
             count = n;
         }
     };

@@ -26,7 +26,7 @@ struct coarser_volume
 /// worth, until it has `factor` times fewer vertices that are not kept, or no more can go.
 ///
 /// m: no cell inverted, none overlapping another
-/// kept: one flag a vertex, or none at all: a vertex with one is removed only where all of its neighbours have one
+/// kept: one flag per vertex, or none at all: a vertex with one is removed only where all of its neighbours have one
 /// proceed: asked between rounds: go on?
 ///
 /// Throws parameter_error. About 10 us a vertex.

@@ -24,7 +24,7 @@ struct point_cloud
     std::vector<char> held; ///< does not move
 };
 
-/// Some of the vertices, no two of them neighbours, and each other one a neighbour of one of them: those of greater
+/// Some of the vertices, no two of them neighbours, and each other one per neighbour of one of them: those of greater
 /// rank first, then by number. Ascending; without the vertices that have no neighbours.
 inline std::vector<idx> maximal_independent_set(const point_cloud& cloud)
 {

@@ -30,8 +30,8 @@ struct relaxed_energy
 class star_relaxation
 {
 public:
-    /// points: rest positions of the vertices that `numbers` names, one a vertex here; cells: of the surface, numbered
-    /// here. fixed: flags of vertices that stay, one a vertex here, or empty. All are referred to.
+    /// points: rest positions of the vertices that `numbers` names, one per vertex here; cells: of the surface,
+    /// numbered here. fixed: flags of vertices that stay, one per vertex here, or empty. All are referred to.
     star_relaxation(std::span<const vec3> points, std::span<const idx> numbers,
                     std::span<const std::array<idx, 3>> cells, std::span<const char> fixed, unsigned threads)
         : points_(points), numbers_(numbers), cells_(cells), fixed_(fixed), threads_(threads), density_(cells.size())

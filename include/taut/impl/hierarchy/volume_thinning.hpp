@@ -43,7 +43,7 @@ class volume_thinning
 public:
     using cell = mesh<tetrahedron>::cell;
 
-    /// m: without inverted cells. kept: one flag a vertex, or none; those that have one stay unless all their
+    /// m: without inverted cells. kept: one flag per vertex, or none; those that have one stay unless all their
     /// neighbours have one, too.
     volume_thinning(const mesh<tetrahedron>& m, std::span<const char> kept)
         : points_(m.points()),

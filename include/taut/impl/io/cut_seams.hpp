@@ -14,8 +14,8 @@ namespace taut::io
 struct cut_surface
 {
     mesh<triangle> surface;
-    std::vector<vec2> uv;          ///< of the file, one a vertex; 0 for a vertex without a triangle
-    std::vector<idx> origins;      ///< the vertex of the file, one a vertex
+    std::vector<vec2> uv;          ///< of the file, one per vertex; 0 for a vertex without a triangle
+    std::vector<idx> origins;      ///< the vertex of the file, one per vertex
     std::vector<idx> corners;      ///< the vertex of each corner of file_faces
     std::size_t seam_vertices = 0; ///< vertices of the file that lie on a seam
 };

@@ -93,7 +93,7 @@ struct surface_file
 {
     mesh<triangle> surface;
     std::vector<vec2> texcoords;                    ///< as in the file; empty if it has none
-    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: that corner has none
+    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple per triangle, into texcoords; -1: none
     std::vector<std::string> notes = {};            ///< what was changed in reading, in sentences
     impl::file_faces faces = {};                    ///< what the triangles were made from
     impl::file_vertices vertices = {};              ///< OFF and PLY
@@ -148,9 +148,9 @@ struct surface_soup
     std::vector<vec2> texcoords;                    ///< as in surface_file
     std::vector<std::array<idx, 3>> texcoord_cells; ///< as in surface_file
     std::vector<vec3> normals;                      ///< as in the file; empty if it has none
-    std::vector<std::array<idx, 3>> normal_cells; ///< one triple a triangle, into normals, -1: none; empty: the normal
-                                                  ///< of a corner has the number of its vertex
-    std::vector<std::string> notes;               ///< as in surface_file, and the rest, too
+    std::vector<std::array<idx, 3>> normal_cells;   ///< one triple per triangle, into normals, -1: none; empty: the
+                                                    ///< normal of a corner has the number of its vertex
+    std::vector<std::string> notes;                 ///< as in surface_file, and the rest, too
     impl::file_faces faces;
     impl::file_vertices vertices;
     impl::obj_text obj;

@@ -106,7 +106,7 @@ namespace taut::io
 struct cell_block
 {
     cell_kind kind;
-    std::vector<idx> corners; ///< shape_of(kind).corners a cell: positions in the points, never numbers of the file
+    std::vector<idx> corners; ///< shape_of(kind).corners per cell: positions in the points, never numbers of the file
 
     std::size_t size() const { return corners.size() / static_cast<std::size_t>(impl::shape_of(kind).corners); }
 
@@ -197,7 +197,7 @@ struct volume_file
     std::string path;   ///< as it was given
     std::string format; ///< "MEDIT", "gmsh", "VTK", "VTU", "TetGen", "SU2" or "problem"
     int zone = 0;       ///< of SU2: that which was asked for, from 1; 0: none
-    int dimension = 3;  ///< 2: two coordinates a point, or no volume cell and all z equal
+    int dimension = 3;  ///< 2: two coordinates per point, or no volume cell and all z equal
     std::vector<vec3> points;
     std::vector<vec3> rest; ///< problems: the rest shape, of which the points are a map; else empty: points at rest
     std::vector<cell_block> cells;

@@ -25,7 +25,7 @@ namespace taut::io::impl
 
 /// The bytes of the file with other coordinates. A coordinate that has not changed, bit for bit, keeps its bytes;
 /// others are the shortest decimal that reads back the same double, or binary as the file has it.
-/// points: one a point of the file; z = that of the file where it has two coordinates.
+/// points: one per point of the file; z = that of the file where it has two coordinates.
 /// Throws parameter_error: another number of points, a coordinate that is not finite (also after rounding), a z that
 /// the file has no place for.
 std::string with_points(const volume_file& file, std::span<const vec3> points);

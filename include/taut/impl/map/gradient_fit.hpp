@@ -161,8 +161,8 @@ private:
     csr corners_, neighbours_;
     std::vector<std::array<vec<D>, Element::corners>> basis_; ///< gradients of the basis functions
     std::vector<double> measure_;                             ///< of cells, times D!
-    std::vector<double> entries_;                             ///< the diagonal, one a vertex
-    std::vector<double> sides_;                               ///< the others, one a neighbour
+    std::vector<double> entries_;                             ///< the diagonal, one per vertex
+    std::vector<double> sides_;                               ///< the others, one per neighbour
 };
 
 } // namespace taut::impl

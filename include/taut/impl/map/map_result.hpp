@@ -81,7 +81,7 @@ inline std::ostream& operator<<(std::ostream& out, const map_report& r)
 /// Result of parameterize(): a map and its report; `auto [uv, report] = parameterize(...)`.
 struct map_result
 {
-    std::vector<vec2> uv; ///< one a vertex, in the user's order; units and place by parameterize_params::placement
+    std::vector<vec2> uv; ///< one per vertex, in the user's order; units and place by parameterize_params::placement
     map_report report;
 
     /// True if the map is certified: no triangle is flipped, and there is no branch point.

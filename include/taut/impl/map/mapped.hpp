@@ -15,8 +15,8 @@
 namespace taut::impl
 {
 
-/// Implementation of parameterize.hpp; include that one.
-///
+// Implementation of parameterize.hpp; include that one.
+
 /// The start on the mesh itself that takes the place of one from coarser levels whose map could not be certified.
 inline run_start second_start(const map_run& run, const run_start& coarse, const attempt& failed)
 {

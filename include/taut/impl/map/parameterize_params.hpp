@@ -54,8 +54,8 @@ struct parameterize_params
     /// Pins, which hold bit for bit, and springs. The start is brought near them and untangled.
     taut::constraints<triangle> constraints = {};
 
-    /// Start: these coordinates, one a vertex, if there are any (a warm start: the map of the last run, after the pins
-    /// have moved, say); with a free boundary and no constraints their
+    /// Start: these coordinates, one per vertex, if there are any (a warm start: the map of the last run, after the
+    /// pins have moved, say); with a free boundary and no constraints their
     /// place and scale do not matter. A start that is mirrored as a whole is turned over, others with flips untangled.
     std::vector<vec2> initial = {};
 

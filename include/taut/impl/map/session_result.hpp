@@ -67,7 +67,7 @@ struct session_report
 template <class Element>
 struct session_result
 {
-    std::vector<vec<Element::dimension>> x; ///< one a vertex, in the user's order and lengths
+    std::vector<vec<Element::dimension>> x; ///< one per vertex, in the user's order and lengths
     session_report report;
 
     /// True if there is a map: it is certified.

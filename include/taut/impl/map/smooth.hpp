@@ -78,7 +78,7 @@ struct smooth_params
 template <class Element>
 struct smooth_result
 {
-    std::vector<vec<Element::dimension>> x; ///< one a vertex, in the user's order and lengths
+    std::vector<vec<Element::dimension>> x; ///< one per vertex, in the user's order and lengths
     session_report report;
     shape_quality before, after; ///< after: only with coordinates
 

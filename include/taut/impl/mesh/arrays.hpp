@@ -118,7 +118,7 @@ void store(std::span<const vec<D>> x, const array_view<Real, D>& rows)
 {
     if (rows.rows() != x.size())
         throw parameter_error("rows", std::to_string(rows.rows()) + " rows for " + std::to_string(x.size()) +
-                                          " points; give one a point");
+                                          " points; give one per point");
     for (std::size_t v = 0; v < x.size(); ++v)
     {
         std::array<Real, static_cast<std::size_t>(D)> row;

@@ -84,7 +84,7 @@ inline std::span<const std::array<std::size_t, 4>> corner_simplices(std::size_t 
     return corner_tetrahedra(count);
 }
 
-/// A flag a triangle: lone ones, and of the four at the corners of a quad those at two opposite ones, which do not
+/// A flag per triangle: lone ones, and of the four at the corners of a quad those at two opposite ones, which do not
 /// overlap, so that these are the surface, once.
 inline std::vector<char> triangle_cover(std::span<const idx> owners)
 {

@@ -17,14 +17,14 @@ namespace taut
 /// energies. All parts are optional.
 struct cell_data
 {
-    /// One a cell, positive: a factor of its weight in the sum of energies (a painted importance).
+    /// One per cell, positive: a factor of its weight in the sum of energies (a painted importance).
     std::vector<double> weights = {};
 
     /// Numbers a cell, attribute k of cell c at [c * attribute_count + k]; an energy reads e.attribute(k).
     std::size_t attribute_count = 0;
     std::vector<double> attributes = {};
 
-    /// One a cell, of any length, in space: the first axis of the frame of S at rest, projected to the cell (the warp
+    /// One per cell, of any length, in space: the first axis of the frame of S at rest, projected to the cell (the warp
     /// of a cloth, the fibre of a composite). Without them the frame is the element's own, along its first edge.
     std::vector<vec3> directions = {};
 

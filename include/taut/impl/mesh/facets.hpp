@@ -26,7 +26,7 @@ struct facet_table
     std::vector<std::array<idx, 2>> clash; ///< pairs of sides that run the same way: one cell is turned over
     std::vector<std::vector<idx>> crowds;  ///< the sides of each facet with three or more
 
-    bool manifold() const { return crowds.empty(); }                  ///< at most two cells a facet
+    bool manifold() const { return crowds.empty(); }                  ///< at most two cells per facet
     bool oriented() const { return crowds.empty() && clash.empty(); } ///< and neighbours agree
 };
 

@@ -152,10 +152,10 @@ struct ideal_elements
 {
     static constexpr int D = Element::dimension;
 
-    std::vector<mat<D>> inverse; ///< W^-1, upper triangular, one a cell; finite
-    std::vector<double> measure; ///< rest area or volume, one a cell
+    std::vector<mat<D>> inverse; ///< W^-1, upper triangular, one per cell; finite
+    std::vector<double> measure; ///< rest area or volume, one per cell
 
-    /// Any others, one a cell.
+    /// Any others, one per cell.
     ideal_elements(std::vector<mat<D>> inverses, std::vector<double> measures)
         : inverse(std::move(inverses)), measure(std::move(measures))
     {
@@ -195,7 +195,7 @@ struct ideal_elements
 namespace taut::impl
 {
 
-/// Elements with the edges from corner 0 that are the columns of matrices, times `scale`, one a cell.
+/// Elements with the edges from corner 0 that are the columns of matrices, times `scale`, one per cell.
 /// Throws parameter_error of that name for the first that is flat or inverted.
 template <class Element>
 ideal_elements<Element> elements_with_edges(std::span<const mat<Element::dimension>> edges, double scale,

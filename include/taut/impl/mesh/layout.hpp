@@ -47,7 +47,7 @@ struct layout
         frames; ///< D * D x cell_stride or none: by columns, the user's axes in the frame of the ideal cell
 
     /// Renumbers the mesh: free vertices first, otherwise for locality.
-    /// `pinned`: one flag a vertex of the mesh, or empty. Throws mesh_error for degenerate cells.
+    /// `pinned`: one flag per vertex of the mesh, or empty. Throws mesh_error for degenerate cells.
     explicit layout(const mesh<Element>& m, const std::vector<bool>& pinned = {}) : layout(m, solution_order(m, pinned))
     {
     }

@@ -41,9 +41,9 @@ public:
         require_finite();
     }
 
-    // Both arrays are packed: &points()[0].x is 3 doubles a vertex, cells()[0].data() `corners` 32-bit integers a cell
-    // (with GLM as it comes; its aligned types have gaps).
-    const std::vector<vec3>& points() const noexcept { return points_; } ///< rest positions, one a vertex
+    // Both arrays are packed: &points()[0].x is 3 doubles per vertex, cells()[0].data() `corners` 32-bit integers per
+    // cell (with GLM as it comes; its aligned types have gaps).
+    const std::vector<vec3>& points() const noexcept { return points_; } ///< rest positions, one per vertex
     const std::vector<cell>& cells() const noexcept { return cells_; }   ///< vertices of each cell, oriented
     idx vertex_count() const noexcept { return static_cast<idx>(points_.size()); }
     idx cell_count() const noexcept { return static_cast<idx>(cells_.size()); }

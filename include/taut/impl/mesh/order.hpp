@@ -171,7 +171,7 @@ struct solution_order
     mesh_order order;
     idx free_count = 0; ///< vertices [0, free_count) of the new order move, the rest are pinned
 
-    /// pinned: one flag a vertex of the mesh, or empty.
+    /// pinned: one flag per vertex of the mesh, or empty.
     template <class Element>
     explicit solution_order(const mesh<Element>& m, const std::vector<bool>& pinned = {})
         : order(locality_order(m)), free_count(m.vertex_count())

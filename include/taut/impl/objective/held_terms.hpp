@@ -36,7 +36,7 @@ public:
 
     bool empty() const noexcept { return places_.empty(); }
 
-    /// marks: one a vertex in the user's numbers, or none; they take the place of those before.
+    /// marks: one per vertex in the user's numbers, or none; they take the place of those before.
     void hold(const layout<Element>& mesh_layout, const held_marks<D>& marks)
     {
         vertices_.clear();

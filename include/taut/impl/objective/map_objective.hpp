@@ -140,7 +140,7 @@ public:
         mask(g);
     }
 
-    /// f at x + a[i] d, four step lengths a launch, one wait in all.
+    /// f at x + a[i] d, four step lengths per launch, one wait in all.
     void values(const point& x, const vector& d, std::span<const double> a, std::span<double> out)
     {
         const auto results = enqueue_values(x, d, one_, a);

@@ -23,10 +23,10 @@ template <class Element>
 class mesh_levels
 {
 public:
-    /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level of a surface. data: of the cells of
-    /// m; coarser levels have the means. kept: other vertices that are on every level, or empty. owners: of cells that
-    /// overlap (mesh/cell_corners.hpp), whose coarser levels are those of triangle_cover(), or of the cells' boundary
-    /// in space. Throws mesh_error, parameter_error.
+    /// pinned: one flag per vertex of m, or empty; pinned vertices are on every level of a surface. data: of the cells
+    /// of m; coarser levels have the means. kept: other vertices that are on every level, or empty. owners: of cells
+    /// that overlap (mesh/cell_corners.hpp), whose coarser levels are those of triangle_cover(), or of the cells'
+    /// boundary in space. Throws mesh_error, parameter_error.
     explicit mesh_levels(const mesh<Element>& m, const std::vector<bool>& pinned = {},
                          const hierarchy_params& params = {}, const cell_data& data = {},
                          const std::vector<bool>& kept = {}, std::span<const idx> owners = {})
@@ -127,7 +127,7 @@ public:
     }
 
     bool pinned() const { return free_[0] < static_cast<idx>(vertices(0)); }
-    /// One flag a vertex.
+    /// One flag per vertex.
     std::span<const char> fixed(std::size_t l) const { return fixed_[l]; }
 
     /// From each level that is coarser than l to the next finer one. Refers to this object.

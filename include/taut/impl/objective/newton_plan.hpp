@@ -24,7 +24,7 @@ struct newton_plan
     using cells_type = std::vector<typename mesh<Element>::cell>;
 
     /// cells: of the mesh in layout order. transfers: from each coarser level to the next finer one, in layout order;
-    /// none for a mesh too small to be thinned; what they refer to may go afterwards. fixed: one flag a vertex, or
+    /// none for a mesh too small to be thinned; what they refer to may go afterwards. fixed: one flag per vertex, or
     /// none.
     newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells,
                 const std::vector<transfer_weights>& transfers, std::span<const char> fixed, lane_form form)

@@ -29,7 +29,7 @@ namespace taut::impl
 /// stand-in, to the best of four lengths, none beyond 0.9 of the way to the first flip. Formulas are those of the
 /// kernels of the mesh. The energy falls, no element flips, and what patches do not move stays bit for bit.
 ///
-/// Costs two or three waits a step, and some tenths of a microsecond a triangle of the patches.
+/// Costs two or three waits per step, and some tenths of a microsecond a triangle of the patches.
 class nonlinear_elimination
 {
     static constexpr int D = triangle::dimension;

@@ -29,7 +29,7 @@ struct patch
     std::vector<typename mesh<Element>::cell> cells;
     std::vector<idx> cell_ids; ///< their numbers in the layout
     std::vector<idx> vertices; ///< the numbers of its vertices there
-    std::vector<char> fixed;   ///< one a vertex: it does not move
+    std::vector<char> fixed;   ///< one per vertex: it does not move
 };
 
 /// Finds the patches around the vertices of the largest weights.
@@ -37,7 +37,7 @@ template <class Element>
 class patch_finder
 {
 public:
-    /// weights: one a free vertex of the layout, not negative; barred: flags of those that no patch moves.
+    /// weights: one per free vertex of the layout, not negative; barred: flags of those that no patch moves.
     patch_finder(const layout<Element>& mesh_layout, std::span<const double> weights, const std::vector<char>& barred,
                  const patch_params& params = {})
         : layout_(mesh_layout),

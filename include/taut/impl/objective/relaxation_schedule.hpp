@@ -35,7 +35,7 @@ template <class Element>
 class relaxation_scheduler
 {
 public:
-    /// still: one flag a vertex in the user's numbers, or none; these stay out like those that are pinned.
+    /// still: one flag per vertex in the user's numbers, or none; these stay out like those that are pinned.
     explicit relaxation_scheduler(const layout<Element>& mesh_layout, const std::vector<bool>& still = {})
         : colour_(static_cast<std::size_t>(mesh_layout.free_count), unlisted)
     {

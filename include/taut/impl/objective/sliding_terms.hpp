@@ -35,7 +35,7 @@ public:
     {
     }
 
-    /// slides: in the user's numbers, at most one a vertex; they take the place of those before.
+    /// slides: in the user's numbers, at most one per vertex; they take the place of those before.
     void slide(const layout<Element>& mesh_layout, std::span<const taut::slide<D>> slides)
     {
         count_ = slides.size();

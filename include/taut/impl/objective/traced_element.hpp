@@ -140,7 +140,7 @@ public:
     }
     real weighted(const any_energy& energy, const matrix& S) const { return weighted(energy, S, weight()); }
 
-    /// Gradient of weight * energy at S = A W^-1 with respect to the corners, corner 0 first; D entries a corner. An
+    /// Gradient of weight * energy at S = A W^-1 with respect to the corners, corner 0 first; D entries per corner. An
     /// energy of S does not change under translation, so corner 0 takes minus the sum of the others.
     std::array<std::array<real, D>, D + 1> corner_gradients(const any_energy& energy, const matrix& S) const
     {

@@ -44,7 +44,7 @@ struct relaxation_result
 /// bit for bit. The same input gives the same output.
 ///
 /// Costs an evaluation of the energy and one wait; and, if something is bad, four short launches a colour and sweep.
-/// Device memory: a number a cell; while elements are bad, 4 indices an entry (an element at a moving vertex) and 11
+/// Device memory: a number per cell; while elements are bad, 4 indices per entry (an element at a moving vertex) and 11
 /// numbers (14 in space) an entry of the widest colour.
 template <class Element>
 class vertex_relaxation
@@ -64,8 +64,8 @@ public:
     {
     }
 
-    /// With kernels that other meshes use, too, and arrays that other evaluations of this mesh read. still: one flag a
-    /// vertex in the user's numbers, or none; these are not moved, as more is asked of them than the energy knows.
+    /// With kernels that other meshes use, too, and arrays that other evaluations of this mesh read. still: one flag
+    /// per vertex in the user's numbers, or none; these are not moved, as more is asked of them than the energy knows.
     vertex_relaxation(queue q, std::shared_ptr<const layout<Element>> mesh_layout,
                       std::shared_ptr<const kernels> shared_kernels, std::shared_ptr<const arrays> shared_arrays,
                       const std::vector<bool>& still = {})

@@ -211,7 +211,7 @@ private:
     std::size_t most_, tests_;
     std::unordered_set<std::uint64_t> pairs_;
     csr cells_of_vertex_;           // empty until charts touch
-    std::vector<char> begins_part_; // one an edge; empty until boxes of charts meet
+    std::vector<char> begins_part_; // one per edge; empty until boxes of charts meet
     chart_overlaps found_;
 };
 

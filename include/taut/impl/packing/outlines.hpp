@@ -25,7 +25,7 @@ namespace taut::impl
 struct chart_outlines
 {
     std::vector<std::array<idx, 2>> edges;
-    std::vector<idx> cells; ///< the triangle that the edge is from, one an edge
+    std::vector<idx> cells; ///< the triangle that the edge is from, one per edge
     std::vector<idx> first; ///< #charts + 1: of edges
     std::vector<double> areas;
     bool turned = false; ///< whether a triangle was; if not, borders are the same wherever no triangle is clockwise

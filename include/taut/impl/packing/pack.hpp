@@ -30,7 +30,7 @@ struct chart_place
 /// Packing of charts into tiles.
 struct packing
 {
-    std::vector<chart_place> places; ///< one a chart
+    std::vector<chart_place> places; ///< one per chart
     double scale = 0;                ///< of all charts, before their densities
     double utilization = 0;          ///< area of the triangles by the area of the tiles
     int layouts = 0;                 ///< that were tried

@@ -126,7 +126,7 @@ private:
                             "what is pinned leaves no room for other charts; pin fewer, or ask for more tiles");
     }
 
-    /// The cells of the walls, and of what is as near to them as pieces may not be, in tiles of so many cells a side.
+    /// The cells of the walls, and of what is as near to them as pieces may not be, in tiles of so many cells per side.
     std::vector<taken_cells> walls_in(idx side) const
     {
         std::vector<std::vector<std::array<vec2, 2>>> edges(static_cast<std::size_t>(params_.tiles));

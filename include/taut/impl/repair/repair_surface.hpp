@@ -50,10 +50,10 @@ std::size_t count_near_edges(std::span<const vec3> points, std::span<const std::
 struct repaired_surface
 {
     mesh<triangle> surface;               ///< an oriented manifold of one or more parts, no triangle flat
-    std::vector<idx> vertex_origins;      ///< the vertex of the input, one a vertex; of welded ones the smallest
-    std::vector<idx> cell_origins;        ///< the triangle of the input, one a triangle, increasing
-    std::vector<char> turned;             ///< one a triangle: 1 where corners 1 and 2 have changed places
-    std::vector<repair_finding> findings; ///< one a kind, in their order
+    std::vector<idx> vertex_origins;      ///< the vertex of the input, one per vertex; of welded ones the smallest
+    std::vector<idx> cell_origins;        ///< the triangle of the input, one per triangle, increasing
+    std::vector<char> turned;             ///< one per triangle: 1 where corners 1 and 2 have changed places
+    std::vector<repair_finding> findings; ///< one per kind, in their order
 
     /// The corner of triangle cell_origins[c] of the input that corner k of triangle c is.
     std::size_t corner_origin(std::size_t c, std::size_t k) const { return turned[c] != 0 && k > 0 ? 3 - k : k; }

@@ -31,16 +31,16 @@ void repair_params::validate(std::size_t points, std::size_t triangles) const
         throw parameter_error("weld_tolerance", "must be a length, 0 or more");
     if (!bodies.empty() && bodies.size() != points)
         throw parameter_error("bodies", std::to_string(bodies.size()) + " for " + std::to_string(points) +
-                                            " vertices; give one a vertex");
+                                            " vertices; give one per vertex");
     if (!polygons.empty() && polygons.size() != triangles)
         throw parameter_error("polygons", std::to_string(polygons.size()) + " for " + std::to_string(triangles) +
-                                              " triangles; give one a triangle");
+                                              " triangles; give one per triangle");
     if (!normal_cells.empty() && normal_cells.size() != triangles)
         throw parameter_error("normal_cells", std::to_string(normal_cells.size()) + " for " +
-                                                  std::to_string(triangles) + " triangles; give one a triangle");
+                                                  std::to_string(triangles) + " triangles; give one per triangle");
     if (normal_cells.empty() && !normals.empty() && normals.size() != points)
         throw parameter_error("normals", std::to_string(normals.size()) + " for " + std::to_string(points) +
-                                             " vertices; give one a vertex, or say which corners have which");
+                                             " vertices; give one per vertex, or say which corners have which");
     for (const auto& t : normal_cells)
         for (const idx n : t)
             if (n < -1 || n >= static_cast<idx>(normals.size()))
@@ -380,7 +380,7 @@ private:
     facet_table f_;                          // of them
     side_pairs pairs_;
     winding way_;
-    std::vector<idx> fan_;     // one a corner
+    std::vector<idx> fan_;     // one per corner
     std::vector<idx> crowded_; // one side of each edge of the input that was parted
     std::size_t unsewn_ = 0;   // places of edges that might have been sewn
 };

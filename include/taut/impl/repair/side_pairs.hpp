@@ -17,7 +17,7 @@ namespace taut::impl
 
 struct side_pairs
 {
-    std::vector<idx> twin; ///< one a side; -1: open
+    std::vector<idx> twin; ///< one per side; -1: open
 
     void join(idx s, idx t)
     {

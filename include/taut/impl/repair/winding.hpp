@@ -14,8 +14,8 @@ namespace taut::impl
 
 struct winding
 {
-    std::vector<char> turned; ///< one a triangle
-    std::vector<idx> sheet;   ///< one a triangle: what hangs together, by its first triangle
+    std::vector<char> turned; ///< one per triangle
+    std::vector<idx> sheet;   ///< one per triangle: what hangs together, by its first triangle
     std::vector<idx> cut;     ///< one side of each edge where no choice agrees
 };
 

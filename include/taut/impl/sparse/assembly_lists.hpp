@@ -29,7 +29,7 @@ public:
     {
     }
 
-    /// cells: arrays of corner numbers, in the pattern. fixed: a flag a row, or none; rows and columns that are fixed
+    /// cells: arrays of corner numbers, in the pattern. fixed: a flag per row, or none; rows and columns that are fixed
     /// stay 0, diagonals included. Throws parameter_error.
     template <class Cells>
     assembly_lists(const block_pattern& pattern, int block_size, const Cells& cells, const csr& around,

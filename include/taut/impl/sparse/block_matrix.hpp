@@ -19,7 +19,7 @@
 namespace taut::impl
 {
 
-/// Options of kernels/block_sparse.cl for D x D blocks and interpolations of K weights a row.
+/// Options of kernels/block_sparse.cl for D x D blocks and interpolations of K weights per row.
 inline std::string block_options(scalar_type real, int D, int K, lane_form form)
 {
     const bool wide = real == scalar_type::f64;
@@ -59,7 +59,7 @@ public:
         : block_matrix(q, type, std::move(pattern), D, lane_form::for_device(q.device()))
     {
     }
-    /// The pattern has form.slice rows a slice. Throws parameter_error.
+    /// The pattern has form.slice rows per slice. Throws parameter_error.
     block_matrix(taut::queue& q, scalar_type type, block_pattern pattern, int D, lane_form form)
         : shared_(std::make_shared<structure>(q, type, std::move(pattern), D, form)),
           values_(q, type, shared_->places * blocks()),
@@ -139,7 +139,7 @@ public:
         shared_->invert(items(), {{"stride", pitch()}, {"offsets", offsets()}, {"A", values_}, {"inverse", inverse_}});
     }
 
-    /// Values by place of the pattern, D * D numbers a block, by rows.
+    /// Values by place of the pattern, D * D numbers per block, by rows.
     std::vector<double> download() const
     {
         const auto device = values_.download();

@@ -18,7 +18,7 @@ namespace taut::impl
 /// are 0 wide.
 struct block_pattern
 {
-    idx slice = 16;              ///< rows a slice
+    idx slice = 16;              ///< rows per slice
     std::size_t count = 0;       ///< rows
     std::vector<idx> offsets{0}; ///< of slices, in places
     std::vector<idx> columns;

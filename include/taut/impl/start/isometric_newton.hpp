@@ -26,7 +26,7 @@ namespace taut::impl
 class isometric_newton
 {
 public:
-    /// fixed: one flag a vertex; these are not moved. All of it in one unit of length. The cells are referred to.
+    /// fixed: one flag per vertex; these are not moved. All of it in one unit of length. The cells are referred to.
     isometric_newton(std::span<const vec3> points, std::span<const std::array<idx, 3>> cells,
                      std::span<const char> fixed)
         : cells_(cells), solver_(cells, fixed), blocks_(cells.size())

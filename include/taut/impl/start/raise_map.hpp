@@ -17,7 +17,7 @@ namespace taut::impl
 /// Parameters of prolonging a map to the next finer level.
 struct raise_params
 {
-    std::span<const char> fixed = {}; ///< flags of vertices that stay, one a vertex of the finest level, or none
+    std::span<const char> fixed = {}; ///< flags of vertices that stay, one per vertex of the finest level, or none
     double factor = 3;                ///< triangles with so many times the mean energy are improved afterwards
     int sweeps = 6;                   ///< over their vertices, at most
     unsigned threads = 0;

@@ -16,7 +16,7 @@ namespace taut::impl
 /// A first map of a surface and what is known about it.
 struct start_map
 {
-    std::vector<vec2> uv;    ///< one a vertex; (0, 0) for a vertex without a triangle
+    std::vector<vec2> uv;    ///< one per vertex; (0, 0) for a vertex without a triangle
     certificate flips;       ///< exact count of flipped triangles, range of det S = mapped / rest area
     means distortion;        ///< of |S|^2 (1 + 1/det^2): at least 4; infinite if a triangle is flipped or flat
     double residual = 0;     ///< largest |x_i - mean of its neighbours| / sqrt(area): how exactly the system is solved

@@ -27,7 +27,7 @@ struct regularized_problem
 
     const mesh<Element>& rest;                   ///< referred to
     const held_marks<D>& held;                   ///< these coordinates are not moved; referred to
-    std::vector<impl::target_shape<D>> shapes{}; ///< one an element
+    std::vector<impl::target_shape<D>> shapes{}; ///< one per element
     double area_weight = 1;                      ///< of det + 1 / det against the shape
     std::vector<directed_spring<D>> springs{};
     std::span<const idx> owners{}; ///< as in untangle_problem, which the state fills in; referred to

@@ -145,7 +145,7 @@ refined_problem<Element> refine_infeasible(const untangle_problem<Element>& prob
     }
 }
 
-/// The vertices within so many edges of cells. A flag a vertex.
+/// The vertices within so many edges of cells. A flag per vertex.
 template <class Element>
 std::vector<char> within_rings(const mesh<Element>& m, std::span<const idx> cells, int rings)
 {

@@ -28,7 +28,7 @@ inline csr starting_sides(const mesh<triangle>& m)
 
 /// The seams of a surface as arcs between nodes, vertices at which they end, branch, or meet the boundary. An arc is a
 /// chain of sides, each beginning where the one before ends; arcs that are closed and have no node are left out.
-/// sides: starting_sides(m); seam: one flag a side
+/// sides: starting_sides(m); seam: one flag per side
 inline csr seam_arcs(const mesh<triangle>& m, const facet_table& f, const csr& sides, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };

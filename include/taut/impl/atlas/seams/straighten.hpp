@@ -24,7 +24,7 @@ namespace taut::impl
 class straightening
 {
 public:
-    /// m: oriented; f: its facets. seam: one flag a side; kept: seams that stay where they are, or empty; together:
+    /// m: oriented; f: its facets. seam: one flag per side; kept: seams that stay where they are, or empty; together:
     /// edges that no way leads along, or empty
     straightening(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam, std::span<const char> kept,
                   std::span<const char> together)
@@ -241,10 +241,10 @@ private:
     std::vector<char>& seam_;
     std::span<const char> kept_, together_;
     csr sides_;
-    std::vector<double> weight_; // one a side
-    std::vector<idx> chart_;     // one a triangle
-    std::vector<char> on_seam_;  // one a vertex, or on the boundary
-    std::vector<idx> ring_;      // one a vertex of the band, else -1
+    std::vector<double> weight_; // one per side
+    std::vector<idx> chart_;     // one per triangle
+    std::vector<char> on_seam_;  // one per vertex, or on the boundary
+    std::vector<idx> ring_;      // one per vertex of the band, else -1
     std::vector<double> distance_;
     std::vector<idx> came_; // the side by which the way leads to a vertex
     std::vector<idx> band_;

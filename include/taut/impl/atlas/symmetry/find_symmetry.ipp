@@ -186,7 +186,7 @@ private:
     vec3 middle_{0.0};
     double reach_;
     point_grid grid_;
-    std::vector<idx> polygon_; // one a triangle
+    std::vector<idx> polygon_; // one per triangle
     csr triangles_;            // of each polygon
     std::optional<mirror_symmetry> found_;
     double best_share_ = -1;   // of the samples that had images

@@ -47,7 +47,7 @@ public:
         return params;
     }
 
-    /// Seams of the whole: those of the half, their images, and where the half ends. One flag a side.
+    /// Seams of the whole: those of the half, their images, and where the half ends. One flag per side.
     std::vector<char> seams(std::span<const char> of_half) const
     {
         std::vector<char> seam(facets_.twin.size(), 0);
@@ -75,7 +75,7 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// One a triangle: 1 in the half, -1 in its image, 0 across the plane.
+    /// One per triangle: 1 in the half, -1 in its image, 0 across the plane.
     std::vector<signed char> sides_of_plane() const
     {
         std::vector<double> above(mirror_.image.size(), 0); // of polygons
@@ -105,7 +105,7 @@ private:
     const mesh<triangle>& mesh_;
     const facet_table& facets_;
     const mirror_symmetry& mirror_;
-    std::vector<signed char> of_; // one a triangle
+    std::vector<signed char> of_; // one per triangle
     surface_part part_;
     std::vector<idx> place_; // of each triangle in the half, or -1
 };

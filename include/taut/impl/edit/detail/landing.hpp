@@ -25,7 +25,7 @@ namespace taut::impl
 struct landing_place
 {
     surface_region region;
-    std::vector<vec2> uv; ///< one a vertex of the region
+    std::vector<vec2> uv; ///< one per vertex of the region
     idx centre;           ///< in numbers of the region
     vec3 normal;          ///< mean over what the feature will cover, of length 1
 };

@@ -58,7 +58,7 @@ struct removable_name
 inline std::array<removable_name, 64> removable_names;
 static_assert(std::atomic<int>::is_always_lock_free); // as handlers demand
 
-/// True once no hidden names may be given any more.
+/// True once no hidden names may be given any more; and the number of names being given.
 inline std::atomic<bool> naming_is_over{false};
 inline std::atomic<int> being_named{0};
 

@@ -14,7 +14,7 @@
 namespace taut::io::impl
 {
 
-/// Entities, nodes and elements of version 4.1: nodes and elements come in blocks, one a geometric entity, and it is
+/// Entities, nodes and elements of version 4.1: nodes and elements come in blocks, one per geometric entity, and it is
 /// entities that physical groups name. Coordinates of entities (points of the geometry, boxes) are none of the mesh.
 class gmsh4_reader
 {

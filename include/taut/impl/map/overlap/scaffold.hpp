@@ -22,7 +22,7 @@ struct scaffold
 };
 
 /// Adds the vertices of loops, each begun where its neighbour lies: every 2^k-th of a loop, for less and less k, so
-/// that a long way along a curve is no bad case. numbers: one a point of x, set where a loop has it.
+/// that a long way along a curve is no bad case. numbers: one per point of x, set where a loop has it.
 inline void add_loops(planar_triangulation& t, std::span<const std::vector<idx>> loops, std::span<const vec2> x,
                       std::vector<idx>& numbers)
 {

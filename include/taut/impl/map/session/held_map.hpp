@@ -94,7 +94,7 @@ protected:
             return {.positions = [this] { return user_coordinates(); }};
     }
 
-    /// One a vertex, also where nothing is held.
+    /// One per vertex, also where nothing is held.
     held_marks<D> marks() const { return held_.marks().empty() ? held_marks<D>(last.x.size()) : held_.marks(); }
 
     map user_coordinates() const { return unscaled(live_->coordinates()); }

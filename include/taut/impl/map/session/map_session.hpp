@@ -11,8 +11,8 @@
 namespace taut::impl
 {
 
-/// Implementation of session.hpp; include that one.
-///
+// Implementation of session.hpp; include that one.
+
 /// A session of a map of a surface: it begins as parameterize() does.
 template <class Element>
 class map_session final : public session_steps<Element>

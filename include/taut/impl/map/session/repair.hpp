@@ -20,7 +20,7 @@ namespace taut::impl
 {
 
 /// The vertices around those held ones that are not at their places yet: as far as they have to go, and three edges,
-/// `width` times that. A flag a vertex.
+/// `width` times that. A flag per vertex.
 template <class Element>
 std::vector<char> around_moved(const untangle_problem<Element>& p, double width)
 {

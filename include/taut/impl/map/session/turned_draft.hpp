@@ -80,8 +80,8 @@ inline bool shrinks(const mat3& F, double least)
     return !(glm::determinant(F) > 0 && norm2(glm::inverse(F)) < 2 + 1 / (least * least));
 }
 
-/// One flag a vertex: it is at most four edges from an element that is inverted, or has shrunk to less than 0.3 in some
-/// direction; nothing where there is no such element.
+/// One flag per vertex: it is at most four edges from an element that is inverted, or has shrunk to less than 0.3 in
+/// some direction; nothing where there is no such element.
 inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                                        const std::vector<vec3>& x)
 {

@@ -49,7 +49,7 @@ public:
         objective_.upload(local, x_);
     }
 
-    /// In the user's numbers; marks: who is held, one a vertex, or none.
+    /// In the user's numbers; marks: who is held, one per vertex, or none.
     void constrain(const held_marks<D>& marks, const std::vector<directed_spring<D>>& springs,
                    const std::vector<slide<D>>& slides)
     {

@@ -27,7 +27,7 @@ struct pinned_boundaries
     };
     std::vector<component> components;
     std::vector<idx> of_vertex;    ///< number of the component; -1: not pinned, or no boundary
-    std::vector<char> on_boundary; ///< one a vertex
+    std::vector<char> on_boundary; ///< one per vertex
 
     /// True if both edges lie in one component where no point is covered twice.
     bool exclusive(const std::array<idx, 2>& e, const std::array<idx, 2>& f) const
