@@ -156,7 +156,7 @@ Eigen::SparseMatrix<double> matrix_of(const impl::block_rows<D>& H, unknown_orde
     return matrix;
 }
 
-/// Pins of the vertices b at the rows of bc, held exactly (as in libigl). Throws parameter_error for another number of
+/// Pins of the vertices b at the rows of bc, fixed exactly (as in libigl). Throws parameter_error for another number of
 /// rows, constraint_error as constraints::pin does.
 template <class Element, class Vertices, class Points>
 constraints<Element> constraints_from(const mesh<Element>& m, const Eigen::DenseBase<Vertices>& b,

@@ -25,7 +25,7 @@ namespace taut::impl
 /// holes of the surface in it, and can be flattened. Any antichain of nodes that covers the surface is a set of charts.
 ///
 /// Nodes 0 .. leaves - 1 are the triangles, then the holes; those behind are pieces in the order in which they were
-/// made. A piece of one child is the child with a slit sewn up.
+/// made. A piece of one child is the child with a slit stitched.
 struct cluster_tree
 {
     static constexpr idx none = -1;
@@ -35,7 +35,7 @@ struct cluster_tree
     idx leaves = 0;                           ///< and its holes
     std::vector<std::array<idx, 2>> children; ///< one per piece; the second may be none
     std::vector<idx> parents;                 ///< one per node; none for roots
-    std::vector<idx> sewn;                    ///< one per side: the node that sewed its edge, or never
+    std::vector<idx> sewn;                    ///< one per side: the node that stitched its edge, or never
     std::vector<double> area;                 ///< one per node
     std::vector<double> strain;               ///< one per node: estimated distortion above the minimum, times area
 

@@ -246,7 +246,7 @@ namespace taut
 
 atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
 {
-    // Beyond these sizes areas, or products of them, would be no numbers.
+    // Beyond these sizes areas, or products of them, would overflow.
     if (const double unit = impl::unit_scale(m); unit > 1e70 || unit < 1e-70)
     {
         atlas made = make_atlas(q, scaled(m, unit), params);

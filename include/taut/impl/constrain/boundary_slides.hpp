@@ -202,7 +202,7 @@ private:
 };
 
 /// The motions that keep the boundary of a mesh: a vertex in a flat part of it moves in its plane, one on a straight
-/// crease (in the plane, a straight outline) along it, all others are pinned. Held coordinates hold bit for bit.
+/// crease (in the plane, a straight outline) along it, all others are pinned. Fixed coordinates hold bit for bit.
 ///
 /// tolerance: sine of the angle up to which normals count as equal; owners: as for boundary_facets()
 template <class Element>

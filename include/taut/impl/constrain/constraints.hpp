@@ -84,7 +84,7 @@ public:
     }
     constraints& repin(idx v, const point& x) { return repin(std::array{v}, std::array{x}); }
 
-    /// The same for coordinate k of vertex v alone; the others stay as they are held.
+    /// The same for coordinate k of vertex v alone; the others stay as they are.
     constraints& repin(idx v, int k, double value)
     {
         require_coordinate(v, k);
@@ -245,7 +245,7 @@ public:
         return list;
     }
 
-    /// Bit k: coordinate k of vertex v is held.
+    /// Bit k: coordinate k of vertex v is fixed.
     std::uint8_t held(idx v) const
     {
         const auto at = pins_.find(v);
@@ -260,7 +260,7 @@ public:
         return marks;
     }
 
-    /// Gives the held coordinates of a map (one position a vertex) their values.
+    /// Gives the fixed coordinates of a map (one position a vertex) their values.
     void impose(std::span<point> x) const
     {
         require_count("a vertex", count(), x.size());
@@ -335,7 +335,7 @@ private:
     }
 
     /// Holds `coordinates` of the vertices at where(i), i counting through them: all or, where it throws, none.
-    /// replace: whether what was held before is no fault.
+    /// replace: whether what was fixed before is no fault.
     template <class Where>
     constraints& hold(std::span<const idx> vertices, std::uint8_t coordinates, const Where& where, bool replace = false)
     {

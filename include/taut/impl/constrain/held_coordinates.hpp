@@ -52,8 +52,8 @@ public:
         return any;
     }
 
-    /// Springs of stiffness 1 to where pinned vertices have to be, along the coordinates that are held; of the vertices
-    /// for which `left_out` has no flag.
+    /// Springs of stiffness 1 to where pinned vertices have to be, along the coordinates that are fixed; of the
+    /// vertices for which `left_out` has no flag.
     std::vector<directed_spring<2>> pull(const std::vector<bool>& left_out) const
     {
         std::vector<directed_spring<2>> springs;
@@ -75,7 +75,7 @@ public:
     bool constrained() const { return !wanted_.empty(); }
     bool pinned() const { return !wanted_.pins().empty(); }
 
-    /// One per vertex; none if nothing is held.
+    /// One per vertex; none if nothing is fixed.
     const held_marks<2>& marks() const { return marks_; }
 
     /// True if the constraints pin every vertex of the boundary.
@@ -131,7 +131,7 @@ public:
         return size > 0 ? std::sqrt(away / size) : 0.0;
     }
 
-    /// Puts held coordinates where the constraints want them, in lengths of `unit` times the user's.
+    /// Puts fixed coordinates where the constraints want them, in lengths of `unit` times the user's.
     void impose(std::vector<vec2>& uv, double unit) const
     {
         for (const auto& [v, pin] : wanted_.pins())
@@ -147,7 +147,7 @@ public:
         return points;
     }
 
-    /// Gives held coordinates the values that they have in another map, bit for bit.
+    /// Gives fixed coordinates the values that they have in another map, bit for bit.
     void restore(std::vector<vec2>& uv, const std::vector<vec2>& from) const
     {
         for (std::size_t v = 0; v < marks_.size(); ++v)

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// The ways that held vertices take to their places: those that hang together, by edges between pinned vertices, move
+/// The ways that fixed vertices take to their places: those that hang together, by edges between pinned vertices, move
 /// as a rigid body, and what the best rigid motion leaves to be done in a straight line meanwhile. On straight lines
 /// alone a face that turns by half a turn would shrink to a point half way.
 template <int D>
@@ -26,7 +26,7 @@ class held_paths
 public:
     using map = std::vector<vec<D>>;
 
-    /// cells: their D + 1 vertices. from, to: one position a vertex, of `to` only held coordinates are read.
+    /// cells: their D + 1 vertices. from, to: one position a vertex, of `to` only fixed coordinates are read.
     held_paths(std::span<const std::array<idx, D + 1>> cells, const held_marks<D>& marks, const map& from,
                const map& to)
         : marks_(marks), from_(from), to_(to), body_(marks.size(), -1)
@@ -62,7 +62,7 @@ public:
         return m.angle * m.axis;
     }
 
-    /// Held coordinates of x where they are when a share t of the way is done; to the last bit where it is 1.
+    /// Fixed coordinates of x where they are when a share t of the way is done; to the last bit where it is 1.
     void place(double t, map& x) const
     {
         for (std::size_t v = 0; v < marks_.size(); ++v)

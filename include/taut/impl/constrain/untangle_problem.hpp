@@ -21,9 +21,9 @@ struct untangle_problem
     static constexpr int D = Element::dimension;
 
     mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
-    std::vector<vec<D>> initial; ///< one per vertex, in any state; a held coordinate is a hard constraint
+    std::vector<vec<D>> initial; ///< one per vertex, in any state; a fixed coordinate is a hard constraint
     impl::held_marks<D> held;    ///< one per vertex
-    /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
+    /// A map near to the one that is sought, without a defect, that need not have fixed coordinates at their targets;
     /// empty: none is known.
     std::vector<vec<D>> draft = {};
     /// Target shapes of elements, if not those at rest: edge matrices, upper triangular with a positive diagonal, one
@@ -54,7 +54,7 @@ struct untangle_problem
                            });
     }
 
-    /// Throws parameter_error: one initial position and one set of held coordinates per vertex, all of it finite.
+    /// Throws parameter_error: one initial position and one set of fixed coordinates per vertex, all of it finite.
     void validate() const
     {
         const std::size_t n = rest.points().size();

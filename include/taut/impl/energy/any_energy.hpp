@@ -16,8 +16,8 @@
 namespace taut
 {
 
-/// Type-erased energy. An energy is traced once per problem, so the indirection costs nothing per element,
-/// and functions that take one need not be templates. Converts from every energy_function.
+/// Type-erased energy. An energy is traced once per problem, so the indirection costs nothing per element, and
+/// functions that take one need not be templates. Converts from every energy_function.
 ///
 /// An energy may exist for triangles, for tetrahedra or for both; calling it in a dimension that it does not have
 /// throws parameter_error. One for triangles alone takes element<T, 2>; one that takes element<T, D> is compiled for D
@@ -49,7 +49,7 @@ public:
         e.directions_ = directions;
         return e;
     }
-    /// With another stand-in for its Hessian where that is not positive semi-definite.
+    /// With another projection of its Hessian where that is not positive semi-definite.
     any_energy with_eigenvalues(impl::negative_eigenvalues treated) const
     {
         any_energy e = *this;

@@ -94,9 +94,8 @@ namespace taut
 
 /// Checks an energy on random elements of positive determinant: its traced derivative against central differences of
 /// its host values, its invariance to rotations of the rest shape's frame, and that a barrier is one. For energies of
-/// your own: a tape differentiates what was traced, so a disagreement means that
-/// the function takes other paths for numbers than for traced scalars (a cast, a table, a branch on T), or that it is
-/// not smooth.
+/// your own: a tape differentiates what was traced, so a disagreement means that the function takes other paths for
+/// numbers than for traced scalars (a cast, a table, a branch on T), or that it is not smooth.
 template <int D>
 gradient_check check_gradient(const any_energy& energy, int trials = 100, unsigned seed = 1)
 {

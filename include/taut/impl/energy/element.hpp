@@ -47,8 +47,8 @@ private:
 namespace taut::energy
 {
 
-/// Energy density: a function of one element, smooth where det S > 0. `barrier` says that it tends to
-/// infinity as det S tends to 0 from above, and is +infinity (never clamped) from there on.
+/// Energy density: a function of one element, smooth where det S > 0. `barrier` says that it tends to infinity as det S
+/// tends to 0 from above, and is +infinity (never clamped) from there on.
 template <class E, int D = 2>
 concept energy_function = requires(const E& e, const element<double, D>& x)
 {

@@ -61,7 +61,7 @@ point_cloud cloud_of(const mesh<Element>& m, std::span<const char> held)
 /// be negative where the boundary is curved. Coarser levels have no cells: no shape of the mesh can stop the thinning,
 /// and solvers need weights only.
 ///
-/// held: one flag per vertex, or none at all. Held vertices (pins, a fixed boundary) are thinned like the others;
+/// held: one flag per vertex, or none at all. Fixed vertices (pins, a fixed boundary) are thinned like the others;
 ///       nothing is interpolated to them
 /// boundary: the faces of the boundary, where the cells overlap, so that their own do not say it; else empty
 ///

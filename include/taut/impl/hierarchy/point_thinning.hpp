@@ -51,7 +51,7 @@ inline std::vector<idx> maximal_independent_set(const point_cloud& cloud)
 }
 
 /// Interpolation from the chosen points to all: each from chosen ones at most two edges away. Linear functions are
-/// reproduced but near the boundary, where the row is affine_search's best. Rows of held vertices are 0.
+/// reproduced but near the boundary, where the row is affine_search's best. Rows of fixed vertices are 0.
 inline prolongation<4> interpolate(const point_cloud& cloud, std::span<const idx> chosen, unsigned threads)
 {
     const std::size_t n = cloud.points.size();

@@ -17,9 +17,8 @@ struct removals
 {
 };
 
-/// Record for surfaces: half-edge collapses in rounds. In a round no two
-/// removed vertices are neighbours, so all of it can be done, and undone, at once. Numbers are those of the finer
-/// level.
+/// Record for surfaces: half-edge collapses in rounds. In a round no two removed vertices are neighbours, so all of it
+/// can be done, and undone, at once. Numbers are those of the finer level.
 template <>
 struct removals<triangle>
 {

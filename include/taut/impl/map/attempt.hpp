@@ -45,7 +45,7 @@ inline attempt certified(const run_surface& in, attempt a)
     return a;
 }
 
-/// Removes the solver's translation and scale; restores fixed coordinates. start: where held coordinates are right.
+/// Removes the solver's translation and scale; restores fixed coordinates. start: where fixed coordinates are right.
 inline std::vector<vec2> restored(const map_run& run, std::vector<vec2> uv, const vec2& centre,
                                   const std::vector<vec2>& start)
 {

@@ -15,17 +15,17 @@
 namespace taut::impl
 {
 
-/// A start that obeys pins, from coarse to fine. Springs draw pinned vertices to their places, stiffer on each finer
-/// level and then step by step on the mesh itself, until all of them can be put there without a flip. A boundary that
-/// is pinned as a whole is held from the beginning, and only what is inside is drawn. The energy is a barrier, so all
-/// maps on the way are injective, and what is around a pin is dragged along, which ends in better minima than
-/// untangling does.
+/// Start by a penalty continuation for pins, from coarse to fine. Springs pull pinned vertices to their targets,
+/// stiffer on each finer level and then step by step on the mesh itself, until all of them can be put there without a
+/// flip. A boundary that is pinned as a whole is fixed from the beginning, and only inner pins get springs. The energy
+/// is a barrier, so all maps on the way are injective, and what is around a pin is dragged along, which ends in better
+/// minima than untangling does.
 class drawn_start
 {
 public:
     enum class from
     {
-        constraints, ///< levels on which pins are drawn, within the outline if that is pinned as a whole
+        constraints, ///< levels of the penalty continuation, within the outline if that is pinned as a whole
         free_map     ///< the map of a run that nothing holds, moved near to the pins: where these are of such a map
     };
 
@@ -254,7 +254,7 @@ private:
     bool free_;
     bool bound_; ///< all of the boundary is pinned
     std::vector<bool> anchored_;
-    std::vector<vec2> places_; ///< where vertices are held
+    std::vector<vec2> places_; ///< targets of fixed vertices
     vec2 centre_;
     mesh_levels<triangle> levels_;
     std::vector<directed_spring<2>> pull_;

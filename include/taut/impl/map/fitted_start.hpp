@@ -13,8 +13,8 @@
 namespace taut::impl
 {
 
-/// A start with flips, made injective, or why it is not. draft: the start before pinned vertices were put to their
-/// places, or none.
+/// A start with flips, made injective, or why it is not. draft: initial guess, the start before pinned vertices were
+/// put to their places, or none.
 inline run_start untangled_start(const map_run& run, run_start start, std::vector<vec2> draft)
 {
     const bool bound = run.held.constrained() || run.params.boundary == boundary_mode::fixed;

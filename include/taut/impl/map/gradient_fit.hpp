@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// Values at the vertices of a mesh, a vector each, whose gradients are nearest to wanted ones in the mean square by
+/// Values at the vertices of a mesh, a vector each, whose gradients are nearest to target ones in the mean square by
 /// measure: a Poisson equation for each coordinate (Yu et al. 2004), by conjugate gradients scaled by the diagonal, as
 /// many steps as the mesh has edges across or some more.
 template <class Element>
@@ -71,8 +71,8 @@ public:
         return G;
     }
 
-    /// x: where to begin, and what is held there; the fit. wanted(c): the gradient that cell c should have; called from
-    /// several threads. tolerance: of the residual, in the norm of its scale, by that at the start. Without held
+    /// x: where to begin, and fixed coordinates there; the fit. wanted(c): the gradient that cell c should have; called
+    /// from several threads. tolerance: of the residual, in the norm of its scale, by that at the start. Without fixed
     /// coordinates the mean of x, weighted by the diagonal, stays.
     template <class Wanted>
     void fit(const Wanted& wanted, const held_marks<D>& held, double tolerance, values& x) const
@@ -80,7 +80,7 @@ public:
         const std::size_t n = x.size();
         std::vector<mat<D>> missing(cells_.size());
         each(cells_.size(), [&](std::size_t c) { missing[c] = measure_[c] * (wanted(c) - gradient(c, x)); });
-        std::vector<vec<D>> free(n, vec<D>(1.0)); // 0 where a coordinate is held
+        std::vector<vec<D>> free(n, vec<D>(1.0)); // 0 where a coordinate is fixed
         values r(n), p(n), Ap(n);
         const auto scaled = [&](std::size_t v) { return entries_[v] > 0 ? r[v] / entries_[v] : vec<D>(0.0); };
         each(n,

@@ -67,12 +67,12 @@ private:
         return to;
     }
 
-    /// An injective shape near the draft at t.
+    /// Injective shape near the initial guess at t.
     shape start(queue& q, double t) const
     {
         shape draft = path_.draft(t);
         if (certify<D>(from_.cells(), std::span<const vec<D>>(draft))) return draft;
-        // The nearer end is drawn to it by springs.
+        // The nearer end is pulled to it by springs.
         auto params = params_;
         shape end = t < 0.5 ? shape(from_.points().begin(), from_.points().end()) : to_;
         const auto turn = fit_rigid_motion(std::span<const vec<D>>(end), std::span<const vec<D>>(draft));

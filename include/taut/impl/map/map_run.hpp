@@ -79,11 +79,11 @@ struct map_run
         return levels ? precision::mixed : precision::fp64;
     }
 
-    /// Returns whether a start that is not given is made on coarser levels: of nothing that is held, as part of an
+    /// Returns whether a start that is not given is made on coarser levels: without fixed coordinates, as part of an
     /// attempt.
     bool starts_coarse() const { return may_start_coarse() && !held.constrained(); }
 
-    /// The same where pins are to be drawn to their places there.
+    /// Returns whether pins are reached by a penalty continuation there.
     bool draws_pins() const
     {
         return may_start_coarse() && held.pinned() && params.boundary == boundary_mode::free && params.energy.barrier();

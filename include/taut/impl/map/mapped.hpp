@@ -31,7 +31,7 @@ inline run_start second_start(const map_run& run, const run_start& coarse, const
 }
 
 /// The phases between a run that is prepared and a map that is placed: start, attempts to minimise it, certificate.
-/// The map is in the lengths of the run.
+/// The map is in normalised units.
 inline map_result solved(const map_run& run)
 {
     const run_start start = choose_start(run);

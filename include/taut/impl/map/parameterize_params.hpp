@@ -55,8 +55,8 @@ struct parameterize_params
     taut::constraints<triangle> constraints = {};
 
     /// Start: these coordinates, one per vertex, if there are any (a warm start: the map of the last run, after the
-    /// pins have moved, say); with a free boundary and no constraints their
-    /// place and scale do not matter. A start that is mirrored as a whole is turned over, others with flips untangled.
+    /// pins have moved, say); with a free boundary and no constraints their place and scale do not matter. A start that
+    /// is mirrored as a whole is turned over, others with flips untangled.
     std::vector<vec2> initial = {};
 
     /// Otherwise the start is made so. A coarse start takes its boundary from `barycentric` and goes over to a

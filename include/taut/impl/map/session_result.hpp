@@ -33,7 +33,7 @@ struct session_budget
 struct session_seconds
 {
     double start = 0;       ///< the first map or shape, and what is made once for all calls
-    double constrain = 0;   ///< lists of who is held, where that has changed, and where
+    double constrain = 0;   ///< updates of the fixed coordinates and their targets
     double follow = 0;      ///< steps that bring pins to their places
     double repair = 0;      ///< untangling, where such steps stuck
     double solve = 0;       ///< minimisation with the pins at their places
@@ -51,7 +51,7 @@ struct session_report
     std::vector<std::string> notes; ///< what the library decided on its own
     bool converged = false;         ///< pins hold, and there is nothing left to gain
     bool stopped = false;           ///< the budget, a limit or the observer ended the call
-    bool pins_held = false;         ///< all held coordinates are where they should be, bit for bit
+    bool pins_held = false;         ///< all pins are met, bit for bit
     idx farthest = -1;              ///< the vertex that is farthest from its pin; -1: pins hold
     double distance = 0;            ///< of that vertex from its pin
     double energy = 0;              ///< mean over the elements, springs included

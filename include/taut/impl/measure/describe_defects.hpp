@@ -11,8 +11,8 @@ namespace taut::impl
 {
 
 /// Describes the defects of a map that is not locally injective, with the first ids; else "no defect". For elements
-/// without orientation, as hinges, these are collapsed triangles. owners: where the
-/// elements are the corners of cells, the cell of each.
+/// without orientation, as hinges, these are collapsed triangles. owners: where the elements are the corners of cells,
+/// the cell of each.
 template <class Element>
 std::string describe_defects(const certificate& c, std::span<const idx> owners = {})
 {

@@ -142,7 +142,7 @@ inline std::vector<idx> vertices_of_several_fans(const mesh<triangle>& m, const 
     return ids;
 }
 
-/// Vertices whose cells fall into several groups that share no facet at the vertex. Vertices of crowded facets are
+/// Vertices whose cells fall into several groups that share no facet at the vertex. Vertices of non-manifold facets are
 /// left out: they are named there.
 template <class Element>
 std::vector<idx> pinched_vertices(const mesh<Element>& m, const facet_table& f)

@@ -105,7 +105,7 @@ public:
     /// Sets the targets of fixed coordinates other than those of pinned vertices, for linearize_towards() and put():
     /// those of a map in the user's numbers and units; no others are read.
     void aim(std::span<const vec<D>> map) { held_.aim(*layout_, map); }
-    /// x = what is wanted at what is held, to the last bit of the type of positions.
+    /// x = the targets at fixed coordinates, to the last bit of the type of positions.
     void put(point& x) { held_.put(x); }
 
     double value(const point& x)

@@ -82,7 +82,7 @@ private:
 
 /// A map_objective that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into
 /// block-sparse matrices on the device, and a multigrid V-cycle over the hierarchy of the mesh is the preconditioner.
-/// The positive semi-definite stand-in has the eigenvalues of element Hessians filtered, as the energy says.
+/// The positive semi-definite (projected) Hessian has the eigenvalues of element Hessians filtered, as the energy says.
 template <class Element>
 class newton_objective : public map_objective<Element>
 {
@@ -139,8 +139,8 @@ public:
         assemble_(hessian_, *indefinite_);
     }
 
-    /// As linearize(x, false), where held coordinates are on their way to what aim() said: d = a share of what x lacks
-    /// there and 0 elsewhere, g = the gradient at x + d in the model. f(x), and the change of the model along d.
+    /// As linearize(x, false), where fixed coordinates are on their way to what aim() said: d = a fraction of what x
+    /// lacks there and 0 elsewhere, g = the gradient at x + d in the model. f(x), and the change of the model along d.
     solve::impl::model_change linearize_towards(const point& x, double share, vector& d, vector& g)
     {
         d.data().fill(0);
@@ -153,7 +153,7 @@ public:
         return change;
     }
     void hessian_product(const vector& v, vector& out) { (exact_ ? *indefinite_ : cycle_.matrix()).multiply(v, out); }
-    /// The V-cycle between two projections where coordinates are held: symmetric and positive on what is left.
+    /// The V-cycle between two projections where coordinates are fixed: symmetric and positive on what is left.
     void precondition(const vector& v, vector& out)
     {
         cycle_.apply(v, out);
@@ -187,7 +187,7 @@ public:
 private:
     static constexpr bool eliminates = std::is_same_v<Element, triangle>;
 
-    /// The matrices of all levels, of the element Hessians without what is held.
+    /// The matrices of all levels, of the element Hessians without fixed coordinates.
     void assemble()
     {
         this->mask_hessian(hessian_);

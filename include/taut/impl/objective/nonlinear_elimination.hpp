@@ -26,7 +26,7 @@ namespace taut::impl
 /// between pins are far from quadratic, but small; one step length for all of a map lets the hardest of them decide.
 ///
 /// A step is Newton's with a direct solver on the host: along the Hessian where it is positive definite, else along its
-/// stand-in, to the best of four lengths, none beyond 0.9 of the way to the first flip. Formulas are those of the
+/// projection, to the best of four lengths, none beyond 0.9 of the way to the first flip. Formulas are those of the
 /// kernels of the mesh. The energy falls, no element flips, and what patches do not move stays bit for bit.
 ///
 /// Costs two or three waits per step, and some tenths of a microsecond a triangle of the patches.
@@ -180,7 +180,7 @@ private:
                     best = steps[t];
                 }
             if (best == 0 && exact_)
-                pause_ = patience; // the stand-in may still bring something
+                pause_ = patience; // the projected Hessian may still bring something
             else if (best == 0 || here - least < little * most_)
                 done_ = true;
             most_ = std::max(most_, here - least);
@@ -200,7 +200,7 @@ private:
         }
 
     private:
-        static constexpr int patience = 2; // steps along the stand-in before the Hessian is tried again
+        static constexpr int patience = 2; // steps along the projected Hessian before the Hessian is tried again
 
         void finish()
         {

@@ -34,7 +34,7 @@ struct relaxation_result
     double worst = 0; ///< largest density, before
 };
 
-/// Moves the vertices of the few worst elements of a map, each by a Newton step of its own star with all others held,
+/// Moves the vertices of the few worst elements of a map, each by a Newton step of its own star with all others fixed,
 /// so that one sliver does not cap the step of a solver that moves all at once (docs/explanation/numerics.md,
 /// "Vertex relaxation").
 ///

@@ -27,7 +27,7 @@ struct repair_params
     std::span<const std::array<idx, 3>> normal_cells = {};
 
     /// The body that each vertex is of, or none: vertices of two bodies are at two places, whatever their coordinates,
-    /// so that nothing of one body is sewn to another one or a copy of it.
+    /// so that nothing of one body is stitched to another one or a copy of it.
     std::span<const idx> bodies = {};
 
     /// The polygon that each triangle is of, or none: triangles of one polygon stay together wherever edges are parted.

@@ -243,7 +243,7 @@ private:
         fan_ = fans(*placed_, pairs_);
         if (part_repeated(*placed_, f_, fan_, pairs_)) fan_ = fans(*placed_, pairs_);
         for (const auto& sides : open) note_crowd(sides);
-        // What is sewn badly is not sewn; the surface is none the worse for it.
+        // What is stitched badly is not stitched; the surface is none the worse for it.
         std::erase_if(way_.cut,
                       [this](idx s) { return f_.twin[u(s)] >= 0 && placed_->edge(s) != placed_->edge(f_.twin[u(s)]); });
     }
@@ -382,7 +382,7 @@ private:
     winding way_;
     std::vector<idx> fan_;     // one per corner
     std::vector<idx> crowded_; // one side of each edge of the input that was parted
-    std::size_t unsewn_ = 0;   // places of edges that might have been sewn
+    std::size_t unsewn_ = 0;   // places of edges that might have been stitched
 };
 
 } // namespace taut::impl

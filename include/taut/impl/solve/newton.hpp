@@ -25,9 +25,9 @@ namespace taut::solve::impl
 /// The loop of newton(). Truncated Newton's method with a line search (Nocedal & Wright, Algorithm 7.1): the direction
 /// by preconditioned conjugate gradients, then the best of the trial steps that meets the Armijo condition.
 ///
-/// Where the Hessian is indefinite the stand-in may be much too stiff: its directions are then those of steepest
-/// descent in its metric, and too short. So they are made conjugate to each other, and tried at up to four times their
-/// length.
+/// Where the Hessian is indefinite the projected Hessian may be much too stiff: its directions are then those of
+/// steepest descent in its metric, and too short. So they are made conjugate to each other, and tried at up to four
+/// times their length.
 ///
 /// | here                | meaning                                                     |
 /// |---------------------|-------------------------------------------------------------|
@@ -35,7 +35,7 @@ namespace taut::solve::impl
 /// | `d_`                | d_k                                                         |
 /// | `last_d_, last_g_`  | d_{k-1} and the gradient where it began                     |
 /// | `unit`              | the longest trial step: min(1, fraction of the first flip), |
-/// |                     | 4 in the place of 1 along directions of the stand-in        |
+/// |                     | 4 in the place of 1 along directions of the projected Hessian        |
 ///
 /// Host waits of an iteration, 2: the products of pcg, mostly one look, and the trial steps. Where the decrease is
 /// small enough to expect the end, the norm of the gradient is wanted, too: it comes with the trial steps if the full
@@ -107,7 +107,7 @@ private:
         const bool exact = step_.value_before - value_ < params_.exact_below * f_.size(value_);
         std::swap(d_, last_d_);
         if (auto reason = direction(exact)) return reason;
-        // An indefinite Hessian may have misled; its stand-in does not.
+        // An indefinite Hessian may have misled; its projection does not.
         std::optional<trial> found = search();
         if (!found && exact && !monitor_.reason())
         {
@@ -139,8 +139,8 @@ private:
     /// Rounding error of values near the current one.
     double noise() const { return rounding_ * f_.size(value_); }
 
-    /// Makes d_, a direction of the stand-in, conjugate to the last one (Hestenes & Stiefel 1952, with the stand-in as
-    /// preconditioner), as far as the change of the gradient along that one tells.
+    /// Makes d_, a direction of the projected Hessian, conjugate to the last one (Hestenes & Stiefel 1952, with the
+    /// projected Hessian as preconditioner), as far as the change of the gradient along that one tells.
     void conjugate()
     {
         const vector* const left[] = {&last_g_, &g_};
@@ -346,7 +346,7 @@ private:
     std::optional<vector> unexpected_;  // of the last gradient, by the model
     std::optional<double> full_square_; // norm of full_gradient_ squared, if it came with the trial steps
     bool exact_ = false;                // d_ is of the Hessian itself
-    bool along_stand_in_ = false;       // last_d_ is of the stand-in
+    bool along_stand_in_ = false;       // last_d_ is of the projected Hessian
     bool near_end_ = true;              // the norm of the next gradient will be wanted
     bool pending_ = false;              // the last step has no gradient norm yet
     int system_steps_ = 0;              // of PCG at most; more where the Hessian has proved right

@@ -82,8 +82,7 @@ concept has_precondition = objective<O> && requires(O& f, const vector_of<O>& v,
 
 /// Requirements of Newton's method: `linearize(x, exact)` fixes the point of all that follows; `hessian_product(v,
 /// out)`, out = A v, where A is the Hessian if `exact` and else the projected (positive semi-definite) Hessian;
-/// `precondition(v, out)`,
-/// out = M v with M an approximate inverse of the projected one in either case.
+/// `precondition(v, out)`, out = M v with M an approximate inverse of the projected one in either case.
 template <class O>
 concept has_hessian = has_precondition<O> &&
     requires(O& f, const typename O::point& x, bool exact, const vector_of<O>& v, vector_of<O>& out)

@@ -309,8 +309,9 @@ struct newton_params
 {
     pcg_params pcg = {};
 
-    /// The Hessian itself takes the place of its positive semi-definite stand-in once an iteration lowers the value by
-    /// less than this part: near a minimum it halves the iterations, far from one it misleads. Range [0, 1).
+    /// The Hessian itself takes the place of its positive semi-definite (projected) Hessian once an iteration lowers
+    /// the value by less than this part: near a minimum it halves the iterations, far from one it misleads. Range [0,
+    /// 1).
     double exact_below = 1e-5;
 
     /// After a step shorter than this the objective is asked to relax what cut it short. Range [0, 1].

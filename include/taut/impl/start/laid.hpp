@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// An injective map of the surface itself, without regard to what is held: the surface if it is plane, else a
+/// An injective map of the surface itself, without regard to fixed coordinates: the surface if it is plane, else a
 /// barycentric map. Nothing if the surface has none.
 inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
 {
@@ -37,8 +37,8 @@ inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
 }
 
 /// The draft if there is one, else that map, moved by the similarity that brings pinned vertices nearest to their
-/// places in x (least squares). With fewer than two it gets the measure expected. Held coordinates are not put to their
-/// places.
+/// places in x (least squares). With fewer than two it gets the measure expected. Fixed coordinates are not put to
+/// their places.
 inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem,
                                                    const std::vector<vec2>& x, const std::vector<vec2>& draft)
 {

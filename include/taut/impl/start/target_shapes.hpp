@@ -25,7 +25,7 @@ struct target_shape
 };
 
 /// Estimated size of the image, in the unit of x: its signed measure where the boundary is pinned, and that of the box
-/// around the held vertices or all vertices otherwise.
+/// around the fixed vertices or all vertices otherwise.
 template <class Element>
 double expected_measure(const untangle_problem<Element>& problem, const std::vector<vec<Element::dimension>>& x)
 {

@@ -202,7 +202,7 @@ private:
     std::vector<bool> depends_;
 };
 
-/// The derivatives of node f by the nodes x, each held independent of the others; no_node for zero.
+/// The derivatives of node f by the nodes x, each treated as independent of the others; no_node for zero.
 inline std::vector<node_id> reverse_sweep(tape& t, node_id f, std::span<const node_id> x)
 {
     for (const node_id id : x) static_cast<void>(t[id]); // throws for a sym without a value

@@ -25,7 +25,7 @@ namespace taut::impl
 {
 
 /// Untangles a coarse level of the mesh, where steps take milliseconds, and puts the vertices that were left out back
-/// into its map, which flips nothing. What is held is on all levels. Where a level cannot be untangled, or is
+/// into its map, which flips nothing. Fixed coordinates is on all levels. Where a level cannot be untangled, or is
 /// infeasible, which the mesh itself need not be, the next finer one is, as long as that is small.
 class coarse_stage final : public untangle_stage<triangle>
 {

@@ -133,7 +133,7 @@ private:
         forces_[c] = corner_gradient<2>(-weight * gradient_by_shape(S, psi.by_I, psi.by_d), shapes_[c].inverse);
     }
 
-    /// Makes the equations of held coordinates x = 0; pinned vertices have none.
+    /// Makes the equations of fixed coordinates x = 0; pinned vertices have none.
     void hold(std::vector<vec2>& force)
     {
         for (std::size_t c = 0; c < cells_.size(); ++c)

@@ -9,7 +9,7 @@ namespace taut::impl
 {
 
 /// Each free coordinate at the mean of its neighbours': one sparse solve. Ends the matter where the boundary is convex
-/// and nothing inside is held, and is often a better start than the initial map where there is more.
+/// and nothing inside is fixed, and is often a better start than the initial map where there is more.
 template <class Element>
 class harmonic_stage final : public untangle_stage<Element>
 {

@@ -23,7 +23,7 @@ enum class untangle_start
 {
     best,     ///< the better of the initial map and the best so far
     harmonic, ///< each free coordinate the mean of its neighbours'
-    laid      ///< an injective map that ignores what is held, brought near to it; for few held vertices
+    laid      ///< an injective map that ignores fixed coordinates, brought near to it; for few fixed vertices
 };
 
 /// Variants of the stage below.

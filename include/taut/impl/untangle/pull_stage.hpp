@@ -34,7 +34,7 @@ struct pull_stage_params
     int share = 1; ///< it makes so many times the iterations of a round
 };
 
-/// Starts from an injective map and stays injective: springs pull the held vertices to their places, stronger with
+/// Starts from an injective map and stays injective: springs pull the fixed vertices to their targets, stronger with
 /// every step, against an energy with a barrier. No triangle flattens on the way, so no branch point comes about
 /// either. The start holds the boundary alone, where that is injective, and nothing otherwise.
 class pull_stage final : public untangle_stage<triangle>
@@ -53,7 +53,7 @@ public:
             for (auto& s : newton_->springs) s.stiffness *= growth;
             const double before = newton_->value(x_), after = newton_->step(x_, before);
             state.stepped(before, after, newton_->last_length());
-            if (state.offer(x_)) return false; // injective with the held vertices at their places
+            if (state.offer(x_)) return false; // injective with the fixed vertices at their targets
             if (!state.proceed() || !std::isfinite(after)) return false;
             standing_ = after < before ? 0 : standing_ + 1;
             ++pulled_;
@@ -100,7 +100,7 @@ private:
         return true;
     }
 
-    /// The harmonic map within the held part of the boundary, if it is injective.
+    /// The harmonic map within the fixed part of the boundary, if it is injective.
     bool hold_boundary(const untangle_state<triangle>& state)
     {
         untangle_problem<triangle> rim = state.problem();

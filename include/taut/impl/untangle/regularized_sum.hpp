@@ -42,7 +42,7 @@ public:
     double area_weight = 1;
     std::vector<target_shape<D>> shapes; ///< one per element
 
-    /// x, gradient: D numbers per vertex; the gradient is 0 where a coordinate is held.
+    /// x, gradient: D numbers per vertex; the gradient is 0 where a coordinate is fixed.
     double value_gradient(std::span<const double> x, std::span<double> gradient)
     {
         parallel_for(

@@ -68,7 +68,7 @@ struct untangle_result
     std::string reason;      ///< why there is no injective map; empty if there is one
     std::vector<idx> ids;    ///< infeasible: what the proof names; gave_up: the inverted elements of the map, or its
                              ///< branch points where none is inverted
-    std::vector<vec<D>> map; ///< with the fewest defects that were seen; held coordinates as in the problem
+    std::vector<vec<D>> map; ///< with the fewest defects that were seen; fixed coordinates as in the problem
     certificate flips;       ///< of the map, exact; det in the units of the map, not divided by anything
     double least_relative_det = 0; ///< smallest mapped / rest measure, divided by that of the whole; 1: a dilation
     std::string stage;             ///< that found the injective map; "initial" if there was nothing to do

@@ -24,11 +24,11 @@ namespace taut::impl
 /// coarse    a coarse level alone, and the map of it carried up
 /// harmonic  the harmonic map alone
 /// newton    from the harmonic map, towards the shapes at rest
-/// pull      from an injective map, whose elements stay positive while springs pull it to what is held
+/// pull      from an injective map, whose elements stay positive while springs pull it to fixed coordinates
 /// stretch   the same towards regular triangles, with detours where the springs have jammed
 /// regular   from the harmonic map, towards regular triangles
 /// best      from the best map so far, towards the shapes at rest
-/// laid      from an injective map that ignores what is held, towards the shapes at rest
+/// laid      from an injective map that ignores fixed coordinates, towards the shapes at rest
 /// shape     from the harmonic map, shape only
 /// lbfgs     as newton, without second derivatives
 ///

@@ -57,7 +57,7 @@ public:
     const auto& cells() const { return problem_.rest.cells(); }
     const map& initial() const { return initial_; } ///< in the unit of the stages
     const map& draft() const { return draft_; }     ///< of the problem, in the unit of the stages; may be empty
-    /// The harmonic map that keeps what is held, in the unit of the stages.
+    /// The harmonic map that keeps fixed coordinates, in the unit of the stages.
     const map& harmonic()
     {
         if (harmonic_.empty()) harmonic_ = impl::harmonic_start(problem_, initial_);
@@ -76,7 +76,7 @@ public:
         return newton_(std::move(p));
     }
 
-    /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its held coordinates are replaced
+    /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its fixed coordinates are replaced
     /// by those of the problem before they are counted. Returns what was counted.
     certificate offer(std::span<const vec<D>> x) { return keep(restored(x, unit_)); }
 

@@ -19,8 +19,8 @@
 namespace taut::io::impl
 {
 
-/// Common parts of all versions of gmsh's .msh: sections from $NAME to $EndNAME, names of physical groups, kinds
-/// of elements (gmsh reference manual, "MSH file format").
+/// Common parts of all versions of gmsh's .msh: sections from $NAME to $EndNAME, names of physical groups, kinds of
+/// elements (gmsh reference manual, "MSH file format").
 class gmsh_sections
 {
 public:

@@ -25,7 +25,7 @@ class apart_rounds
 public:
     using map = std::vector<vec2>;
 
-    /// places: a map with held coordinates at their places. Refers to its arguments.
+    /// places: a map with fixed coordinates at their targets. Refers to its arguments.
     apart_rounds(const map_run& run, const std::vector<std::vector<idx>>& loops, const map& places)
         : run_(run), scaffolded_(run, loops, places), left_(run.params.solve.stopping.max_iterations)
     {
@@ -51,7 +51,7 @@ public:
     solve::stop stop() const { return stop_; }
     bool places_held() const { return farthest_ < 0; }
     idx farthest() const { return farthest_; }    ///< the vertex that is farthest from its place
-    double distance() const { return distance_; } ///< of that one, in lengths of the run
+    double distance() const { return distance_; } ///< of that one, in normalised units
 
 private:
     static constexpr int most_rounds = 100, most_steps = 20;
@@ -129,7 +129,7 @@ private:
     double distance_ = std::numeric_limits<double>::infinity();
 };
 
-/// The ends of two edges of the boundary that meet, of those whose vertices all are held; none if no two do.
+/// The ends of two edges of the boundary that meet, of those whose vertices all are fixed; none if no two do.
 inline std::vector<idx> held_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
                                     const std::vector<vec2>& x)
 {

@@ -43,7 +43,7 @@ public:
         deform_params<triangle> how;
     };
 
-    /// places: a map with held coordinates at their places. Refers to its arguments.
+    /// places: a map with fixed coordinates at their targets. Refers to its arguments.
     scaffolded_map(const map_run& run, const std::vector<std::vector<idx>>& loops, const map& places)
         : run_(run), loops_(loops), places_(places), springs_(run.held.beyond_pins(vec2(0)).springs)
     {

@@ -16,11 +16,11 @@
 namespace taut::impl
 {
 
-/// The problem of a draft on a coarser volume.
+/// Untangling problem of an initial guess on a coarser volume.
 struct coarse_problem
 {
     coarser_volume thinned;                ///< of the shape at hand
-    untangle_problem<tetrahedron> problem; ///< of the places of held vertices, that shape at rest
+    untangle_problem<tetrahedron> problem; ///< of the targets of fixed vertices, that shape at rest
 };
 
 /// Nothing where the mesh is too small for that, where its cells overlap, or where it cannot be thinned well.
@@ -72,8 +72,8 @@ inline std::vector<mat3> vertex_gradients(const mesh<tetrahedron>& m, const std:
 }
 
 /// x, a shape of the coarser volume, on the mesh m that it was thinned from: gradients are those of the coarser one at
-/// its vertices, smooth in between, and the shape is the one whose gradients are nearest to them. Held coordinates have
-/// the places `to`.
+/// its vertices, smooth in between, and the shape is the one whose gradients are nearest to them. Fixed coordinates
+/// have the places `to`.
 inline std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                                     const coarser_volume& coarse, const std::vector<vec3>& x, const held_marks<3>& held,
                                     const std::vector<vec3>& to)
@@ -110,7 +110,7 @@ inline std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, co
                          }
                      });
     }
-    constexpr double enough = 1e-2; // a draft
+    constexpr double enough = 1e-2; // an initial guess
     const auto wanted = [&](std::size_t c)
     {
         mat3 mean(0.0);

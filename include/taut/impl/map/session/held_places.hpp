@@ -28,7 +28,7 @@ public:
     {
     }
 
-    /// Takes the pins in the place of those before; whether other coordinates are held than before.
+    /// Takes the pins in the place of those before; whether other coordinates are fixed than before.
     bool take(const constraints<Element>& wanted)
     {
         held_marks<D> marks(places_.size());
@@ -50,7 +50,7 @@ public:
 
     const held_marks<D>& marks() const { return marks_; }
     const std::vector<slide<D>>& slides() const { return slides_; }
-    const map& places() const { return places_; } ///< of held coordinates; the others mean nothing
+    const map& places() const { return places_; } ///< of fixed coordinates; the others mean nothing
 
     struct farthest
     {
@@ -58,7 +58,7 @@ public:
         double distance = 0;
     };
 
-    /// The vertex whose held coordinates are farthest from their places in a map.
+    /// The vertex whose fixed coordinates are farthest from their places in a map.
     farthest gap(const map& x) const { return gap(x, places_); }
 
     /// The same from where they are in another map.
@@ -76,7 +76,7 @@ public:
         return f;
     }
 
-    /// Puts held coordinates to their places.
+    /// Puts fixed coordinates to their targets.
     void impose(map& x) const { impose(x, x); }
 
     /// The same where they are as in `rounded`, which is what arithmetic makes of the places.

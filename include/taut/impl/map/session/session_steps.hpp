@@ -67,7 +67,7 @@ public:
         last.x = x;
         last.report.flips = std::move(flips);
         last.report.converged = false;
-        changed = true; // so that the next solve() sees who is held
+        changed = true; // so that the next solve() sees which coordinates are fixed
         load(scaled(x));
     }
 
@@ -126,7 +126,7 @@ protected:
         return steps_left_ > 0 && clock.left().count() > step_seconds_ && clock.proceed();
     }
 
-    /// Brings held coordinates nearer to their places.
+    /// Brings fixed coordinates nearer to their targets.
     void follow(run_clock& clock)
     {
         drafted_ = false;
@@ -161,13 +161,13 @@ protected:
         return D == 3 && Element::oriented && held_.slides().empty() && lasts(clock, 20);
     }
 
-    /// Returns whether bodies of held vertices turn on the way.
+    /// Returns whether bodies of fixed vertices turn on the way.
     bool turns() const
     {
         return held_paths<D>(rest().cells(), marks(), scaled(last.x), scaled(held_.places())).parts() > 1;
     }
 
-    /// Takes a shape with held vertices at their places that is made at once, if there is one. Whether it did.
+    /// Takes a shape with fixed vertices at their targets that is made at once, if there is one. Whether it did.
     bool draft(run_clock& clock)
     {
         drafted_ = true;
@@ -194,7 +194,7 @@ protected:
             return false;
     }
 
-    /// From a map, in parts where bodies of held vertices turn; whether they have arrived.
+    /// From a map, in parts where bodies of fixed vertices turn; whether they have arrived.
     bool follow_parts(run_clock& clock, const map& from)
     {
         const held_paths<D> paths(rest().cells(), marks(), from, held_.places());
@@ -252,7 +252,7 @@ protected:
         return found.arrived;
     }
 
-    /// Returns whether it is proved that no map has the held coordinates at their places; x: any map.
+    /// Returns whether it is proved that no map has the fixed coordinates at their targets; x: any map.
     bool proved(const map& x)
     {
         if constexpr (Element::oriented)
@@ -268,7 +268,7 @@ protected:
             return false;
     }
 
-    /// A map with held coordinates at their places and no defect, if untangling finds one.
+    /// A map with fixed coordinates at their targets and no defect, if untangling finds one.
     untangle_result<Element> untangled(run_clock& clock, const map& x)
     {
         auto how = untangling_;
@@ -285,9 +285,9 @@ protected:
         return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_;
     }
 
-    /// Untangling, where steps do not bring held coordinates any nearer, if the budget would last for some twenty steps
-    /// more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps. Whether
-    /// it did.
+    /// Untangling, where steps do not bring fixed coordinates any nearer, if the budget would last for some twenty
+    /// steps more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps.
+    /// Whether it did.
     bool repair(run_clock& clock)
     {
         if (!lasts(clock, 20)) return false;
@@ -310,7 +310,7 @@ protected:
         return true;
     }
 
-    /// With what is held where it is.
+    /// Minimises with fixed coordinates where they are.
     void minimise(run_clock& clock)
     {
         auto found = minimised(clock);
@@ -404,11 +404,11 @@ private:
     untangle_params untangling_;
     taut::observer observer_;
     std::chrono::duration<double> limit_;
-    stage_report followed_;     ///< what bringing held coordinates to their places came to so far
+    stage_report followed_;     ///< report of the incremental loading so far
     bool proof_sought_ = false; ///< that what is asked now cannot be
-    bool drafted_ = false;      ///< a draft was tried on this way
-    bool hard_ = false;         ///< the way is one to draft: the first step came less than a quarter of it
-    bool stuck_ = false;        ///< steps bring held coordinates no nearer to their places
+    bool drafted_ = false;      ///< an initial guess was tried on this path
+    bool hard_ = false;         ///< the path needs an initial guess: the first step came less than a quarter of it
+    bool stuck_ = false;        ///< steps bring fixed coordinates no nearer to their places
     double step_seconds_ = 0;   ///< of the last step
     int steps_left_ = 0;
 };

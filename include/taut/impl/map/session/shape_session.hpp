@@ -135,7 +135,7 @@ private:
         return params_.weights == energy::weighting::measure ? e.measure : e.uniform;
     }
 
-    /// Puts a map on the device, with what is held.
+    /// Puts a map on the device, with fixed coordinates.
     void put(precision how, const map& run_lengths)
     {
         this->live_.emplace(this->queue_, rest_, params_, how, run_lengths,
@@ -186,7 +186,7 @@ private:
                     throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
     }
 
-    /// unit: length of the run by that of the parameters.
+    /// unit: normalised unit by that of the parameters.
     static ideal_elements<Element> ideals(const mesh<Element>& m, const deform_params<Element>& params, double unit)
     {
         if constexpr (!Element::oriented)
@@ -258,7 +258,7 @@ private:
 
     deform_params<Element> params_; ///< validated
     map start_;
-    mesh<Element> rest_; ///< in the lengths of the run
+    mesh<Element> rest_; ///< in normalised units
     ideal_elements<Element> ideal_;
 };
 

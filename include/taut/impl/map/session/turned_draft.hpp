@@ -24,10 +24,11 @@
 namespace taut::impl
 {
 
-/// A shape whose held coordinates are at their places, where bodies of held vertices turn on the way: turns, axis times
-/// angle, are harmonic between those of the bodies, and gradients nearest to the turns of the elements (Zayer et al.
-/// 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns change fast.
-/// from: the shape at hand, no element inverted; to: the places, of which held coordinates are read.
+/// Initial guess with fixed coordinates at their targets, where bodies of fixed vertices rotate, by harmonic guidance:
+/// rotations, axis times angle, are harmonic between those of the bodies, and gradients nearest to the rotations of the
+/// elements (Zayer et al. 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns
+/// change fast.
+/// from: the shape at hand, no element inverted; to: the places, of which fixed coordinates are read.
 inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                                       const held_paths<3>& paths, const held_marks<3>& marks,
                                       const std::vector<vec3>& from, const std::vector<vec3>& to)
@@ -53,7 +54,7 @@ inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, 
             told[v] = told.every;
         }
     }
-    constexpr double enough = 1e-2; // a draft
+    constexpr double enough = 1e-2; // an initial guess
     poisson.fit([](std::size_t) { return mat3(0.0); }, told, enough, turns);
     const auto wanted = [&](std::size_t c)
     {
@@ -65,7 +66,7 @@ inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, 
     return x;
 }
 
-/// A shape with held coordinates at their places, and what it took.
+/// Shape with fixed coordinates at their targets, and its report.
 struct mended_draft
 {
     std::vector<vec3> x;                       ///< certified; empty: none was found
@@ -107,7 +108,7 @@ inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson,
     return inside;
 }
 
-/// A draft of one problem, and what all levels of that have in common.
+/// Initial guess of one problem, and what its levels share.
 class draft_maker
 {
 public:
@@ -120,10 +121,10 @@ public:
         how_.stages = {"lead"}; // others leave elements next to flat, which cut the steps that follow
     }
 
-    /// The shape at hand, which is injective (`draft` of the problem), with held vertices at their places (`initial`),
-    /// to which they move: that of a coarser volume, where there is one, or else a turned_draft, where bodies of them
-    /// turn. What has shrunk there, with its neighbours, is untangled and minimised by itself, with the shape at hand
-    /// as that at rest: else such elements, though few, would cut the steps of all.
+    /// Predicts a shape from the current one, which is injective (`draft` of the problem), with fixed vertices at their
+    /// targets (`initial`), to which they move: that of a coarser volume, where there is one, or else a turned_draft,
+    /// where bodies of them turn. What has shrunk there, with its neighbours, is untangled and minimised by itself,
+    /// with the shape at hand as that at rest: else such elements, though few, would cut the steps of all.
     mended_draft draft(const problem& p) const
     {
         const mesh<tetrahedron> here(p.draft, p.rest.cells());

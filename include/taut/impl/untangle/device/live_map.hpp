@@ -21,8 +21,8 @@ namespace taut::impl
 {
 
 /// A map of a mesh on a device, with all that it takes to minimise its energy: order, tables of all levels, kernels,
-/// matrices. No vertex is pinned in the layout, so none of it knows who is held; that is a mask and can change.
-/// Vertices are in the user's order; lengths are those of the mesh.
+/// matrices. No vertex is pinned in the layout, so none of it knows which coordinates are fixed; that is a mask and can
+/// change. Vertices are in the user's order; lengths are those of the mesh.
 template <class Element>
 class live_map
 {
@@ -49,7 +49,7 @@ public:
         objective_.upload(local, x_);
     }
 
-    /// In the user's numbers; marks: who is held, one per vertex, or none.
+    /// In the user's numbers; marks: which coordinates are fixed, one per vertex, or none.
     void constrain(const held_marks<D>& marks, const std::vector<directed_spring<D>>& springs,
                    const std::vector<slide<D>>& slides)
     {
@@ -58,7 +58,7 @@ public:
         objective_.constrain(c);
     }
 
-    /// targets: a map of which the held coordinates are read.
+    /// targets: a map of which the fixed coordinates are read.
     void aim(const map& targets)
     {
         auto local = numbers_.apply(targets);
@@ -66,7 +66,7 @@ public:
         objective_.aim(local);
     }
 
-    /// Brings held coordinates, gap away in the worst case, to what aim() said.
+    /// Brings fixed coordinates, gap away in the worst case, to what aim() said.
     solve::prescribed_report follow(double gap, const std::function<bool(const solve::prescribed_report&)>& proceed)
     {
         // Shapes in space are stretched on purpose, and a jam shows by crawling.
@@ -74,7 +74,7 @@ public:
         return steps_->run(x_, gap, proceed);
     }
 
-    /// With what is held where it is.
+    /// Minimises with fixed coordinates where they are.
     solve::report minimize(const solve::params& how, const observer& ask)
     {
         auto r = solve::minimize(objective_, x_, how, ask);

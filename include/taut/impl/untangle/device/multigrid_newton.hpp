@@ -24,7 +24,7 @@ inline any_energy regularized_energy(double eps, double area_weight)
     return any_energy(energy::regularized_element{}).with_parameters({eps, area_weight});
 }
 
-/// The plan of a problem: the mesh with the wanted shapes in place of its own, which may be flat, and the coarser
+/// The plan of a problem: the mesh with the target shapes in place of its own, which may be flat, and the coarser
 /// levels of the mesh.
 template <class Element>
 newton_plan<Element> regularized_plan(const regularized_problem<Element>& problem, lane_form form)

@@ -55,7 +55,7 @@ struct operator_step
     }
 
     /// The sum of margin - det over the elements that would move. It is the objective (eq. 22); and where the boundary
-    /// is held, sum |det| of Algorithm 2 is twice this plus a constant, of which single precision would see nothing
+    /// is fixed, sum |det| of Algorithm 2 is twice this plus a constant, of which single precision would see nothing
     /// else.
     double value(const mesh<Element>& m, const std::vector<vec<D>>& x) const
     {

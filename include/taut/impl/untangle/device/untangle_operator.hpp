@@ -29,7 +29,7 @@ namespace taut::impl
 template <int D>
 struct operator_result
 {
-    std::vector<vec<D>> map; ///< the state with the fewest inverted elements; held coordinates are those of the problem
+    std::vector<vec<D>> map; ///< the state with the fewest inverted elements; fixed coordinates are those of the problem
     operator_stop why = operator_stop::iterations;
     int iterations = 0;              ///< moves made
     int best_iteration = 0;          ///< how many of them lead to the map
@@ -84,7 +84,7 @@ public:
         move_ = {queue_, source, "untangle_move", options};
     }
 
-    /// Untangles `start`, one point a vertex in the user's order, whose held coordinates are those of the problem
+    /// Untangles `start`, one point a vertex in the user's order, whose fixed coordinates are those of the problem
     /// whatever it says. Throws parameter_error for parameters out of range and for a start of another size or with
     /// points that are not finite. The same input gives the same output on a device.
     operator_result<D> run(const std::vector<vec<D>>& start, const operator_params& params = {})

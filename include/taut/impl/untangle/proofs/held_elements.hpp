@@ -14,8 +14,8 @@
 namespace taut::impl
 {
 
-/// True if what is held makes an element flat, wherever its free coordinates go: all corners share a held coordinate,
-/// two pinned corners coincide, or three pinned corners of a tetrahedron lie on a line.
+/// True if fixed coordinates makes an element flat, wherever its free coordinates go: all corners share a fixed
+/// coordinate, two pinned corners coincide, or three pinned corners of a tetrahedron lie on a line.
 template <class Element>
 bool held_flat(const untangle_problem<Element>& p, const typename mesh<Element>::cell& cell)
 {

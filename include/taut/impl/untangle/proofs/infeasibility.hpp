@@ -14,7 +14,7 @@ namespace taut
 enum class infeasibility_kind
 {
     inverted_element, ///< elements with all vertices pinned, of negative or no measure
-    flat_element,     ///< elements that held coordinates make flat, whatever the others are
+    flat_element,     ///< elements that fixed coordinates make flat, whatever the others are
     empty_star,       ///< a free vertex and three triangles around it that contradict each other; four ids each
     wound_star,       ///< pinned inner vertices whose neighbours are pinned and run around them more than once
     outline_measure,  ///< vertices of a pinned outline of negative or no area (in order) or volume (three a face)

@@ -89,7 +89,7 @@ private:
     std::set<std::vector<idx>> outer_, chosen_;
 };
 
-/// An element that held corners make flat or turn over: its edges inside between them, or else its facets.
+/// An element that fixed corners make flat or turn over: its edges inside between them, or else its facets.
 template <class Element>
 bool split_element(const untangle_problem<Element>& p, idx c, inner_simplices<Element>& inner)
 {
@@ -107,7 +107,7 @@ bool split_element(const untangle_problem<Element>& p, idx c, inner_simplices<El
     return any;
 }
 
-/// A vertex that its held neighbours leave no place, or wind about: its edges to them.
+/// A vertex that its fixed neighbours leave no place, or wind about: its edges to them.
 template <class Element>
 bool split_star(const untangle_problem<Element>& p, idx v, inner_simplices<Element>& inner)
 {
@@ -173,9 +173,9 @@ bool split_against(const untangle_problem<Element>& p, const infeasibility_findi
     return false;
 }
 
-/// Finds splits that invalidate these proofs: edges inside between vertices that are held, of the elements that they
+/// Finds splits that invalidate these proofs: edges inside between vertices that are fixed, of the elements that they
 /// turn over or make flat, of outlines and of pairs that cross; faces where no such edge is inside; edges from a vertex
-/// without a place to its held neighbours. New vertices are free, so nothing on the boundary is split: what a pinned
+/// without a place to its fixed neighbours. New vertices are free, so nothing on the boundary is split: what a pinned
 /// boundary proves by itself stays proved, and is the obstacle.
 template <class Element>
 mending_splits splits_against(const untangle_problem<Element>& problem, const infeasibility& found)
@@ -188,7 +188,7 @@ mending_splits splits_against(const untangle_problem<Element>& problem, const in
     return result;
 }
 
-/// Finds splits around elements that stayed inverted: the edges inside between held vertices, which straight as they
+/// Finds splits around elements that stayed inverted: the edges inside between fixed vertices, which straight as they
 /// are may leave no room, of all elements that touch these; where there are none the longest edge inside of each in the
 /// map.
 template <class Element>
