@@ -28,7 +28,7 @@ struct atlas_progress
 /// Parameters of make_atlas(). Every field has a sensible default.
 struct atlas_params
 {
-    segment_params charts = {}; ///< how far charts go, and seams that are given
+    segment_params charts = {}; ///< parameters of the segmentation, and given seams
 
     /// Charts are what `charts.seams` part, and stay: they are flattened, from `initial` if it is given, and packed.
     bool keep_charts = false;

@@ -30,7 +30,7 @@ struct chart_problem
     std::vector<std::array<idx, 3>> cells; ///< renumbered
     std::vector<idx> order;                ///< the vertex of the chart, one per vertex here
     csr fans;                              ///< corners of each vertex
-    std::vector<idx> heights;              ///< of panels
+    std::vector<idx> heights;              ///< heights of panels
     std::vector<vec2> uv;                  ///< in this order
 
     /// ideal: of m, referred to.

@@ -18,7 +18,7 @@ struct chart_moments
     double area = 0;
     vec3 normal = vec3(0.0);           ///< unit normals, summed by area
     std::array<double, 6> spread = {}; ///< their products xx, yy, zz, xy, xz, yz, too
-    double perimeter = 0;              ///< of single pieces; less what lies between them
+    double perimeter = 0;              ///< perimeter of single pieces; less what lies between them
 
     /// A triangle by twice its area times its normal.
     static chart_moments of_triangle(const vec3& doubled)

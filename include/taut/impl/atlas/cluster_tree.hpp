@@ -31,7 +31,7 @@ struct cluster_tree
     static constexpr idx none = -1;
     static constexpr idx never = std::numeric_limits<idx>::max();
 
-    idx triangles = 0;                        ///< of the surface
+    idx triangles = 0;                        ///< triangles of the surface
     idx leaves = 0;                           ///< and its holes
     std::vector<std::array<idx, 2>> children; ///< one per piece; the second may be none
     std::vector<idx> parents;                 ///< one per node; none for roots

@@ -64,7 +64,7 @@ struct chart_report
 {
     /// Area mean of energy::isometric, 4 at least; +infinity if the map is not valid.
     double energy = std::numeric_limits<double>::infinity();
-    double start_energy = std::numeric_limits<double>::infinity(); ///< of the map that it began with
+    double start_energy = std::numeric_limits<double>::infinity(); ///< energy of the initial map
     int iterations = 0;                                            ///< Newton steps
     bool valid = false;     ///< no triangle is flipped, and there is no branch point; in exact arithmetic
     bool multigrid = false; ///< it went to `parameterize`

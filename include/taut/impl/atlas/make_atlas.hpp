@@ -20,7 +20,7 @@ struct atlas
     /// One per vertex of charts.surface; tile t is the unit square at atlas_params::origin + (t % 10, t / 10), as in
     /// UDIM.
     std::vector<vec2> uv;
-    packing layout; ///< how charts were turned, scaled and shifted
+    packing layout; ///< rotation, scale and translation of the charts
     atlas_report report;
 
     /// Texture coordinates by corner: numbers into uv, a triple for each triangle of the surface, in its order.

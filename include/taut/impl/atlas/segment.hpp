@@ -68,8 +68,8 @@ namespace taut::impl
 /// Report of a segmentation, with its seconds.
 struct segment_report
 {
-    double distortion = 4;         ///< of the whole surface, charts without a map left out
-    double largest_distortion = 4; ///< of a chart that has a map
+    double distortion = 4;         ///< distortion of the whole surface, charts without a map left out
+    double largest_distortion = 4; ///< maximum distortion of a chart that has a map
     idx unmapped = 0;              ///< charts without a valid map
     idx above = 0;                 ///< charts above max_distortion: of single triangles, or for want of rounds or time
     idx crossing = 0;              ///< charts whose boundary meets itself in the plane

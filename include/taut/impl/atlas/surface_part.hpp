@@ -16,7 +16,7 @@ namespace taut::impl
 struct surface_part
 {
     chart_mesh charts;
-    std::vector<idx> triangles; ///< of the whole surface, one per triangle of the charts
+    std::vector<idx> triangles; ///< triangles of the whole surface, one per triangle of the charts
 
     /// The side or corner of the whole surface.
     std::size_t origin(std::size_t side) const { return 3 * static_cast<std::size_t>(triangles[side / 3]) + side % 3; }

@@ -45,14 +45,14 @@ private:
 /// A plane in which a surface is its own mirror image, vertex by vertex and polygon by polygon.
 struct mirror_symmetry
 {
-    vec3 normal{0.0};  ///< of length 1
+    vec3 normal{0.0};  ///< unit normal of the plane
     double offset = 0; ///< the plane has the points x with dot(normal, x) = offset
 
     std::vector<idx> vertex;  ///< the image of each vertex; itself on the plane
     std::vector<idx> side;    ///< the image of each side, which runs the other way; -1 within polygons
-    std::vector<idx> polygon; ///< that each triangle is of, by the first of its triangles
-    impl::csr triangles;      ///< of each polygon
-    std::vector<idx> image;   ///< of each polygon: itself where it lies across the plane
+    std::vector<idx> polygon; ///< polygon of each triangle, by the first of its triangles
+    impl::csr triangles;      ///< triangles of each polygon
+    std::vector<idx> image;   ///< image of each polygon: itself where it lies across the plane
 
     /// The corner at the image of the vertex of corner k of triangle c, in the image of its polygon. Triangles need not
     /// have images, as a polygon and its image may be cut along other diagonals.

@@ -50,7 +50,7 @@ class constraints
 {
 public:
     static constexpr int D = Element::dimension;
-    static constexpr std::uint8_t all = impl::held_marks<D>::every; ///< of held: every coordinate
+    static constexpr std::uint8_t all = impl::held_marks<D>::every; ///< all bits of held: every coordinate
     using point = vec<D>;
 
     constraints() = default; ///< none, of no mesh

@@ -123,9 +123,9 @@ private:
 
     held_marks<D> marks_;
     map from_, to_;
-    std::vector<idx> body_; ///< of each vertex, or -1
+    std::vector<idx> body_; ///< body of each vertex, or -1
     std::vector<rigid_motion<D>> motions_;
-    std::vector<std::size_t> sizes_; ///< of the bodies, in vertices
+    std::vector<std::size_t> sizes_; ///< numbers of vertices of the bodies
 };
 
 } // namespace taut::impl

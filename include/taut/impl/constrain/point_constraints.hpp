@@ -36,7 +36,7 @@ template <int D>
 struct point_constraints
 {
     held_marks<D> held;                      ///< one per vertex, or none
-    std::vector<directed_spring<D>> springs; ///< what they add is added to the energy's mean
+    std::vector<directed_spring<D>> springs; ///< springs, whose energy is added to the mean energy
     std::vector<slide<D>> slides{};          ///< at most one per vertex
 
     bool empty() const { return held.empty() && springs.empty() && slides.empty(); }

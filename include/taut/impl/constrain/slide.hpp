@@ -13,7 +13,7 @@ template <int D>
 struct slide
 {
     idx vertex;
-    glm::mat<D, D, double> projection; ///< of displacements on the directions that are allowed: symmetric, P P = P
+    glm::mat<D, D, double> projection; ///< projection of displacements on the allowed directions: symmetric, P P = P
 
     /// Across a direction, of any length but 0: in a plane, or in the plane along a line.
     static slide across(idx v, const vec<D>& normal)

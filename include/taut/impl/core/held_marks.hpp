@@ -17,7 +17,7 @@ class held_marks
 public:
     static constexpr std::uint8_t every = (1u << D) - 1; ///< all coordinates of a vertex
 
-    held_marks() = default; ///< of no vertex
+    held_marks() = default; ///< flags of no vertex
     explicit held_marks(std::size_t vertices) : bits_(vertices, 0) {}
     explicit held_marks(std::vector<std::uint8_t> bits) : bits_(std::move(bits)) {} ///< one per vertex
 

@@ -18,7 +18,7 @@ struct progress
     double step = 0;     ///< the last accepted step
     int evaluations = 0; ///< values computed so far
     double seconds = 0;  ///< since the start
-    int level = 0;       ///< of a nested iteration; 0: the problem itself
+    int level = 0;       ///< level of a nested iteration; 0: the problem itself
     bool iterate =
         true; ///< a new iterate; false: in the middle of a line search, the other fields are the last iterate's
     bool usable = true; ///< a run that ends now has a result; false where one of several phases has none yet

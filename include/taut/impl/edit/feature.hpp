@@ -19,7 +19,7 @@ struct feature
     surface_region
         region;           ///< edges between vertices of the rim are halved: their middles are vertices -1 of the source
     vec3 centre{0.0};     ///< mean of the rim by length
-    vec3 normal{0, 0, 1}; ///< of the base, of length 1, to the outside
+    vec3 normal{0, 0, 1}; ///< unit normal of the base, to the outside
     double radius = 0;    ///< largest distance of the rim from the centre
 
     /// The axes of the base and its normal, as columns; right-handed.

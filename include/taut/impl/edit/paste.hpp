@@ -86,8 +86,8 @@ public:
 
     const paste_pose& pose() const { return params_.pose; }
 
-    const std::vector<vec3>& points() const { return points_; } ///< of the result; pose() changes them
-    const std::vector<cell>& cells() const { return cells_; }   ///< of the result; they stay
+    const std::vector<vec3>& points() const { return points_; } ///< points of the result; pose() changes them
+    const std::vector<cell>& cells() const { return cells_; }   ///< triangles of the result; they stay
     mesh<triangle> surface() const { return {points_, cells_}; }
 
     const mesh<triangle>& target() const { return target_; } ///< as it was
@@ -99,7 +99,7 @@ public:
         return kept_faces_;
     } ///< of the target: triangle f was kept_faces()[f]
     const feature& part() const { return part_; }
-    const std::vector<vec2>& rim_uv() const { return site_.rim.uv; } ///< of its rim, in the map of the target
+    const std::vector<vec2>& rim_uv() const { return site_.rim.uv; } ///< its rim in the map of the target
     idx first_gap() const { return first_gap_; }         ///< triangle of the gap; those before are of the target
     idx first_feature() const { return first_feature_; } ///< triangle of the feature; the rest is, too
 
@@ -295,7 +295,7 @@ private:
         laid_.reset();
     }
 
-    static constexpr double soft_band = 0.5; ///< how far from its rim a feature bends, by the largest distance
+    static constexpr double soft_band = 0.5; ///< width of the bent band, relative to the largest distance
 
     static std::vector<double> rim_distances(const surface_region& region)
     {
@@ -409,14 +409,14 @@ private:
     mesh<triangle> target_;
     feature part_;
     paste_params params_;
-    double first_turn_; ///< of the pose that the landing is for
+    double first_turn_; ///< rotation of the pose that the landing is for
     paste_report report_;
     impl::site site_;
     impl::bending base_, soft_;
-    std::vector<double> from_rim_;           ///< of vertices of the feature
+    std::vector<double> from_rim_;           ///< distance of vertices of the feature from its rim
     std::optional<impl::laid_feature> laid_; ///< from the first soft pose on
-    double laid_width_ = 0;                  ///< of the band that follows it
-    impl::rbf_evaluator bend_laid_;          ///< of the field of the target, there
+    double laid_width_ = 0;                  ///< width of the band that follows it
+    impl::rbf_evaluator bend_laid_;          ///< field of the target, there
     std::vector<idx> moving_;                ///< controls, of the rim
     std::vector<idx> bent_;                  ///< vertices of the result
     std::vector<vec3> points_;

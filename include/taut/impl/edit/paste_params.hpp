@@ -35,7 +35,7 @@ struct paste_pose
 /// Parameters of a paste. Every field has a sensible default.
 struct paste_params
 {
-    paste_pose pose = {}; ///< where the feature is at first
+    paste_pose pose = {}; ///< initial pose of the feature
 
     /// Radius of the part of the target that makes room, by that of the rim at its scale: 1.2 or more. What the
     /// rim covers is replaced, and what is around it bends.

@@ -28,7 +28,7 @@ namespace taut
 struct rbf_params
 {
     rbf_basis basis = rbf_basis::cubic;
-    double radius = 0;       ///< of Wendland's functions, in the units of the points; 0: half of their extent
+    double radius = 0; ///< support radius of Wendland's functions, in the units of the points; 0: half of their extent
     idx sparse_above = 1000; ///< points from which on Wendland's functions get a sparse factorisation
 
     /// Throws parameter_error that names the field.

@@ -21,7 +21,7 @@ namespace taut
 struct surface_region
 {
     mesh<triangle> surface;    ///< the region as a mesh of its own
-    std::vector<idx> vertices; ///< of the whole surface: vertex v of the region is vertices[v] there; increasing
+    std::vector<idx> vertices; ///< vertex v of the region is vertices[v] of the whole surface; increasing
     std::vector<idx> faces;    ///< the same for its triangles
     std::vector<idx> rim;      ///< the boundary loop, in numbers of the region, with the region to its left
 };

@@ -22,8 +22,8 @@ namespace taut
 struct convex_polygons
 {
     std::vector<std::array<idx, 3>> corners; ///< each corner between those before and after it, polygon by polygon
-    std::vector<idx> first{0};               ///< of the corners of each polygon, and one more
-    std::vector<idx> numbers;                ///< of the polygons, as they were given
+    std::vector<idx> first{0};               ///< offset of the corners of each polygon, and one more
+    std::vector<idx> numbers;                ///< numbers of the polygons, as given
 
     idx size() const { return static_cast<idx>(first.size()) - 1; }
     std::span<const std::array<idx, 3>> corners_of(idx polygon) const

@@ -22,7 +22,7 @@ namespace taut::impl
 /// Parameters of settling a map of the plane.
 struct settling
 {
-    vec2 (*stored)(vec2) = nullptr;                         ///< what a file makes of a coordinate; null: nothing
+    vec2 (*stored)(vec2) = nullptr;                         ///< rounding of coordinates by the file format; null: none
     double reach = std::numeric_limits<double>::infinity(); ///< farthest that a vertex may be from where it was
     std::span<const char> held = {};                        ///< vertices that stay where they are; or empty
     bool apart = true;                                      ///< borders that meet already are to be parted

@@ -28,14 +28,14 @@ namespace taut::io
 struct gltf_model
 {
     std::vector<vec3> points; ///< those that triangles name, in the order of first appearance; may be not finite
-    std::vector<std::array<idx, 3>> triangles; ///< of points; may name one twice, or have none of area
+    std::vector<std::array<idx, 3>> triangles; ///< vertex indices into points; may name one twice, or have no area
     std::vector<std::array<idx, 3>> vertices;  ///< the vertex of glTF at each corner: those that share attributes are
                                                ///< numbered one after the other
-    std::vector<idx> meshes;                   ///< of each triangle
-    std::vector<idx> materials;                ///< of each triangle; -1: none
-    std::vector<vec2> texcoords;               ///< of the set that was asked for, as in the file: v runs downwards
+    std::vector<idx> meshes;                   ///< mesh of each triangle
+    std::vector<idx> materials;                ///< material of each triangle; -1: none
+    std::vector<vec2> texcoords; ///< texture coordinates of the requested set, as in the file: v runs downwards
     std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple per triangle, into texcoords; -1: none
-    std::vector<std::string> notes;                 ///< what was changed in reading or making it, in sentences
+    std::vector<std::string> notes;                 ///< changes in reading or making it, in sentences
     impl::gltf_source source;                       ///< the file
 };
 
@@ -76,7 +76,7 @@ gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx,
 enum class gltf_numbers
 {
     floats,
-    fractions ///< of 65535, from 0 to 1: unsigned shorts, normalized
+    fractions ///< multiples of 1/65535, from 0 to 1: unsigned shorts, normalized
 };
 
 } // namespace taut::io

@@ -66,11 +66,11 @@ struct obj_text
     struct piece
     {
         std::size_t begin;        ///< the first byte
-        std::size_t first_corner; ///< how many corners of faces stand before
+        std::size_t first_corner; ///< number of corners of faces before
     };
 
     std::string bytes;         ///< all of the file
-    std::size_t body = 0;      ///< where the first vt or f statement starts
+    std::size_t body = 0;      ///< start of the first vt or f statement
     std::vector<piece> pieces; ///< in their order
 };
 
@@ -80,7 +80,7 @@ struct file_vertices
     text_list positions;       ///< coordinates as they are written; none of a binary file
     std::vector<vec3> colours; ///< red, green, blue from 0 to 1; empty if the file has none
     std::vector<vec3> normals; ///< empty if the file has none
-    text_list comments;        ///< of the file, without the sign they start with
+    text_list comments;        ///< comments of the file, without the sign they start with
 };
 
 } // namespace taut::io::impl
@@ -94,8 +94,8 @@ struct surface_file
     mesh<triangle> surface;
     std::vector<vec2> texcoords;                    ///< as in the file; empty if it has none
     std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple per triangle, into texcoords; -1: none
-    std::vector<std::string> notes = {};            ///< what was changed in reading, in sentences
-    impl::file_faces faces = {};                    ///< what the triangles were made from
+    std::vector<std::string> notes = {};            ///< changes in reading, in sentences
+    impl::file_faces faces = {};                    ///< faces that the triangles were made from
     impl::file_vertices vertices = {};              ///< OFF and PLY
     impl::obj_text obj = {};                        ///< OBJ; else empty
     std::string texcoord_fault = {}; ///< what is wrong with the texture coordinates of the file, which then are none

@@ -121,7 +121,7 @@ struct cell_block
 struct volume_group
 {
     std::string name;
-    int dimension;             ///< of what is named: 0 vertices, 1 lines, 2 faces, 3 volumes
+    int dimension;             ///< dimension of its entities: 0 vertices, 1 lines, 2 faces, 3 volumes
     std::vector<idx> vertices; ///< ascending, each once
 };
 
@@ -156,11 +156,11 @@ struct coded_coordinates
     /// An offset of an array that follows them, as the text has it.
     struct later
     {
-        std::size_t begin, end; ///< of its digits
+        std::size_t begin, end; ///< range of its digits
         std::size_t offset;
     };
     impl::array_code code;
-    std::size_t begin, end;         ///< of the code in the file
+    std::size_t begin, end;         ///< range of the code in the file
     std::vector<later> followed_by; ///< ascending by `begin`
 };
 
@@ -169,7 +169,7 @@ struct coordinate_places
 {
     bool text = true;                        ///< decimal numbers; else IEEE 754
     bool single = false;                     ///< the file declares single precision
-    std::endian order = std::endian::native; ///< of binary coordinates
+    std::endian order = std::endian::native; ///< byte order of binary coordinates
     int per_point = 3;                       ///< 3, or 2 in a planar file
     std::vector<std::size_t> offsets;        ///< the first byte of each, one point after the other, ascending
     std::optional<coded_coordinates> coded;  ///< then there are no offsets
@@ -196,16 +196,16 @@ struct volume_file
 {
     std::string path;   ///< as it was given
     std::string format; ///< "MEDIT", "gmsh", "VTK", "VTU", "TetGen", "SU2" or "problem"
-    int zone = 0;       ///< of SU2: that which was asked for, from 1; 0: none
+    int zone = 0;       ///< SU2: the requested zone, from 1; 0: none
     int dimension = 3;  ///< 2: two coordinates per point, or no volume cell and all z equal
     std::vector<vec3> points;
     std::vector<vec3> rest; ///< problems: the rest shape, of which the points are a map; else empty: points at rest
     std::vector<cell_block> cells;
     std::vector<idx> turned; ///< cells whose corners the file has in the other order, as for_each_cell() counts
     std::vector<volume_group> groups;
-    std::vector<volume_label> labels; ///< what groups were made of
-    std::vector<std::string> notes;   ///< what was not read, and what of groups, in sentences
-    std::string bytes;                ///< all of the file
+    std::vector<volume_label> labels; ///< labels that groups were made from
+    std::vector<std::string> notes;   ///< parts that were not read, in sentences
+    std::string bytes;                ///< the whole file
     std::vector<impl::companion_file> companions;
     impl::coordinate_places places;
 
@@ -265,7 +265,7 @@ struct corner_simplices
     std::vector<idx> cells;                       ///< the cell of each, as for_each_cell() counts
     bool overlapping = false;                     ///< there are cells of other kinds
     std::vector<mat<Element::dimension>> regular; ///< edge matrix of each where its cell has equal edges of length 1
-    std::vector<double> weights;                  ///< of each, so that a cell counts once; exact for parallelepipeds
+    std::vector<double> weights; ///< weight of each, so that a cell counts once; exact for parallelepipeds
 };
 
 } // namespace taut::io::impl

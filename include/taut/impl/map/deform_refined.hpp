@@ -15,11 +15,11 @@ namespace taut
 template <class Element>
 struct refined_deformation
 {
-    session_result<Element> result; ///< of the refined mesh
+    session_result<Element> result; ///< deformation of the refined mesh
     mesh<Element> refined;          ///< the vertices of the mesh first, in their order
-    impl::subdivision how;          ///< of the mesh; empty: no element was split
-    std::vector<idx> cells;         ///< of each element of the refined mesh, the one that it is a part of
-    int rounds = 0;                 ///< of splits
+    impl::subdivision how;          ///< subdivision of the mesh; empty: no element was split
+    std::vector<idx> cells;         ///< element of the mesh that contains each element of the refined mesh
+    int rounds = 0;                 ///< rounds of splits
 };
 
 /// Deforms a mesh after splitting elements where it is proved that the pins admit no map without inverted elements:

@@ -34,9 +34,9 @@ struct session_seconds
 {
     double start = 0;       ///< the first map or shape, and what is made once for all calls
     double constrain = 0;   ///< updates of the fixed coordinates and their targets
-    double follow = 0;      ///< steps that bring pins to their places
+    double follow = 0;      ///< steps that bring pins to their targets
     double repair = 0;      ///< untangling, where such steps stuck
-    double solve = 0;       ///< minimisation with the pins at their places
+    double solve = 0;       ///< minimisation with the pins at their targets
     double certificate = 0; ///< the map back from the device, and the count of its defects
     double total() const { return start + constrain + follow + repair + solve + certificate; }
 };
@@ -47,20 +47,20 @@ struct session_report
     /// `valid`: there is a certified map. Otherwise there are no coordinates, and reason and ids are as in map_report.
     taut::outcome outcome = outcome::no_valid_start;
     std::string reason;             ///< why there is no valid map, or why the pins cannot be reached; else empty
-    std::vector<idx> ids;           ///< what the reason is about
-    std::vector<std::string> notes; ///< what the library decided on its own
-    bool converged = false;         ///< pins hold, and there is nothing left to gain
+    std::vector<idx> ids;           ///< elements or vertices that the reason concerns
+    std::vector<std::string> notes; ///< decisions of the library
+    bool converged = false;         ///< pins are met, and the map is a minimum
     bool stopped = false;           ///< the budget, a limit or the observer ended the call
     bool pins_held = false;         ///< all pins are met, bit for bit
-    idx farthest = -1;              ///< the vertex that is farthest from its pin; -1: pins hold
-    double distance = 0;            ///< of that vertex from its pin
+    idx farthest = -1;              ///< the vertex farthest from its pin; -1: pins are met
+    double distance = 0;            ///< distance of that vertex from its pin
     double energy = 0;              ///< mean over the elements, springs included
-    double gradient = 0;            ///< its relative norm, where pins hold
-    int steps = 0;                  ///< of Newton's method, in this call
-    certificate flips;              ///< of the map that is returned, exact
+    double gradient = 0;            ///< relative norm of the gradient, where pins are met
+    int steps = 0;                  ///< Newton steps of this call
+    certificate flips;              ///< certificate of the returned map, exact
     session_seconds seconds;
-    std::vector<stage_report> stages; ///< of this call, in their order in time
-    queue_counters counters;          ///< of this call
+    std::vector<stage_report> stages; ///< stages of this call, in their order in time
+    queue_counters counters;          ///< counts of this call
 };
 
 /// Result of session::solve: positions and a report; `auto [uv, report] = s.solve(...)`.

@@ -148,7 +148,7 @@ struct quality_sums
 struct stretch_sums
 {
     spread_sum l2, linf, ratio;
-    double total = 0; ///< of l2^2, by measure
+    double total = 0; ///< sum of l2^2, by measure
 
     stretch_sums& operator+=(const stretch_sums& o)
     {

@@ -17,7 +17,7 @@ template <int D>
 struct rigid_motion
 {
     vec<D> from{0.0}, to{0.0};
-    vec3 axis{0, 0, 1}; ///< of length 1; in the plane the normal
+    vec3 axis{0, 0, 1}; ///< axis of length 1; in the plane the normal
     double angle = 0;   ///< radians; of a fit -pi to pi in the plane, 0 to pi in space
 
     /// Image of a point under the fraction t of the motion, 0 to 1.

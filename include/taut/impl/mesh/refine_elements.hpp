@@ -24,7 +24,7 @@ namespace taut::impl
 class subdivision
 {
 public:
-    subdivision() = default; ///< of no mesh
+    subdivision() = default; ///< subdivision of no mesh
 
     /// None yet, of a mesh with so many vertices.
     explicit subdivision(idx vertices) : originals_(vertices) {}
@@ -112,7 +112,7 @@ template <class Element>
 struct refinement
 {
     mesh<Element> refined;  ///< the vertices of the mesh first, in their order; the parts of an element together
-    std::vector<idx> cells; ///< of each element of it, the one that it is a part of; ascending
+    std::vector<idx> cells; ///< element that contains each of its elements; ascending
 };
 
 /// Splits elements of a mesh at rest, those beside them, too, so that neighbours meet in whole facets.

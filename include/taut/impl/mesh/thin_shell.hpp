@@ -20,9 +20,9 @@ struct shell_attributes
 {
     static constexpr std::size_t first = 0;   ///< W^-1 of triangle (0, 1, 2) in lengths of the common edge: xx, xy, yy
     static constexpr std::size_t second = 3;  ///< the same of triangle (0, 1, 3)
-    static constexpr std::size_t shares = 6;  ///< of the two triangles in this hinge: area / hinges, by the mean
+    static constexpr std::size_t shares = 6;  ///< in the areas of its two triangles: area / hinges, by the mean
     static constexpr std::size_t bending = 8; ///< |edge|^2 / (sum of both areas), in means of area and squared edge
-    static constexpr std::size_t cosine = 9, sine = 10; ///< of the angle between the normals at rest
+    static constexpr std::size_t cosine = 9, sine = 10; ///< cosine and sine of the angle between the normals at rest
     static constexpr std::size_t count = 11;
 };
 
@@ -41,7 +41,7 @@ public:
 
     const mesh<triangle>& surface() const { return surface_; }
     const mesh<hinge>& hinges() const { return hinges_; }
-    const cell_data& rest() const { return rest_; } ///< of the hinges: shell_attributes
+    const cell_data& rest() const { return rest_; } ///< data of the hinges: shell_attributes
     double mean_edge() const { return mean_edge_; } ///< root of the mean square of the edges with two triangles
 
 private:
@@ -123,8 +123,8 @@ private:
     }
 
     mesh<triangle> surface_;
-    std::vector<std::array<std::size_t, 2>> triangles_; ///< of each hinge
-    std::vector<int> hinges_of_;                        ///< of each triangle
+    std::vector<std::array<std::size_t, 2>> triangles_; ///< triangles of each hinge
+    std::vector<int> hinges_of_;                        ///< number of hinges of each triangle
     mesh<hinge> hinges_;
     cell_data rest_;
     double mean_edge_ = 0;

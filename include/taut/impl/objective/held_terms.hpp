@@ -189,7 +189,7 @@ private:
     idx cell_stride_, vertex_stride_;
     std::vector<std::pair<std::size_t, int>> vertices_; ///< vertex and coordinate of each place, the user's numbers
     buffer<idx> places_;                                ///< fixed coordinates in vectors
-    buffer<idx> entries_;                               ///< of element Hessians
+    buffer<idx> entries_;                               ///< entries of element Hessians
     buffer<idx> cells_, corners_;                       ///< elements at fixed vertices, and their vertices
     real_buffer targets_;                               ///< by place
 };

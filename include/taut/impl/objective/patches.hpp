@@ -15,10 +15,10 @@ namespace taut::impl
 /// Parameters of the patches of a map.
 struct patch_params
 {
-    double share = 0.9;               ///< of all weights, that the vertices in the middle of patches have at most
-    double middles = 0.01;            ///< of the free vertices that are those at most
-    int rings = 8;                    ///< around them
-    double size = 0.2;                ///< of the free vertices that patches have at most
+    double share = 0.9;    ///< maximum fraction of all weights that the vertices in the middle of patches have
+    double middles = 0.01; ///< maximum fraction of the free vertices that are middles
+    int rings = 8;         ///< around them
+    double size = 0.2;     ///< maximum fraction of the free vertices in patches
     std::size_t most_vertices = 8192; ///< that patches have at most
 };
 

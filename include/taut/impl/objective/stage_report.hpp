@@ -23,15 +23,15 @@ struct stage_report
 
     std::string stage;           ///< its name
     std::size_t level = 0;       ///< 0: the mesh itself
-    std::size_t vertices = 0;    ///< of the level
+    std::size_t vertices = 0;    ///< vertices of the level
     int iterations = 0;          ///< accepted steps
-    double energy_before = none; ///< of what it lowers, a mean over the elements of the level; NaN: it lowers nothing
+    double energy_before = none; ///< objective of the stage, a mean over the elements of the level; NaN: it has none
     double energy_after = none;
     double seconds = 0;        ///< wall clock, from the end of the stage before to that of this one
-    std::string stop = {};     ///< why it ended; empty: its work was done
+    std::string stop = {};     ///< reason for its end; empty: its work was done
     int steps_cut = 0;         ///< steps that elements about to flip made shorter, or, in an untangling, any others
     std::vector<idx> cut_by{}; ///< the corners of the elements that cut the last step, the user's numbers, each once
-    double step_median = none; ///< of the lengths of steps; 1: the full step of the method
+    double step_median = none; ///< median length of its steps; 1: the full step of the method
 };
 
 } // namespace taut

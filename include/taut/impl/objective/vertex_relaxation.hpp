@@ -194,7 +194,7 @@ private:
     relaxation_scheduler<Element> scheduler_;
     reductions reductions_;
     real_buffer densities_;
-    real_buffer steps_, numbers_; ///< of one colour; the terms, and then the trial values
+    real_buffer steps_, numbers_; ///< steps of one colour; the terms, and then the trial values
     host_reals host_;             ///< a copy of the densities
 };
 

@@ -24,7 +24,7 @@ namespace taut
 /// Overlaps of charts.
 struct chart_overlaps
 {
-    std::size_t pairs = 0;            ///< of charts with an area in common
+    std::size_t pairs = 0;            ///< pairs of charts with an area in common
     bool all = true;                  ///< false: there are at least so many
     std::array<idx, 2> first{-1, -1}; ///< charts of the first pair that was found
 };

@@ -29,7 +29,7 @@ struct spot
 struct tile_layout
 {
     std::vector<spot> spots;
-    double width = 0, height = 0; ///< of what is taken, in cells: the most of all tiles; of the last one
+    double width = 0, height = 0; ///< occupied extent in cells: the maximum over all tiles; of the last one
     idx tiles = 1;                ///< in use
     bool complete = false;        ///< false: a piece is wider than a tile, or the budget is over
 

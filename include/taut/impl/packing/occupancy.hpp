@@ -37,7 +37,7 @@ struct run_probe
 /// A mask as probes, those first that are most likely to collide.
 struct probe_list
 {
-    idx width = 0, height = 0;      ///< of the mask, which begins at cell (0, 0)
+    idx width = 0, height = 0;      ///< size of the mask, which begins at cell (0, 0)
     idx widest = 0, widest_row = 0; ///< its longest run
     std::vector<run_probe> probes;
 

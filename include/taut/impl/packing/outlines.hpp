@@ -28,7 +28,7 @@ struct chart_outlines
     std::vector<idx> cells; ///< the triangle that the edge is from, one per edge
     std::vector<idx> first; ///< #charts + 1: of edges
     std::vector<double> areas;
-    bool turned = false; ///< whether a triangle was; if not, borders are the same wherever no triangle is clockwise
+    bool turned = false; ///< whether a triangle was clockwise; if not, borders are the same wherever no triangle is
 
     idx charts() const { return static_cast<idx>(first.size()) - 1; }
 };

@@ -31,7 +31,7 @@ struct chart_place
 struct packing
 {
     std::vector<chart_place> places; ///< one per chart
-    double scale = 0;                ///< of all charts, before their densities
+    double scale = 0;                ///< scale of all charts, before their densities
     double utilization = 0;          ///< area of the triangles by the area of the tiles
     int layouts = 0;                 ///< that were tried
     bool complete = true;            ///< false: it was ended by the clock or the observer, and could be denser

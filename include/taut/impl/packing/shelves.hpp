@@ -17,7 +17,7 @@ namespace taut::impl
 /// Boxes in rows, the high ones first: corners in tiles of side 1.
 struct shelf_layout
 {
-    double scale = 0; ///< of the boxes; 0: there is no room
+    double scale = 0; ///< scale of the boxes; 0: there is no room
     std::vector<vec2> corners;
     std::vector<idx> tiles;
 };

@@ -22,7 +22,7 @@ struct placed_triangles
     double unit;                                   ///< unit_scale(places)
     std::vector<idx> origins;                      ///< triangles of the input
     std::span<const std::array<idx, 3>> triangles; ///< all of the input; corners keep their places
-    std::span<const idx> polygons = {};            ///< of all of the input; or empty
+    std::span<const idx> polygons = {};            ///< polygon of each triangle of the input; or empty
 
     /// The corners of a triangle, times unit.
     std::array<vec3, 3> rest(idx cell) const { return scaled_rest(places, cell, unit); }

@@ -108,7 +108,8 @@ public:
     {
     }
 
-    const std::vector<repair_finding>& findings() const noexcept { return findings_; } ///< what all went out for
+    /// Defects for which all triangles were removed.
+    const std::vector<repair_finding>& findings() const noexcept { return findings_; }
 
 private:
     std::vector<repair_finding> findings_;

@@ -20,7 +20,7 @@ struct pcg_result
     int looks = 0;               ///< host waits
     double gradient_squared = 0; ///< |g|^2
     double slope = 0;            ///< g'd
-    double decrease = 0;   ///< of the model g'd + d'A d / 2 on the way to where its curvature turns negative, >= 0
+    double decrease = 0;   ///< decrease of the model g'd + d'A d / 2 up to where its curvature turns negative, >= 0
     bool negative = false; ///< a direction of negative curvature was met, and is a part of d
 };
 

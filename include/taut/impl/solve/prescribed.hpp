@@ -57,7 +57,7 @@ struct prescribed_report
 {
     bool arrived = false;   ///< they have their values
     bool crawling = false;  ///< the last steps, of this run and those before, have hardly changed anything
-    double left = 0;        ///< of the gap
+    double left = 0;        ///< remaining fraction of the gap
     double value_start = 0; ///< f at the start
     double value = 0;       ///< f at the last trial step that was taken
     int iterations = 0;     ///< steps, those included that were not taken

@@ -32,7 +32,7 @@ struct robust_start_params
     /// Isometric energy, as area mean, that is low enough to end at once on any level; 4 is an isometry.
     double enough = 4;
 
-    int iterations = 50;  ///< of Newton's method on each level, at most; 0 to 1000
+    int iterations = 50;  ///< maximum number of Newton iterations on each level; 0 to 1000
     unsigned threads = 0; ///< at most so many; 0: as many as the machine runs at once. The result does not change
 
     /// Asked before each iteration: go on? Without it every one is made.
@@ -54,7 +54,7 @@ constexpr std::size_t largest_direct = 20000;
 struct descent_plan
 {
     double factor;    ///< between levels
-    idx min_vertices; ///< of the coarsest
+    idx min_vertices; ///< vertices of the coarsest level
     barycentric_weights weights;
 };
 

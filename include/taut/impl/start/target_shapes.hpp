@@ -20,8 +20,8 @@ namespace taut::impl
 template <int D>
 struct target_shape
 {
-    mat<D> inverse;    ///< of its ideal edge matrix
-    double weight = 0; ///< of all elements they sum to 1
+    mat<D> inverse;    ///< inverse of its ideal edge matrix
+    double weight = 0; ///< weight; those of all elements sum to 1
 };
 
 /// Estimated size of the image, in the unit of x: its signed measure where the boundary is pinned, and that of the box

@@ -68,12 +68,12 @@ struct untangle_result
     std::string reason;      ///< why there is no injective map; empty if there is one
     std::vector<idx> ids;    ///< infeasible: what the proof names; gave_up: the inverted elements of the map, or its
                              ///< branch points where none is inverted
-    std::vector<vec<D>> map; ///< with the fewest defects that were seen; fixed coordinates as in the problem
-    certificate flips;       ///< of the map, exact; det in the units of the map, not divided by anything
+    std::vector<vec<D>> map; ///< map with the fewest defects found; fixed coordinates as in the problem
+    certificate flips;       ///< certificate of the map, exact; det in the units of the map, not divided by anything
     double least_relative_det = 0; ///< smallest mapped / rest measure, divided by that of the whole; 1: a dilation
-    std::string stage;             ///< that found the injective map; "initial" if there was nothing to do
+    std::string stage;             ///< stage that found the injective map; "initial" if there was nothing to do
     std::vector<impl::untangle_stage_report> stages; ///< those that ran, in their order, proofs and margin included
-    double seconds = 0;                              ///< of the whole run
+    double seconds = 0;                              ///< wall-clock seconds of the whole run
 
     /// True if the map is certified.
     explicit operator bool() const { return outcome == untangle_outcome::injective; }

@@ -48,9 +48,9 @@ template <class Element>
 struct refined_problem
 {
     untangle_problem<Element> problem;
-    impl::subdivision how = {};  ///< of the mesh that it was; empty: it is the same
-    std::vector<idx> cells = {}; ///< of each element, that of the mesh that it was
-    int rounds = 0;              ///< of splits
+    impl::subdivision how = {};  ///< subdivision of the original mesh; empty: none
+    std::vector<idx> cells = {}; ///< element of the original mesh that contains each element
+    int rounds = 0;              ///< rounds of splits
     std::string obstacle = {};   ///< the proof that no split refutes, or which limit was met; empty: none
 };
 
