@@ -151,7 +151,7 @@ public:
     /// Before the last step, area mean.
     double energy(std::size_t k) const { return numbers_[4 * k]; }
 
-    /// The maps, one point a vertex in the order of the chart, in its units.
+    /// The maps, one point per vertex in the order of the chart, in its units.
     std::vector<std::vector<vec2>> maps() const
     {
         const std::vector<double> x = arrays_.x.download();

@@ -36,7 +36,7 @@ namespace taut::impl
 {
 
 /// Marks the sides where charts meet.
-/// chart: one label a triangle
+/// chart: one label per triangle
 /// Returns one flag per side of the surface, whose facets `f` are: 1 where the triangles of an edge differ in label.
 inline std::vector<char> seams_between(const facet_table& f, std::span<const idx> chart)
 {

@@ -84,7 +84,7 @@ struct chart_start
     }
 
     /// The given map, if it is valid; else the chart as seen along its mean normal, or a barycentric map where that is
-    /// folded or bad. given: one point a vertex, or empty; in units of the chart.
+    /// folded or bad. given: one point per vertex, or empty; in units of the chart.
     /// Throws mesh_error where the chart is closed or has handles, `error` where no map without flips was found.
     static chart_start of(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::vector<vec2> given)
     {

@@ -30,8 +30,8 @@ struct flatten_params
     /// by itself. The default stands for about 5,000 triangles, where both take as long.
     double largest = 30;
 
-    /// A map to begin with, one point a vertex of the chart mesh in any place and in units of the surface, or nothing.
-    /// Charts where it is not valid begin with another one.
+    /// A map to begin with, one point per vertex of the chart mesh in any place and in units of the surface, or
+    /// nothing. Charts where it is not valid begin with another one.
     std::span<const vec2> initial = {};
 
     /// Wall-clock limit of the whole call.

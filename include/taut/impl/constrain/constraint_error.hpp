@@ -21,7 +21,7 @@ enum class constraint_fault
     duplicate,     ///< vertices whose coordinate is pinned twice to one value, or that have a second spring
     idle_spring,   ///< vertices with a spring that are pinned altogether
     bad_weight,    ///< vertices with a spring of negative, infinite or NaN weight
-    wrong_count,   ///< no ids: not one position a vertex
+    wrong_count,   ///< no ids: not one position per vertex
     no_position,   ///< no ids: "where it is" has no meaning for a surface in space without a map
     unused_vertex, ///< vertices without a cell
     bad_polygon    ///< no ids: fewer than three corners, a corner that is not finite, or no length

@@ -142,7 +142,7 @@ public:
         return hold(loop, all, [&](std::size_t i) { return x[i]; });
     }
 
-    /// Pins the whole boundary, one loop, to one position a vertex, in the order of boundary_loops().
+    /// Pins the whole boundary, one loop, to one position per vertex, in the order of boundary_loops().
     /// Throws constraint_error (wrong_count); mesh_error unless there is one boundary loop.
     constraints& pin_boundary_at(std::span<const vec2> positions) requires(D == 2)
     {
@@ -151,7 +151,7 @@ public:
         return hold(loop, all, [&](std::size_t i) { return positions[i]; });
     }
 
-    /// Pins vertices where the map x (one position a vertex of the mesh) has them.
+    /// Pins vertices where the map x (one position per vertex of the mesh) has them.
     constraints& fix(std::span<const idx> vertices, std::span<const point> x)
     {
         return move(vertices, x, [](const point& p) { return p; });
@@ -260,7 +260,7 @@ public:
         return marks;
     }
 
-    /// Gives the fixed coordinates of a map (one position a vertex) their values.
+    /// Gives the fixed coordinates of a map (one position per vertex) their values.
     void impose(std::span<point> x) const
     {
         require_count("a vertex", count(), x.size());

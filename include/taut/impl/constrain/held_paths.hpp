@@ -26,7 +26,7 @@ class held_paths
 public:
     using map = std::vector<vec<D>>;
 
-    /// cells: their D + 1 vertices. from, to: one position a vertex, of `to` only fixed coordinates are read.
+    /// cells: their D + 1 vertices. from, to: one position per vertex, of `to` only fixed coordinates are read.
     held_paths(std::span<const std::array<idx, D + 1>> cells, const held_marks<D>& marks, const map& from,
                const map& to)
         : marks_(marks), from_(from), to_(to), body_(marks.size(), -1)

@@ -146,7 +146,7 @@ private:
 /// Moves vertices whose coordinates are numbers of single precision by a few units of their last digit, where that
 /// makes more simplices positive around them: rounding has flattened some, or turned them over.
 ///
-/// cells: #F by D + 1 vertex indices, in range; x: one point a vertex; movable(v, k): coordinate k of v may change
+/// cells: #F by D + 1 vertex indices, in range; x: one point per vertex; movable(v, k): coordinate k of v may change
 template <int D, class Movable>
 void mend_rounding(std::span<const std::array<idx, D + 1>> cells, std::span<vec<D>> x, const Movable& movable)
 {

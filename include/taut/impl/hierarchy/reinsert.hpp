@@ -111,7 +111,7 @@ inline bool place(const removals<triangle>& removed, std::size_t r, std::span<co
 /// Vertices of the coarse level stay where they are, bit for bit.
 ///
 /// points: rest positions of the vertices of the finest level, in this or another frame
-/// coarse: one image a vertex of level + 1
+/// coarse: one image per vertex of level + 1
 ///
 /// Throws parameter_error if an argument has the wrong size.
 inline reinsertion reinsert(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,

@@ -39,7 +39,7 @@ struct deform_params
     /// Pins, which are met bit for bit, and springs.
     taut::constraints<Element> constraints = {};
 
-    /// The shape at rest, one position a vertex, if it is not that of the mesh: what no energy is paid for. Its
+    /// The shape at rest, one position per vertex, if it is not that of the mesh: what no energy is paid for. Its
     /// elements are positive.
     std::vector<vec3> rest = {};
 

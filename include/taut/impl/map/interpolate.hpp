@@ -26,7 +26,7 @@ public:
     static constexpr int D = Element::dimension;
     using shape = std::vector<vec<D>>;
 
-    /// from: the mesh, in its first shape. to: the other one, one position a vertex. Of params, `rest`,
+    /// from: the mesh, in its first shape. to: the other one, one position per vertex. Of params, `rest`,
     /// `targets`, `initial` and `shapes` are overruled.
     /// Throws mesh_error where the first shape has inverted or flat elements, parameter_error where the other one has.
     interpolation(const mesh<Element>& from, shape to, deform_params<Element> params = {})

@@ -100,7 +100,7 @@ public:
     }
 
     /// Goes back to what was once asked and to the map of that time, as for an undo: the next solve() goes on from
-    /// there. x: one position a vertex. Throws parameter_error, and all is as before, where x has another size or is
+    /// there. x: one position per vertex. Throws parameter_error, and all is as before, where x has another size or is
     /// not injective, or where there was no map yet; constraint_error for constraints of another mesh.
     session& restore(const taut::constraints<Element>& asked, const std::vector<point>& x)
     {

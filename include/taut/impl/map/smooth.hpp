@@ -36,7 +36,7 @@ struct smooth_params
     /// Target shapes of elements: regular, or as in `rest`.
     wanted_shapes shapes = wanted_shapes::regular;
 
-    /// The shape at rest for wanted_shapes::rest, one position a vertex; none: that of the mesh.
+    /// The shape at rest for wanted_shapes::rest, one position per vertex; none: that of the mesh.
     std::vector<vec3> rest = {};
 
     /// Target shapes of single elements, and their owners, as in deform_params: those of corner_simplices::regular

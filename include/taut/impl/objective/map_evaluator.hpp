@@ -46,14 +46,14 @@ public:
     {
     }
 
-    /// f(x); infinity where the energy is a barrier and an element is not positive. x: one point a vertex.
+    /// f(x); infinity where the energy is a barrier and an element is not positive. x: one point per vertex.
     double value(points x)
     {
         upload(x);
         return objective_.value(x_);
     }
 
-    /// The same, and its gradient, one vector a vertex. Throws parameter_error for another number of them.
+    /// The same, and its gradient, one vector per vertex. Throws parameter_error for another number of them.
     double value_gradient(points x, std::span<vec<D>> gradient)
     {
         require(gradient.size(), "gradient");

@@ -23,7 +23,7 @@ struct repair_params
 
     /// Normals of the file, or none. They are compared with the triangles, nothing else.
     std::span<const vec3> normals = {};
-    /// The normals of the corners of each triangle, -1: none; empty: there is one normal a vertex.
+    /// The normals of the corners of each triangle, -1: none; empty: there is one normal per vertex.
     std::span<const std::array<idx, 3>> normal_cells = {};
 
     /// The body that each vertex is of, or none: vertices of two bodies are at two places, whatever their coordinates,

@@ -121,7 +121,7 @@ public:
     /// with a negative one, were left out.
     bool definite() const { return definite_; }
 
-    /// b: one vector a vertex; the result is 0 at fixed vertices.
+    /// b: one vector per vertex; the result is 0 at fixed vertices.
     std::vector<vec2> solve(std::span<const vec2> b) const
     {
         std::vector<double> x(2 * unknown_.size());

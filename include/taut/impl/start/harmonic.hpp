@@ -36,7 +36,7 @@ std::vector<char> anchored(const untangle_problem<Element>& problem, const csr& 
 
 /// Every coordinate that is not fixed at the mean of its neighbours; parts of the mesh without a fixed one stay. With a
 /// convex boundary and nothing fixed inside this is Tutte's embedding, which is injective.
-/// x: one position a vertex.
+/// x: one position per vertex.
 template <class Element>
 std::vector<vec<Element::dimension>> harmonic_start(const untangle_problem<Element>& problem,
                                                     std::vector<vec<Element::dimension>> x)

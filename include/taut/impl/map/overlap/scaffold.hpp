@@ -60,7 +60,7 @@ inline std::vector<char> triangles_within(const planar_triangulation& t, std::sp
 }
 
 /// The scaffold between an image whose boundary nowhere meets itself and a rectangle around it.
-/// loops: the boundary, with the image to the left; x: one point a vertex of the map.
+/// loops: the boundary, with the image to the left; x: one point per vertex of the map.
 inline scaffold make_scaffold(std::span<const std::vector<idx>> loops, std::span<const vec2> x, const vec2& low,
                               const vec2& high)
 {

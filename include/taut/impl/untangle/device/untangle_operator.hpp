@@ -84,7 +84,7 @@ public:
         move_ = {queue_, source, "untangle_move", options};
     }
 
-    /// Untangles `start`, one point a vertex in the user's order, whose fixed coordinates are those of the problem
+    /// Untangles `start`, one point per vertex in the user's order, whose fixed coordinates are those of the problem
     /// whatever it says. Throws parameter_error for parameters out of range and for a start of another size or with
     /// points that are not finite. The same input gives the same output on a device.
     operator_result<D> run(const std::vector<vec<D>>& start, const operator_params& params = {})
