@@ -9,7 +9,7 @@
 namespace taut::impl
 {
 
-/// The result of a session's only call: what its pins lack is what became of it.
+/// Result of a session's only call, with the outcome by its pins.
 template <class Element>
 session_result<Element> settled(session_result<Element> result)
 {

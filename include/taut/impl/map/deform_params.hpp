@@ -33,14 +33,13 @@ struct deform_params
     /// Data of single elements that energies read, in the order of the mesh.
     cell_data data = {};
 
-    /// Numbers that the energy reads as e.parameter(k): other values take no other kernel.
+    /// Numbers that the energy reads as e.parameter(k): changing them needs no new kernel.
     std::vector<double> parameters = {};
 
     /// Pins, which are met bit for bit, and springs.
     taut::constraints<Element> constraints = {};
 
-    /// The shape at rest, one position per vertex, if it is not that of the mesh: what no energy is paid for. Its
-    /// elements are positive.
+    /// Rest shape, of zero energy, one position per vertex, if it is not that of the mesh. Its elements are positive.
     std::vector<vec3> rest = {};
 
     /// Target shapes: `regular` elements, of the mean size, have no rest shape.
@@ -55,10 +54,10 @@ struct deform_params
     /// Certificates then say that all corners are positive.
     std::vector<idx> owners = {};
 
-    /// Vertices that may move along a line or in a plane only, at most one each, none of them pinned in any coordinate.
+    /// Sliding constraints, at most one per vertex, none of a vertex with a pinned coordinate.
     std::vector<slide<D>> slides = {};
 
-    /// The shape to begin with, if it is not that of the mesh: of the last step, say.
+    /// Initial shape, if it is not that of the mesh: of the last step, say.
     std::vector<vec<D>> initial = {};
 
     taut::precision precision = precision::automatic;
@@ -67,14 +66,14 @@ struct deform_params
     /// Its time limit and observer are overruled by those below.
     untangle_params untangling = {};
 
-    /// Stopping, and of Newton's method, which `automatic` is here, what it takes. `solve.stopping.time_limit` is
-    /// overruled by time_limit below.
+    /// Solver parameters: stopping, and those of Newton's method, which is the `automatic` one here.
+    /// `solve.stopping.time_limit` is overruled by time_limit below.
     solve::params solve = {};
 
     /// Wall-clock limit of the whole call. When it is reached the best shape so far is returned.
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
-    /// Asked at every step and between phases whether to go on.
+    /// Callback at every step and between phases; returning false ends the run.
     taut::observer observer = {};
 
     /// Throws parameter_error that names the field.

@@ -24,7 +24,7 @@ struct refined_deformation
 
 /// Deforms a mesh after splitting elements where it is proved that the pins admit no map without inverted elements:
 /// inner edges between pinned vertices, say, where all corners of an element are pinned so that it is inverted. The
-/// boundary is not split. `infeasible`: what is proved is not mended by splits inside; reason says what. Throws
+/// boundary is not split. `infeasible`: the proof holds for all splits inside the mesh; reason says which. Throws
 /// parameter_error for params with targets, data of elements or owners, which refined elements do not have, and as
 /// deform() does.
 template <class Element>

@@ -18,8 +18,8 @@ namespace taut::impl
 {
 
 /// Values at the vertices of a mesh, a vector each, whose gradients are nearest to target ones in the mean square by
-/// measure: a Poisson equation for each coordinate (Yu et al. 2004), by conjugate gradients scaled by the diagonal, as
-/// many steps as the mesh has edges across or some more.
+/// measure: a Poisson equation for each coordinate (Yu et al. 2004), by conjugate gradients scaled by the diagonal, in
+/// a number of steps of the order of the mesh's diameter in edges.
 template <class Element>
 class gradient_fit
 {
@@ -27,7 +27,7 @@ public:
     static constexpr int D = Element::dimension;
     using values = std::vector<vec<D>>;
 
-    /// m: whose cells count. x: where its vertices are, no element inverted.
+    /// m: the mesh. x: positions of its vertices, no element inverted.
     gradient_fit(const mesh<Element>& m, const values& x)
         : cells_(m.cells()), corners_(vertex_corners(m)), neighbours_(vertex_neighbours(m)), entries_(x.size())
     {
@@ -71,7 +71,7 @@ public:
         return G;
     }
 
-    /// x: where to begin, and fixed coordinates there; the fit. wanted(c): the gradient that cell c should have; called
+    /// x: initial values, with the fixed coordinates; then the fit. wanted(c): the target gradient of cell c; called
     /// from several threads. tolerance: of the residual, in the norm of its scale, by that at the start. Without fixed
     /// coordinates the mean of x, weighted by the diagonal, stays.
     template <class Wanted>

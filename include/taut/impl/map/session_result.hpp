@@ -15,10 +15,10 @@ namespace taut
 /// something to do, except by the first call, which may return its initial shape.
 struct session_budget
 {
-    /// Wall-clock limit. A step that would take longer than what is left, as the last one did, is not begun.
+    /// Wall-clock limit. No step is begun that would exceed it if it took as long as the last one.
     std::chrono::duration<double> time = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
-    /// Newton's steps. Range >= 1.
+    /// Maximum number of Newton steps. Range >= 1.
     int steps = std::numeric_limits<int>::max();
 
     /// Throws parameter_error that names the field.

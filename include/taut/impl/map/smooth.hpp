@@ -36,7 +36,7 @@ struct smooth_params
     /// Target shapes of elements: regular, or as in `rest`.
     wanted_shapes shapes = wanted_shapes::regular;
 
-    /// The shape at rest for wanted_shapes::rest, one position per vertex; none: that of the mesh.
+    /// Rest shape for wanted_shapes::rest, one position per vertex; none: that of the mesh.
     std::vector<vec3> rest = {};
 
     /// Target shapes of single elements, and their owners, as in deform_params: those of corner_simplices::regular
@@ -44,16 +44,16 @@ struct smooth_params
     std::vector<mat<Element::dimension>> targets = {};
     std::vector<idx> owners = {};
 
-    /// The energy, shape distortion by itself, is taken to this power: larger ones put the worst elements first, 1 the
-    /// mean. Range 1 to 8.
+    /// Power of the energy, which is shape distortion: larger ones improve the worst elements first, 1 the mean. Range
+    /// 1 to 8.
     int worst_exponent = 2;
 
-    /// Vertices that stay where they are whatever the boundary does.
+    /// Vertices that are fixed, whatever smooth_params::boundary says.
     std::vector<idx> fixed = {};
 
     /// Facets, inside or on the boundary, of surfaces that keep their shape whatever the boundary does: interfaces
     /// between materials, named pieces of the boundary (io::impl::kept_facets() finds them). Flat pieces slide in their
-    /// planes, straight lines where pieces meet or end along themselves; what is curved stays.
+    /// planes, straight lines where pieces meet or end along themselves; curved parts are fixed.
     std::vector<impl::kept_facet> kept = {};
 
     /// Sine of the angle up to which a boundary is flat or straight.

@@ -18,8 +18,8 @@
 namespace taut::impl
 {
 
-/// Minimises the energy of a run once more, through maps whose boundary nowhere meets itself: rounds of Newton's steps
-/// of the map with a scaffold around it, which is made anew before each.
+/// Minimises the energy of a run once more, through maps with a simple boundary: rounds of Newton's method on the map
+/// with a scaffold around it, which is rebuilt before each.
 class apart_rounds
 {
 public:
@@ -57,7 +57,7 @@ private:
     static constexpr int most_rounds = 100, most_steps = 20;
     static constexpr double tolerance = 1e-4; ///< of the energy, by it
 
-    /// Returns whether it made a difference.
+    /// Returns whether it changed the map.
     bool round()
     {
         auto [plane, how] = scaffolded_.around(x_);
@@ -102,7 +102,7 @@ private:
         return false;
     }
 
-    /// The user's, who sees the vertices of the surface alone.
+    /// Wraps the user's observer, which sees the vertices of the surface alone.
     taut::observer observer() const
     {
         return [this](progress p)
@@ -129,7 +129,7 @@ private:
     double distance_ = std::numeric_limits<double>::infinity();
 };
 
-/// The ends of two edges of the boundary that meet, of those whose vertices all are fixed; none if no two do.
+/// End vertices of two crossing boundary edges whose vertices are all fixed; none if there are none.
 inline std::vector<idx> held_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
                                     const std::vector<vec2>& x)
 {
@@ -149,8 +149,8 @@ inline std::vector<idx> held_across(const map_run& run, const std::vector<std::v
     return ends;
 }
 
-/// A solved map without crossings of its boundary: as it is where it has none, else minimised once more from a map that
-/// has none.
+/// Returns a solved map without crossings of its boundary: unchanged where it has none, else minimised once more from a
+/// map that has none.
 inline map_result kept_apart(const map_run& run, map_result r)
 {
     if (!r) return r;
@@ -208,7 +208,7 @@ inline map_result kept_apart(const map_run& run, map_result r)
     return r;
 }
 
-/// Counts the crossings of a map that was to have none, at its place and in the user's lengths.
+/// Counts the crossings of a map after its placement, in the user's units.
 inline map_result certified_apart(const map_run& run, map_result r)
 {
     if (!r) return r;

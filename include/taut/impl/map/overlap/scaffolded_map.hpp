@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// The edges of a triangle, made thicker across its longest one where it is lower than `least`.
+/// Edges of a triangle, with its height over the longest one raised to `least` at least.
 inline mat2 thickened(mat2 edges, double least)
 {
     vec2 longest = edges[0];
@@ -29,9 +29,9 @@ inline mat2 thickened(mat2 edges, double least)
     return edges;
 }
 
-/// The map of a run with a scaffold around it, as a shape in the plane that deforms. What the scaffold is wanted to
-/// look like is what it looks like, so that it moves nothing by itself; it resists, and where parts of the boundary
-/// come nearer to each other than a gap it draws them apart. Lengths are those of the run.
+/// Map of a run with a scaffold around it, as a planar mesh that deforms. The target shapes of the scaffold are its
+/// current ones, so that it exerts no force by itself; it resists, and where parts of the boundary come nearer to each
+/// other than a gap it pushes them apart. In normalised units.
 class scaffolded_map
 {
 public:

@@ -53,7 +53,7 @@ protected:
         on_way_ = held_.gap(last.x).vertex >= 0;
     }
 
-    /// Takes another map in the place of the one on the device.
+    /// Replaces the map on the device.
     void load(const map& run_lengths)
     {
         live_->load(run_lengths);
@@ -77,7 +77,7 @@ protected:
                 owners(), std::move(sliding)};
     }
 
-    /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.
+    /// Certifies a map in the user's lengths, with det of the elements in these lengths, too.
     virtual certificate certified(const map& x) const
     {
         auto flips = certify<D>(rest().cells(), std::span<const vec<D>>(x), rest_measure(), 16, owners());
@@ -99,7 +99,7 @@ protected:
 
     map user_coordinates() const { return unscaled(live_->coordinates()); }
 
-    /// The same with what is at its place there to the last bit.
+    /// The same, with coordinates that equal their targets there set to the last bit.
     map placed() const
     {
         auto x = user_coordinates();

@@ -13,7 +13,7 @@ namespace taut::impl
 
 // Implementation of session.hpp; include that one.
 
-/// A session of a map of a surface: it begins as parameterize() does.
+/// Session of a map of a surface, with the start of parameterize().
 template <class Element>
 class map_session final : public session_steps<Element>
 {

@@ -29,8 +29,7 @@ public:
 
     virtual session_result<Element> solve(const session_budget& budget) = 0;
 
-    /// Puts other constraints and another map in the place of the last ones. Throws parameter_error, constraint_error,
-    /// and nothing has changed.
+    /// Replaces the constraints and the map. Throws parameter_error, constraint_error; then nothing has changed.
     virtual void restore(const constraints<Element>& asked, const map& x) = 0;
 
     /// Positions of vertices in the last map. Throws constraint_error.

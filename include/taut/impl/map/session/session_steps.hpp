@@ -25,8 +25,8 @@
 namespace taut::impl
 {
 
-/// A session at work: the map on the device goes from the last map to what is asked. How the first map comes about is
-/// for derived classes. A template, as parameterize() is, so that only files that make a session compile it.
+/// Session with a device: advances the map on the device to the current constraints. Derived classes make the first
+/// map. A template, as parameterize() is, so that only files that make a session compile it.
 template <class Element>
 class session_steps : public held_map<Element>
 {
@@ -90,16 +90,16 @@ protected:
             throw parameter_error("solve.method", "must be automatic or newton: a session makes Newton's steps");
     }
 
-    /// Puts the map at hand on the device in double; false where it is so already, or may not be.
+    /// Moves the current map to the device in double; returns false where it is so already, or may not be.
     virtual bool in_double() { return false; }
 
     /// Returns whether in_double() would do so.
     virtual bool may_be_doubled() const { return false; }
 
-    /// Makes the first map, and puts it on the device; called again where there was none to be put there.
+    /// Makes the first map and moves it to the device; called again after a failure.
     virtual void begin(run_clock& clock) = 0;
 
-    /// From the last map on.
+    /// Continues from the last map.
     void advance(run_clock& clock)
     {
         session_report& r = last.report;
@@ -155,19 +155,19 @@ protected:
         }
     }
 
-    /// In space, where the budget lasts for some twenty steps.
+    /// Returns whether an initial guess is worth its cost: in space, with a budget of some twenty steps.
     bool may_draft(const run_clock& clock) const
     {
         return D == 3 && Element::oriented && held_.slides().empty() && lasts(clock, 20);
     }
 
-    /// Returns whether bodies of fixed vertices turn on the way.
+    /// Returns whether bodies of fixed vertices rotate on the path.
     bool turns() const
     {
         return held_paths<D>(rest().cells(), marks(), scaled(last.x), scaled(held_.places())).parts() > 1;
     }
 
-    /// Takes a shape with fixed vertices at their targets that is made at once, if there is one. Whether it did.
+    /// Tries an initial guess with fixed vertices at their targets. Returns whether it was taken.
     bool draft(run_clock& clock)
     {
         drafted_ = true;
@@ -194,7 +194,8 @@ protected:
             return false;
     }
 
-    /// From a map, in parts where bodies of fixed vertices turn; whether they have arrived.
+    /// Brings fixed vertices of a map to their targets, in parts where bodies of them rotate; returns whether they have
+    /// arrived.
     bool follow_parts(run_clock& clock, const map& from)
     {
         const held_paths<D> paths(rest().cells(), marks(), from, held_.places());
@@ -218,7 +219,7 @@ protected:
         return goes_on;
     }
 
-    /// One part of the way from a map; whether it has been gone. stuck_: steps do not help.
+    /// Follows one part of the path from a map; returns whether its end was reached. stuck_: steps do not help.
     bool follow(run_clock& clock, const map& from, const map& way)
     {
         const double gap = std::max(held_.gap(from, way).distance * lengths_, std::numeric_limits<double>::min());
@@ -268,7 +269,7 @@ protected:
             return false;
     }
 
-    /// A map with fixed coordinates at their targets and no defect, if untangling finds one.
+    /// Untangles to a map with fixed coordinates at their targets and no defect, if there is one.
     untangle_result<Element> untangled(run_clock& clock, const map& x)
     {
         auto how = untangling_;
@@ -285,9 +286,9 @@ protected:
         return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_;
     }
 
-    /// Untangling, where steps do not bring fixed coordinates any nearer, if the budget would last for some twenty
-    /// steps more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps.
-    /// Whether it did.
+    /// Untangles where steps bring fixed coordinates no nearer, if the budget would last for some twenty steps more, or
+    /// a hundred for the whole mesh, for the time of a thousand steps at most. Its iterations count as steps. Returns
+    /// whether it succeeded.
     bool repair(run_clock& clock)
     {
         if (!lasts(clock, 20)) return false;
@@ -345,7 +346,7 @@ protected:
         return found;
     }
 
-    /// Returns whether it ended by rounding, and not where it should.
+    /// Returns whether it ended by rounding, above the tolerance.
     bool stalled(const solve::report& r) const
     {
         constexpr double of_rounding = 1e-8;                      // a tolerance that is larger is meant
@@ -355,7 +356,7 @@ protected:
                 (r.stop == solve::stop::decrease && solve_.stopping.decrease_tolerance < of_rounding));
     }
 
-    /// Makes the map on the device the last one, if it is certified; else goes back to the last one.
+    /// Accepts the map on the device if it is certified; else restores the last one.
     void take(run_clock& clock)
     {
         session_report& r = last.report;

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// The parameters with the energy that the data and parameters make of the user's. Throws parameter_error.
+/// Binds the data and parameters to the user's energy. Throws parameter_error.
 template <class Element>
 deform_params<Element> validated(deform_params<Element> p)
 {
@@ -27,7 +27,7 @@ deform_params<Element> validated(deform_params<Element> p)
     return p;
 }
 
-/// A session of a shape: it begins with the shape that is given, untangled if need be.
+/// Session of a deforming shape, from the given shape, untangled if need be.
 template <class Element>
 class shape_session : public session_steps<Element>
 {
@@ -86,7 +86,7 @@ private:
         r.notes.insert(r.notes.begin(), notes.begin(), notes.end());
     }
 
-    /// Untangles the shape to begin with, of which `flips` says what is wrong; what has no orientation is not.
+    /// Untangles the initial shape with the defects `flips`, unless its elements have no orientation.
     bool mended(run_clock& clock, certificate& flips)
     {
         session_report& r = last.report;
@@ -153,8 +153,8 @@ private:
                         "that the mesh does not have, or that is pinned, among the slides; leave it out");
     }
 
-    /// The mesh, which may have any number of components, holes and handles; vertices without cells stay where they
-    /// are. Throws mesh_error, and parameter_error for parameters that are not of this mesh.
+    /// Validates the mesh, which may have any number of components, holes and handles; vertices without cells keep
+    /// their positions. Throws mesh_error, and parameter_error for parameters that are not of this mesh.
     static mesh<Element> deformable(mesh<Element> m, const deform_params<Element>& params)
     {
         params.data.validate(m.cells().size());

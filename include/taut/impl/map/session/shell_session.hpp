@@ -13,7 +13,7 @@ namespace taut::impl
 
 // Implementation of session.hpp; include that one.
 
-/// A session of a thin shell: a shape of hinges, certified by the triangles of the surface. A template, so that only
+/// Session of a thin shell: a shape of hinges, certified by the triangles of the surface. A template, so that only
 /// files that make a session compile it.
 template <class Element>
 class shell_session final : public shape_session<Element>

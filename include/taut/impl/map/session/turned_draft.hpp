@@ -28,7 +28,7 @@ namespace taut::impl
 /// rotations, axis times angle, are harmonic between those of the bodies, and gradients nearest to the rotations of the
 /// elements (Zayer et al. 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns
 /// change fast.
-/// from: the shape at hand, no element inverted; to: the places, of which fixed coordinates are read.
+/// from: the current shape, no element inverted; to: the targets, of which fixed coordinates are read.
 inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                                       const held_paths<3>& paths, const held_marks<3>& marks,
                                       const std::vector<vec3>& from, const std::vector<vec3>& to)
@@ -122,9 +122,9 @@ public:
     }
 
     /// Predicts a shape from the current one, which is injective (`draft` of the problem), with fixed vertices at their
-    /// targets (`initial`), to which they move: that of a coarser volume, where there is one, or else a turned_draft,
-    /// where bodies of them turn. What has shrunk there, with its neighbours, is untangled and minimised by itself,
-    /// with the shape at hand as that at rest: else such elements, though few, would cut the steps of all.
+    /// targets (`initial`), to which they move: that of a coarser volume, where there is one, or else harmonic
+    /// guidance, where bodies of them rotate. Shrunk elements, with their neighbours, are untangled and minimised
+    /// separately, with the current shape as rest shape: else such elements, though few, would cut the steps of all.
     mended_draft draft(const problem& p) const
     {
         const mesh<tetrahedron> here(p.draft, p.rest.cells());
@@ -149,8 +149,8 @@ private:
         return bool(certify<3>(p.rest.cells(), std::span<const vec3>(x), {}, 0, p.owners));
     }
 
-    /// The minimum on a coarser volume, carried up: there limbs decide which way they buckle, which takes many steps,
-    /// whatever the size.
+    /// Prolongs the minimum on a coarser volume: the buckling direction of limbs is decided there, which takes many
+    /// steps, whatever the size.
     mended_draft from_coarser(const problem& p, const mesh<tetrahedron>& here,
                               const gradient_fit<tetrahedron>& poisson) const
     {
@@ -167,7 +167,7 @@ private:
         return found;
     }
 
-    /// Untangles and minimises what has shrunk; whether the shape is a good one then.
+    /// Untangles and minimises shrunk elements; returns whether the shape is good then.
     bool mend(const problem& p, const mesh<tetrahedron>& here, const gradient_fit<tetrahedron>& poisson,
               mended_draft& found) const
     {
@@ -193,7 +193,7 @@ private:
         return certified(p, found.x);
     }
 
-    /// An injective map, or none.
+    /// Untangles to an injective map, or none.
     std::vector<vec3> untangled(const problem& p, mended_draft& booked) const
     {
         auto how = how_;
@@ -203,7 +203,7 @@ private:
         return result ? std::move(result.map) : std::vector<vec3>();
     }
 
-    /// From the shape found on, to a relative gradient, with so many steps at most.
+    /// Minimises the shape to a relative gradient, with a maximum number of steps.
     void minimise(const problem& p, double gradient, int steps, mended_draft& found) const
     {
         live_map<tetrahedron> live(queue_, p.rest, deform_params<tetrahedron>{}, arithmetic_, found.x);
