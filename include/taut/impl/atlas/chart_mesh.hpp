@@ -36,8 +36,8 @@ namespace taut::impl
 {
 
 /// Marks the sides where charts meet.
-/// chart: one label per triangle Returns one flag per side of the surface, whose facets `f` are: 1 where the triangles
-/// of an edge differ in label.
+/// chart: one label per triangle
+/// Returns one flag per side of the surface, whose facets `f` are: 1 where the triangles of an edge differ in label.
 inline std::vector<char> seams_between(const facet_table& f, std::span<const idx> chart)
 {
     std::vector<char> seam(f.twin.size(), 0);
