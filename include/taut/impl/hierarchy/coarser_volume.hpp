@@ -29,7 +29,7 @@ struct coarser_volume
 /// kept: one flag per vertex, or none at all: a vertex with one is removed only where all of its neighbours have one
 /// proceed: asked between rounds: go on?
 ///
-/// Throws parameter_error. About 10 us a vertex.
+/// Throws parameter_error. About 10 us per vertex.
 inline coarser_volume make_coarser(const mesh<tetrahedron>& m, std::span<const char> kept = {}, double factor = 8,
                                    const std::function<bool()>& proceed = {})
 {

@@ -65,7 +65,7 @@ point_cloud cloud_of(const mesh<Element>& m, std::span<const char> held)
 ///       nothing is interpolated to them
 /// boundary: the faces of the boundary, where the cells overlap, so that their own do not say it; else empty
 ///
-/// Linear time, about 5 us a vertex on two cores. Throws parameter_error.
+/// Linear time, about 5 us per vertex on two cores. Throws parameter_error.
 inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<const char> held = {},
                                              const hierarchy_params& params = {},
                                              std::span<const std::array<idx, 3>> boundary = {})

@@ -302,7 +302,7 @@ private:
     std::vector<idx> into_;
     std::vector<std::vector<idx>> stars_;
 
-    std::vector<link_face> link_; ///< of the vertex at hand
+    std::vector<link_face> link_; ///< of the current vertex
     std::vector<idx> ring_;
     std::vector<edge> rim_;
     std::vector<unsigned> mark_; ///< stamp_: in ring_

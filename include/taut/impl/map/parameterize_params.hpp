@@ -46,33 +46,33 @@ struct parameterize_params
     /// Data of single triangles that energies read, in the order of the mesh: weights, attributes, directions.
     cell_data data = {};
 
-    /// Numbers that the energy reads as e.parameter(k): other values take no other kernel.
+    /// Numbers that the energy reads as e.parameter(k): changing them needs no new kernel.
     std::vector<double> parameters = {};
 
     boundary_mode boundary = boundary_mode::free;
 
-    /// Pins, which hold bit for bit, and springs. The start is brought near them and untangled.
+    /// Pins, which are met bit for bit, and springs. The start is brought near them and untangled.
     taut::constraints<triangle> constraints = {};
 
-    /// Start: these coordinates, one per vertex, if there are any (a warm start: the map of the last run, after the
-    /// pins have moved, say); with a free boundary and no constraints their place and scale do not matter. A start that
-    /// is mirrored as a whole is turned over, others with flips untangled.
+    /// Initial coordinates, one per vertex, or empty (a warm start: the map of the last run, after the pins have moved,
+    /// say); with a free boundary and no constraints their translation and scale do not matter. A start that is
+    /// mirrored as a whole is reflected, others with flips are untangled.
     std::vector<vec2> initial = {};
 
-    /// Otherwise the start is made so. A coarse start takes its boundary from `barycentric` and goes over to a
-    /// barycentric one where it fails.
+    /// Method of the start if there are no initial coordinates. A coarse start takes its boundary from `barycentric`
+    /// and falls back to a barycentric one where it fails.
     start_method start = start_method::automatic;
     barycentric_params barycentric = {.stretch_rounds = 10};
 
     /// Placement of an unconstrained map: a free boundary without pins and springs.
     taut::placement placement = placement::upright;
 
-    /// True if surfaces with holes (more than one boundary loop) are accepted. Its map is locally injective.
+    /// True if surfaces with holes (more than one boundary loop) are accepted. Their maps are locally injective.
     bool holes = false;
 
-    /// True if the boundary of the map must not cross or touch itself, so that no two triangles overlap. Where it
-    /// would, the energy is minimised once more, through maps in which it does not (docs/howto/overlap.md); others stay
-    /// as they are.
+    /// True if the boundary of the map must not cross or touch itself, so that no two triangles overlap. If it does,
+    /// the energy is minimised once more, through maps without crossings (docs/howto/overlap.md); other maps are
+    /// unchanged.
     bool no_overlap = false;
 
     taut::precision precision = precision::automatic;
@@ -84,16 +84,16 @@ struct parameterize_params
     /// Parameters of untangling a start with flips. Its time limit and observer are overruled by those below.
     untangle_params untangling = {};
 
-    /// Method, line search (not of Newton's method, which `automatic` is here), stopping. `solve.stopping.time_limit`
-    /// is overruled by time_limit below. Stopping parameters that are given as a whole (`.stopping = {...}`) do not
-    /// end a run that has only settled.
+    /// Solver parameters: method, line search (except of Newton's method, which is the `automatic` one here), stopping.
+    /// `solve.stopping.time_limit` is overruled by time_limit below. With stopping parameters given as a whole
+    /// (`.stopping = {...}`), a run that has only settled goes on.
     solve::params solve = {.stopping = {.settled_tolerance = 1e-4}};
 
     /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned, or none (`stopped`).
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
-    /// Asked at every iterate and trial step, between phases and between the steps of long ones, whether to go on.
-    /// progress::usable: whether there is a map that would be returned.
+    /// Callback at every iterate and trial step, between phases and between the steps of long ones; returning false
+    /// ends the run. progress::usable: whether there is a map that would be returned.
     taut::observer observer = {};
 
     /// Throws parameter_error that names the field.

@@ -20,7 +20,7 @@ struct cell_data
     /// One per cell, positive: a factor of its weight in the sum of energies (a painted importance).
     std::vector<double> weights = {};
 
-    /// Numbers a cell, attribute k of cell c at [c * attribute_count + k]; an energy reads e.attribute(k).
+    /// Numbers per cell, attribute k of cell c at [c * attribute_count + k]; an energy reads e.attribute(k).
     std::size_t attribute_count = 0;
     std::vector<double> attributes = {};
 

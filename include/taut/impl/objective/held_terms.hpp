@@ -17,10 +17,9 @@
 namespace taut::impl
 {
 
-/// Coordinates of vertices that a solver does not choose, beside those that are pinned in the layout: vectors are zero
-/// there, and so are rows and columns of element Hessians, so that the matrices of all levels know of it. Which
-/// coordinates are fixed, and where, can change without anything else being made anew. Kernels run over fixed
-/// coordinates, and the elements at them.
+/// Fixed coordinates beside those that are pinned in the layout: vectors are zero there, and so are rows and columns of
+/// element Hessians, and with them the matrices of all levels. The set of fixed coordinates and their targets can
+/// change without rebuilding anything else. Kernels run over fixed coordinates, and the elements at them.
 template <class Element>
 class held_terms
 {
@@ -37,7 +36,7 @@ public:
 
     bool empty() const noexcept { return places_.empty(); }
 
-    /// marks: one per vertex in the user's numbers, or none; they take the place of those before.
+    /// Replaces the fixed coordinates. marks: one per vertex in the user's numbering, or none.
     void hold(const layout<Element>& mesh_layout, const held_marks<D>& marks)
     {
         vertices_.clear();
@@ -79,10 +78,10 @@ public:
         targets_ = real_buffer(queue_, types_.position, targets);
     }
 
-    /// v = 0 at fixed coordinates.
+    /// Sets v = 0 at fixed coordinates.
     void mask(device_vector& v) { clear("mask", places_, v.data()); }
 
-    /// Rows and columns of fixed coordinates in the Hessians of elements, packed as hessian_slots say, become 0.
+    /// Sets rows and columns of fixed coordinates in the Hessians of elements, packed as in hessian_slots, to 0.
     void mask_hessian(real_buffer& hessian) { clear("mask_hessian", entries_, hessian); }
 
     /// d = a fraction of the remaining displacement at fixed coordinates; other places stay as they are.
@@ -99,7 +98,7 @@ public:
                     });
     }
 
-    /// x = the targets at fixed coordinates.
+    /// Sets x to the targets at fixed coordinates.
     void put(device_vector& x)
     {
         over_places("put",
@@ -111,8 +110,8 @@ public:
                     });
     }
 
-    /// To the gradients of corners the products of the Hessians of elements, not masked yet, with d, which is zero at
-    /// all free coordinates.
+    /// Adds to the gradients of corners the products of the Hessians of elements, not masked yet, with d, which is zero
+    /// at all free coordinates.
     void add_product(const real_buffer& hessian, const device_vector& d, real_buffer& corner_gradients)
     {
         if (cells_.empty()) return;

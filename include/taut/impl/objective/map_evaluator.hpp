@@ -46,7 +46,7 @@ public:
     {
     }
 
-    /// f(x); infinity where the energy is a barrier and an element is not positive. x: one point per vertex.
+    /// Value f(x); infinity where the energy is a barrier and an element is not positive. x: one point per vertex.
     double value(points x)
     {
         upload(x);
@@ -67,7 +67,7 @@ public:
         return value;
     }
 
-    /// The Hessian at x, or with the Hessian of each element projected to its positive semi-definite part.
+    /// Hessian at x, or the projected one (positive semi-definite element by element).
     impl::block_rows<D> hessian(points x, definiteness sign = definiteness::indefinite)
     {
         upload(x);
@@ -79,7 +79,7 @@ public:
         return rows();
     }
 
-    /// The largest a for which no element has flipped anywhere on [x, x + a d); infinity if none ever does.
+    /// Maximum step a for which no element flips on [x, x + a d); infinity if none ever does.
     double max_step(points x, points d)
     {
         require(d.size(), "d");

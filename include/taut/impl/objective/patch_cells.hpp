@@ -53,7 +53,7 @@ public:
     /// Sets the positions of vertices, in units of the layout of the mesh.
     void place(const std::vector<vec<D>>& x) { x_.upload(layout_.to_local(x)); }
 
-    /// Makes gradients() and hessians() of where vertices are, in one wait.
+    /// Computes gradients() and hessians() at the current positions, in one wait.
     void differentiate(definiteness sign)
     {
         first_.gradient(cells(), arrays_.with(x_, {{"energy", energies_}, {"corner_gradient", gradients_}}));

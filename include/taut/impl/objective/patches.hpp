@@ -22,7 +22,7 @@ struct patch_params
     std::size_t most_vertices = 8192; ///< that patches have at most
 };
 
-/// A part of a mesh in numbers of its own: free vertices that hang together, and all cells at them.
+/// Part of a mesh in its own numbering: connected free vertices, and all cells at them.
 template <class Element>
 struct patch
 {
@@ -53,7 +53,7 @@ public:
             if (grow(std::span(middles).first(count))) break;
     }
 
-    /// The largest first.
+    /// Orders patches by size, the largest first.
     std::vector<patch<Element>> patches()
     {
         std::vector<patch<Element>> all;
@@ -99,7 +99,7 @@ private:
         return order;
     }
 
-    /// False, and nothing, where that would be too much.
+    /// Adds vertices; returns false, and adds none, where there would be too many.
     bool grow(std::span<const idx> middles)
     {
         const auto most =

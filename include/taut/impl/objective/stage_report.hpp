@@ -63,7 +63,7 @@ private:
     int cut_ = 0;
 };
 
-/// The stage that a minimisation was.
+/// Stage report of a minimisation.
 inline stage_report stage_of(std::string name, std::size_t level, std::size_t vertices, const solve::report& r)
 {
     stage_report did{.stage = std::move(name),
@@ -79,7 +79,7 @@ inline stage_report stage_of(std::string name, std::size_t level, std::size_t ve
     return did;
 }
 
-/// The corners of chosen cells, each once. numbers: the user's of the vertices of the cells; none: they are the same.
+/// Corners of chosen cells, each once. numbers: the user's numbers of the vertices; none: they are the same.
 template <class Cells>
 std::vector<idx> corners_of(const Cells& cells, const std::vector<int>& chosen, const std::vector<idx>& numbers = {})
 {
@@ -92,11 +92,11 @@ std::vector<idx> corners_of(const Cells& cells, const std::vector<int>& chosen, 
     return corners;
 }
 
-/// The stages of a run in their order in time. Each has the time since the one before, so that none is lost.
+/// Log of the stages of a run in their order in time. Each has the time since the previous one.
 class stage_log
 {
 public:
-    /// A stage that has just ended; its seconds are set.
+    /// Adds a stage that has just ended, and sets its seconds.
     void add(stage_report did)
     {
         const auto now = clock::now();
@@ -104,7 +104,7 @@ public:
         stages_.push_back(std::move(did));
     }
 
-    /// The stages of a part of the run that kept a log of its own and has just ended.
+    /// Adds the stages of a part of the run with its own log that has just ended.
     template <class Stages>
     void append(const Stages& part)
     {

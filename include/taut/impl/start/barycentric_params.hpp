@@ -50,7 +50,7 @@ struct barycentric_params
     /// a round gains less than 5 %, and the best map is kept.
     int stretch_rounds = 0;
 
-    /// Asked before each further round: go on? Without it every round is made.
+    /// Callback before each further round; returning false ends the run.
     std::function<bool()> proceed = {};
 };
 

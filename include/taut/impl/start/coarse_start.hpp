@@ -29,7 +29,7 @@ struct coarse_start_params
 };
 
 /// A map of low distortion without a linear solve on the fine surface: robust_start() on a level of it, from where the
-/// vertices come back level by level. Linear time beyond that level, about 1 us a triangle on one core.
+/// vertices come back level by level. Linear time beyond that level, about 1 us per triangle on one core.
 ///
 /// m: a surface that has passed validate() with `one_boundary` false. h: its hierarchy; with a fixed boundary all
 /// boundary vertices were kept. uv: as of robust_start().

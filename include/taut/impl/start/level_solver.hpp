@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// A map without flips, for want of a better one.
+/// A map without flips, Fallback.
 inline std::vector<vec2> some_map(const mesh<triangle>& m)
 {
     return barycentric_map(m, facets(m), {}).uv;

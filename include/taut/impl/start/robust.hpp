@@ -35,7 +35,7 @@ struct robust_start_params
     int iterations = 50;  ///< maximum number of Newton iterations on each level; 0 to 1000
     unsigned threads = 0; ///< at most so many; 0: as many as the machine runs at once. The result does not change
 
-    /// Asked before each iteration: go on? Without it every one is made.
+    /// Callback before each iteration; returning false ends the run.
     std::function<bool()> proceed = {};
 
     /// Throws parameter_error with the name of a field outside its domain.

@@ -19,7 +19,7 @@ namespace taut::impl
 /// Untangling problem of an initial guess on a coarser volume.
 struct coarse_problem
 {
-    coarser_volume thinned;                ///< of the shape at hand
+    coarser_volume thinned;                ///< of the current shape
     untangle_problem<tetrahedron> problem; ///< of the targets of fixed vertices, that shape at rest
 };
 
