@@ -31,7 +31,7 @@ namespace taut::impl
 ///     f(x) = sum over cells of w_c E(S_c(x)) / sum of w_c + sum over springs of k_v |x_v - t_v|^2
 ///
 /// with w_c = 1 or the rest measure. A point holds the coordinates of all vertices in layout order, D x vertex_stride;
-/// vectors have the same shape and are zero on what is pinned or held, so that it never moves.
+/// vectors have the same shape and are zero at fixed coordinates, so that these never move.
 /// Kernels per evaluation: elements, gather (paper Fig. 8), one reduction; one host wait.
 template <class Element>
 class map_objective

@@ -21,9 +21,9 @@
 namespace taut::impl
 {
 
-/// Minimises the map of a surface where Newton's method finds it hardest, in patches, each by itself with all around it
-/// held: nonlinear elimination (Lanzkron, Rose, Wilkes 1996; Cai, Keyes 2002). Creases and rotations between pins are
-/// far from quadratic, but small; with one step length for the whole map the hardest of them would decide.
+/// Nonlinear elimination: minimises the map of a surface in patches where it is farthest from quadratic, each
+/// separately with all around it fixed (Lanzkron, Rose, Wilkes 1996; Cai, Keyes 2002). Creases and rotations between
+/// pins are far from quadratic, but small; with one step length for the whole map the hardest of them would decide.
 ///
 /// A step is Newton's with a direct solver on the host: along the Hessian where it is positive definite, else along its
 /// projection, to the best of four lengths, none beyond 0.9 of the way to the first flip. Formulas are those of the
@@ -142,7 +142,7 @@ private:
         /// Returns whether its next step is to be along the Hessian itself.
         bool exact() const { return !done_ && pause_ <= 0; }
         const std::vector<vec<D>>& x() const { return x_; }
-        /// The longest step to be tried, as a vector per vertex; 0 where it is done.
+        /// Maximum trial step, as a vector per vertex; 0 where the patch is done.
         const std::vector<vec<D>>& d() const { return d_; }
 
         solver& factors() { return *solver_; }

@@ -138,7 +138,7 @@ private:
         auto at_target(sym<idx> i, idx j, idx k) const { return target[i + (j * D + k) * count]; }
     };
 
-    /// One work-item per element that carries springs, or such an element and a step length.
+    /// Range of one work-item per element with springs, or per such element and step length.
     struct kernels
     {
         recorded_kernel energies, gradient, hessian;

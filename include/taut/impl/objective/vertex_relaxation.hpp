@@ -43,9 +43,9 @@ struct relaxation_result
 /// flips: det is affine along the step of one vertex, and positive at both ends. Pinned vertices and all others keep
 /// their positions bit for bit. The same input gives the same output.
 ///
-/// Costs an evaluation of the energy and one wait; and, if something is bad, four short launches per colour and sweep.
-/// Device memory: a number per cell; while elements are bad, 4 indices per entry (an element at a moving vertex) and 11
-/// numbers (14 in space) an entry of the widest colour.
+/// Costs an evaluation of the energy and one wait; and, if there are bad elements, four short launches per colour and
+/// sweep. Device memory: a number per cell; while elements are bad, 4 indices per entry (an element at a moving vertex)
+/// and 11 numbers (14 in space) an entry of the widest colour.
 template <class Element>
 class vertex_relaxation
 {

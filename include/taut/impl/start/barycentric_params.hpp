@@ -6,7 +6,7 @@
 namespace taut
 {
 
-/// Convex outline that the boundary is laid on.
+/// Convex outline of the boundary.
 enum class boundary_shape
 {
     circle,
@@ -45,7 +45,7 @@ struct barycentric_params
     boundary_params boundary = {};
     barycentric_weights weights = barycentric_weights::mean_value;
 
-    /// At most so many further solves with weights that even out stretch, 0 to 20. Each costs about as much as the map
+    /// Maximum number of further solves with weights that reduce stretch, 0 to 20. Each costs about as much as the map
     /// itself; one to three commonly lower the distortion of a deep surface ten to a hundred times. It ends early when
     /// a round gains less than 5 %, and the best map is kept.
     int stretch_rounds = 0;

@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// Vertices that a path of edges joins to one whose coordinate k is fixed.
+/// Marks the vertices of components with a vertex whose coordinate k is fixed.
 template <class Element>
 std::vector<char> anchored(const untangle_problem<Element>& problem, const csr& near, int k)
 {
@@ -34,8 +34,8 @@ std::vector<char> anchored(const untangle_problem<Element>& problem, const csr& 
     return reached;
 }
 
-/// Every coordinate that is not fixed at the mean of its neighbours; parts of the mesh without a fixed one stay. With a
-/// convex boundary and nothing fixed inside this is Tutte's embedding, which is injective.
+/// Computes the harmonic map: every free coordinate is the mean of its neighbours; components without a fixed one are
+/// unchanged. With a convex boundary and nothing fixed inside this is Tutte's embedding, which is injective.
 /// x: one position per vertex.
 template <class Element>
 std::vector<vec<Element::dimension>> harmonic_start(const untangle_problem<Element>& problem,

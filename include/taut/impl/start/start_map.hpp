@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// A first map of a surface and what is known about it.
+/// Initial map of a surface, with its certificate and distortion.
 struct start_map
 {
     std::vector<vec2> uv;    ///< one per vertex; (0, 0) for a vertex without a triangle

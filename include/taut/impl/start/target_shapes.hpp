@@ -58,7 +58,7 @@ double expected_measure(const untangle_problem<Element>& problem, const std::vec
     return 1;
 }
 
-/// Scales the shapes so that they have this measure together.
+/// Scales the shapes to this total measure.
 template <int D>
 void normalize(std::vector<target_shape<D>>& shapes, double measure)
 {
@@ -72,8 +72,7 @@ void normalize(std::vector<target_shape<D>>& shapes, double measure)
     }
 }
 
-/// The elements at rest, weighted by measure. Flat ones are made a little thicker, so that they are stiff and not
-/// without shape.
+/// Rest shapes of the elements, weighted by measure. Flat ones are made a little thicker, so that they are stiff.
 template <class Element>
 std::vector<target_shape<Element::dimension>> rest_shapes(const mesh<Element>& m, double measure)
 {
@@ -118,7 +117,7 @@ std::vector<target_shape<Element::dimension>> shapes_wanted(const untangle_probl
     return shapes;
 }
 
-/// Regular elements of the same size.
+/// Regular target shapes of one size.
 template <class Element>
 std::vector<target_shape<Element::dimension>> regular_shapes(const mesh<Element>& m, double measure)
 {
