@@ -22,7 +22,7 @@
 namespace taut::impl
 {
 
-/// Newton's steps in the plane with a direct solver.
+/// Newton's method in the plane with a direct solver.
 class triangle_newton final : public regularized_newton<triangle>
 {
 public:

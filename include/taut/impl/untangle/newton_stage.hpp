@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// False if there is no such start.
+    /// Starts the stage; returns false if there is no such start.
     bool start(untangle_state<Element>& state)
     {
         const auto& problem = state.problem();
@@ -94,7 +94,7 @@ private:
         return true;
     }
 
-    /// False if there is no such map.
+    /// Takes the map; returns false if there is none.
     bool lay(untangle_state<Element>& state)
     {
         if constexpr (D == 2)

@@ -18,21 +18,22 @@ struct untangle_params
     /// Wall-clock limit of the whole call. When it is reached, the best map so far is returned. Range >= 0.
     std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()};
 
-    /// Asked after every iteration: go on? iteration, value (fewest inverted elements so far) and seconds are set.
+    /// Callback after every iteration; returning false ends the run. iteration, value (fewest inverted elements so far)
+    /// and seconds are set.
     taut::observer observer = {};
 
     /// Names of the stages to run, in this order; empty: all that the dimension and the device allow
     /// (stages.hpp).
     std::vector<std::string> stages = {};
 
-    /// The stages take turns, with so many iterations each in the first round and twice as many in each further one.
-    /// Range >= 1.
+    /// Iterations of each stage in the first round; stages alternate, with twice as many in each further round. Range
+    /// >= 1.
     int first_round = 150;
-    /// After so many rounds without success it gives up, whatever time is left. Range >= 1.
+    /// Maximum number of rounds, after which it gives up, whatever time is left. Range >= 1.
     int rounds = 5;
 
-    /// After success at most so many steps of Newton's method on a barrier energy, to move the map away from the edge
-    /// of what is injective; 0 leaves it there. Range >= 0.
+    /// Maximum number of Newton steps on a barrier energy after success, to move the map away from the boundary of the
+    /// feasible set; 0: none. Range >= 0.
     int margin_steps = 20;
 
     /// Throws parameter_error that names the field; the names of stages are looked up by untangle().

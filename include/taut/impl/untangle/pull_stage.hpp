@@ -34,9 +34,9 @@ struct pull_stage_params
     int share = 1; ///< it makes so many times the iterations of a round
 };
 
-/// Starts from an injective map and stays injective: springs pull the fixed vertices to their targets, stronger with
-/// every step, against an energy with a barrier. No triangle flattens on the way, so no branch point comes about
-/// either. The start holds the boundary alone, where that is injective, and nothing otherwise.
+/// Penalty method from an injective map: springs pull the fixed vertices to their targets, stronger with every step,
+/// against a barrier energy. No triangle becomes flat, so no branch point is created. The start fixes the boundary
+/// alone, where that is injective, and nothing otherwise.
 class pull_stage final : public untangle_stage<triangle>
 {
 public:
@@ -67,7 +67,7 @@ public:
 private:
     static constexpr double growth = 1.2;
 
-    /// False if there is no injective map to start from.
+    /// Starts the stage; returns false if there is no injective map to start from.
     bool start(untangle_state<triangle>& state)
     {
         const auto& problem = state.problem();
@@ -100,7 +100,7 @@ private:
         return true;
     }
 
-    /// The harmonic map within the fixed part of the boundary, if it is injective.
+    /// Harmonic map within the fixed part of the boundary, if it is injective.
     bool hold_boundary(const untangle_state<triangle>& state)
     {
         untangle_problem<triangle> rim = state.problem();
@@ -129,7 +129,7 @@ private:
         return static_cast<bool>(certify<2>(m.cells(), std::span<const vec2>(x_)));
     }
 
-    /// Turns from the places to detours, or back.
+    /// Switches from the targets to detours, or back.
     void turn()
     {
         standing_ = pulled_ = 0;

@@ -66,7 +66,7 @@ public:
     }
 
 private:
-    /// The shape at rest, moved as a whole.
+    /// Rest shape, moved rigidly.
     static map start(const untangle_problem<Element>& problem)
     {
         map x(problem.rest.points().begin(), problem.rest.points().end());

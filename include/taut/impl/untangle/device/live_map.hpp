@@ -20,9 +20,9 @@
 namespace taut::impl
 {
 
-/// A map of a mesh on a device, with all that it takes to minimise its energy: order, tables of all levels, kernels,
-/// matrices. No vertex is pinned in the layout, so none of it knows which coordinates are fixed; that is a mask and can
-/// change. Vertices are in the user's order; lengths are those of the mesh.
+/// Map of a mesh on a device, with the data to minimise its energy: order, tables of all levels, kernels, matrices. No
+/// vertex is pinned in the layout: fixed coordinates are a mask, which can change. Vertices are in the user's order;
+/// lengths are those of the mesh.
 template <class Element>
 class live_map
 {
@@ -40,7 +40,7 @@ public:
         load(x);
     }
 
-    /// Takes an injective map in the place of the one at hand.
+    /// Replaces the map by an injective one.
     void load(const map& x)
     {
         centre_ = bounding_box<D>(x).centre;
@@ -49,7 +49,7 @@ public:
         objective_.upload(local, x_);
     }
 
-    /// In the user's numbers; marks: which coordinates are fixed, one per vertex, or none.
+    /// Replaces the constraints, in the user's numbering; marks: which coordinates are fixed, one per vertex, or none.
     void constrain(const held_marks<D>& marks, const std::vector<directed_spring<D>>& springs,
                    const std::vector<slide<D>>& slides)
     {
@@ -66,7 +66,7 @@ public:
         objective_.aim(local);
     }
 
-    /// Brings fixed coordinates, gap away in the worst case, to what aim() said.
+    /// Brings fixed coordinates, at most `gap` away, to the targets of aim().
     solve::prescribed_report follow(double gap, const std::function<bool(const solve::prescribed_report&)>& proceed)
     {
         // Shapes in space are stretched on purpose, and a jam shows by crawling.

@@ -18,8 +18,8 @@
 namespace taut::impl
 {
 
-/// A mesh and its fixed coordinates as kernels/untangle.cl reads them: renumbered for locality, with the vertices that
-/// move first, structures of arrays of padded length.
+/// Mesh and fixed coordinates in the layout of kernels/untangle.cl: renumbered for locality, moving vertices first,
+/// structures of arrays of padded length.
 template <class Element>
 struct operator_arrays
 {
@@ -60,7 +60,7 @@ struct operator_arrays
     range rows() const { return form.items(padded(moving, static_cast<std::size_t>(form.slice))); }
 
 private:
-    /// Lists in slices as wide as their longest; missing places are those of the last cell, which is padding.
+    /// Makes sliced lists as wide as the longest of a slice; missing entries refer to the last cell, which is padding.
     void make_lists(queue& q, const csr& around)
     {
         const auto slice = static_cast<std::size_t>(form.slice);

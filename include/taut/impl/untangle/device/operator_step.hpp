@@ -15,8 +15,8 @@
 namespace taut::impl
 {
 
-/// One iteration of the topological operators (paper, Algorithm 2, lines 3 to 7), on the host and in double: what the
-/// kernels of untangle_operator are held against.
+/// One iteration of the topological operators (paper, Algorithm 2, lines 3 to 7), on the host and in double: the
+/// reference for the kernels of untangle_operator.
 ///
 /// Vertices of elements with det <= margin move along the gradient of +det, which is what the right sides of eqs. 23
 /// and 24 are, and away from shear (Fig. 10). The sum is over those elements alone: over all elements around an inner

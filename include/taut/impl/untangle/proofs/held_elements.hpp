@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// True if fixed coordinates makes an element flat, wherever its free coordinates go: all corners share a fixed
+/// True if fixed coordinates make an element flat for any values of its free coordinates: all corners share a fixed
 /// coordinate, two pinned corners coincide, or three pinned corners of a tetrahedron lie on a line.
 template <class Element>
 bool held_flat(const untangle_problem<Element>& p, const typename mesh<Element>::cell& cell)

@@ -64,7 +64,7 @@ constexpr const char* to_string(infeasibility_kind kind)
 namespace taut::impl
 {
 
-/// One proof, or one warning, with everything it concerns, and a sentence for people with the remedy.
+/// One proof or warning, with the ids it concerns, and a sentence with the remedy.
 struct infeasibility_finding
 {
     infeasibility_kind kind;

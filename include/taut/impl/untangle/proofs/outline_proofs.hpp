@@ -58,7 +58,7 @@ inline std::optional<long long> turning_number(const mesh<triangle>& m, const fa
     return std::llround(sum / (2 * std::numbers::pi));
 }
 
-/// Patches that no map fills with positive elements.
+/// Finds patches that no map of positive elements has.
 template <class Element>
 void judge_patches(const untangle_problem<Element>& p, const facet_table& f, infeasibility& found)
 {

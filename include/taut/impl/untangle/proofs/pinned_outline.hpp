@@ -77,15 +77,15 @@ inline std::optional<int> winding_number(std::span<const std::array<idx, 2>> out
     return winding;
 }
 
-/// A point about which an outline winds less than 0 times.
+/// Point with a negative winding number of the outline.
 struct negative_winding
 {
     vec2 point;
     int winding;
 };
 
-/// Looks for such a point: to the right of both edges at each crossing, where the winding number is least, and right of
-/// each edge that overlaps another one. What is found is exact; floating point only chooses where to look.
+/// Searches for such a point: to the right of both edges at each crossing, where the winding number is minimal, and
+/// right of each edge that overlaps another one. The result is exact; floating point only chooses the candidates.
 inline std::optional<negative_winding> find_negative_winding(std::span<const std::array<idx, 2>> outline,
                                                              std::span<const vec2> x)
 {

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// A flat side of a pinned outline: the pinned vertices of one coordinate, none of which lies beyond.
+/// Flat side of a pinned outline: the pinned vertices of one coordinate, beyond which there are none.
 struct flat_side
 {
     int axis = 0;
