@@ -110,8 +110,8 @@ namespace taut::io
 /// for bit. All else is as it was: every member of the JSON, the bytes of every bufferView that needs no change, and
 /// images, whose URIs are made relative to the new file. All buffers become one.
 ///
-/// corner_uv: one per corner of model.triangles, v downwards; a triangle with a corner that is not finite has no place:
-///               it lies in one point, (0, 0)
+/// corner_uv:    one per corner of model.triangles, v downwards; a triangle with a non-finite corner is mapped to the
+///               point (0, 0)
 /// texcoord_set: the N of TEXCOORD_N
 /// path:         ends in .glb or .gltf
 /// Throws io_error, also as gltf_data_file() does; parameter_error for a wrong number of corner_uv, a set without those

@@ -68,8 +68,8 @@ namespace taut
 /// the gaps, concavities and holes of each other. The same input gives the same layout whatever the number of threads.
 ///
 /// uv:           #V points in any one unit, finite
-/// cells: their triangles; a chart that is folded, or overlaps itself, excludes others from all that it covers
-/// first_cell: #charts + 1: the triangles of a chart are in one piece
+/// cells:        their triangles; a chart that is folded, or overlaps itself, excludes others from all that it covers
+/// first_cell:   #charts + 1: the triangles of a chart are in one piece
 /// first_vertex: #charts + 1: so are its vertices
 ///
 /// certify_packing() (packing/certificate.hpp) measures the result of any packer.
