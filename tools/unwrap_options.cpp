@@ -133,13 +133,12 @@ void check(const unwrap_options& o)
         throw usage_error("--boundary circle and square lay the boundary anew, which --start uv does not; "
                           "leave out one of them");
     if (o.start == start_kind::conformal && o.boundary != boundary_kind::free)
-        throw usage_error(
-            "--start conformal moves the boundary, which --boundary circle and square hold; leave out one "
-            "of them");
+        throw usage_error("--start conformal moves the boundary, which --boundary circle and square fix; "
+                          "leave out one of them");
     if (o.start == start_kind::coarse && !to_params(o).uses_levels())
         throw usage_error("--start coarse needs --solver newton or mg-lbfgs, which work on coarser meshes");
     if (o.placement != placement::upright && !o.pins.empty())
-        throw usage_error("--placement: --pins hold the map where it is; leave one of them out");
+        throw usage_error("--placement: --pins fix the map; leave one of them out");
     if ((o.up || o.front) && o.render.empty())
         throw usage_error("--up and --front turn the picture of --render; name one");
     if (o.tolerance && !(*o.tolerance < 1)) throw usage_error("--tolerance: must be below 1");

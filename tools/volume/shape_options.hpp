@@ -47,7 +47,8 @@ struct shape_options
 
 /// A note of a mesh that nothing deforms.
 inline constexpr const char* nothing_held =
-    "nothing is held or moved, so the mesh takes its shape at rest; --pins, --fix and --move say what is";
+    "nothing is fixed or moved, so the mesh takes its rest shape; use --pins, --fix "
+    "or --move";
 
 /// Declare the options of either command; they are filled when the program's arguments are parsed.
 void declare_deform(CLI::App& app, shape_options& options);

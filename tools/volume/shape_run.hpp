@@ -211,8 +211,8 @@ private:
         }
         if (!options_.smoothing && report_.pins + report_.springs == 0) add_note(nothing_held);
         if (options_.smoothing && options_.boundary == smooth_boundary::free && fixed_.empty())
-            add_note("nothing is held, and the boundary is free: the mesh may come to lie elsewhere; --fix says what "
-                     "stays");
+            add_note("nothing is fixed, and the boundary is free: the mesh may move as a whole; --fix "
+                     "prevents that");
         take(std::move(x));
         report_.run.notes.insert(report_.run.notes.end(), notes_.begin(), notes_.end());
     }

@@ -124,7 +124,7 @@ public:
     {
         if (vertices_.empty()) return {};
         return impl::list_ids("pin", "pins", vertices_) + (vertices_.size() == 1 ? " is" : " are") +
-               " rounded to the single precision of the file, by " + number(largest_) + " at most, and held there";
+               " rounded to the single precision of the file, by " + number(largest_) + " at most, and fixed there";
     }
 
 private:

@@ -117,8 +117,8 @@ protected:
         std::vector<char> wanted(laid.energy.size());
         for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
         if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)
-            report_.notes.push_back("what had no map by then became " + std::to_string(lay_patches(laid, wanted)) +
-                                    " charts, laid as they are seen");
+            report_.notes.push_back("parts without a map by then became " + std::to_string(lay_patches(laid, wanted)) +
+                                    " planar-projection charts");
         cut(laid);
     }
 

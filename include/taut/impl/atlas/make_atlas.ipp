@@ -152,7 +152,7 @@ private:
         const auto count = std::count_if(densities.begin(), densities.end(), [](double x) { return x > 1; });
         if (count > 0)
             report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart is" : " charts are") +
-                                    " laid larger than others, as the numbers of the file are too coarse for " +
+                                    " scaled up, as the numbers of the file are too coarse for " +
                                     (count == 1 ? "it" : "them"));
     }
 
@@ -198,7 +198,7 @@ private:
         report_.seconds.certify += budget_.lap();
         if (!report_.flips)
             report_.reason = std::to_string(report_.flips.flipped) + " triangles" + turned_ids() +
-                             " are turned over by the digits of the file; " + remedy;
+                             " are flipped by the digits of the file; " + remedy;
         else if (const auto bad = std::find(crossing.begin(), crossing.end(), char(1)); bad != crossing.end())
             report_.reason = "the border of chart " + std::to_string(bad - crossing.begin()) + ", that of triangle " +
                              std::to_string(first_triangle(static_cast<std::size_t>(bad - crossing.begin()))) +
@@ -217,8 +217,7 @@ private:
                                     "of them turn over");
     }
 
-    static constexpr const char* remedy =
-        "a file with more digits (.obj) may hold them, or --upright lay them where they are right";
+    static constexpr const char* remedy = "a file with more digits (.obj) may keep them, or --upright";
 
     idx first_triangle(std::size_t chart) const { return charts_->cell_origins[u(charts_->first_cell[chart])]; }
 

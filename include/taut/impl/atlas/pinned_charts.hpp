@@ -148,7 +148,7 @@ private:
             vec2 low(std::numeric_limits<double>::infinity()), high = -low;
             for (auto v = u(pinned_.charts.first_vertex[u(k)]); v < u(pinned_.charts.first_vertex[u(k) + 1]); ++v)
             {
-                if (!finite(uv_[v])) refuse(k, "has no place, or one that is no number");
+                if (!finite(uv_[v])) refuse(k, "has no texture coordinate, or a non-finite one");
                 low = glm::min(low, uv_[v]);
                 high = glm::max(high, uv_[v]);
             }

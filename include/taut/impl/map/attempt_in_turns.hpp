@@ -38,7 +38,7 @@ inline attempt attempt_in_turns(const map_run& run, const run_start& start)
     attempt next = first.certified ? once(precision::fp64, left, first.arrival)
                                    : once(precision::fp64, stopping.max_iterations, {});
     next.notes.push_back(first.certified ? "float could not reach the tolerance; continued in double"
-                                         : "float could not hold this map; repeated in double");
+                                         : "single precision does not suffice for this map; repeated in double");
     if (!next.descent) next.descent = std::move(first.descent);
     if (!next.stopped)
     {

@@ -21,7 +21,7 @@ session_result<Element> settled(session_result<Element> result)
     {
         r.outcome = r.stopped ? outcome::stopped : outcome::gave_up;
         r.reason = "vertex " + std::to_string(r.farthest) + " is " + std::to_string(r.distance) + " from its place" +
-                   (r.stopped ? "; give it more time" : "; no way there was found");
+                   (r.stopped ? "; give it more time" : "; no path there was found");
         r.ids = {r.farthest};
     }
     return result;

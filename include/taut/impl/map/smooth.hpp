@@ -191,7 +191,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
             }
         }
         if (!report.converged && !report.stopped)
-            report.notes.push_back("steps ended before they converged; what is written is as far as they came");
+            report.notes.push_back("steps ended before convergence; the result is the best by then");
     }
     result.x = restored(std::move(found.x));
     result.report = std::move(found.report);

@@ -75,7 +75,7 @@ private:
         {
             const auto text = impl::list_ids("triangle", "triangles", alone);
             throw mesh_error(mesh_fault::several_components, std::move(alone),
-                             text + " without a neighbour, which cannot bend; leave out what is alone");
+                             text + " without a neighbour, which cannot bend; remove isolated ones");
         }
         return found;
     }

@@ -123,7 +123,7 @@ private:
         }
         if (best.side > 0) return best;
         throw packing_error(packing_fault::no_room, {},
-                            "what is pinned leaves no room for other charts; pin fewer, or ask for more tiles");
+                            "pinned charts leave no room for others; pin fewer, or ask for more tiles");
     }
 
     /// The cells of the walls, and of what is as near to them as pieces may not be, in tiles of so many cells per side.

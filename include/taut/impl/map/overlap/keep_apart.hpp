@@ -165,7 +165,7 @@ inline map_result kept_apart(const map_run& run, map_result r)
         return refused(std::move(r), {outcome::infeasible,
                                       "edges " + std::to_string(ends[0]) + '-' + std::to_string(ends[1]) + " and " +
                                           std::to_string(ends[2]) + '-' + std::to_string(ends[3]) +
-                                          " of the boundary are held across each other",
+                                          " of the boundary are fixed across each other",
                                       ends});
     start_map start = start_apart(run, loops);
     run.clock.stages.add({.stage = "start", .vertices = run.vertices()});
@@ -187,9 +187,10 @@ inline map_result kept_apart(const map_run& run, map_result r)
     solved.iterations += rounds.steps();
     solved.stop = rounds.stop();
     if (rounds.rounds() == 0 && !run.held.marks().empty())
-        return refused(
-            std::move(r),
-            {outcome::gave_up, "no way was found from a map whose boundary does not cross itself to what is held", {}});
+        return refused(std::move(r), {outcome::gave_up,
+                                      "no path was found from a map whose boundary does not cross itself to the fixed "
+                                      "vertices",
+                                      {}});
     if (!rounds.places_held())
         return refused(std::move(r), {outcome::gave_up,
                                       "without crossings of the boundary vertex " + std::to_string(rounds.farthest()) +

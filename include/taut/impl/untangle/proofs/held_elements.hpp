@@ -72,10 +72,13 @@ void judge_elements(const untangle_problem<Element>& p, infeasibility& found)
     found.prove(infeasibility_kind::inverted_element, std::move(inverted),
                 [&](const auto& ids)
                 { return cells(ids) + " with all vertices pinned, flipped or flat; move or free a vertex of each"; });
-    found.prove(
-        infeasibility_kind::flat_element, std::move(flat),
-        [&](const auto& ids)
-        { return cells(ids) + " that what is held makes flat wherever the rest goes; move or free a vertex of each"; });
+    found.prove(infeasibility_kind::flat_element, std::move(flat),
+                [&](const auto& ids)
+                {
+                    return cells(ids) +
+                           " that fixed coordinates make flat wherever the others go; move or free a vertex "
+                           "of each";
+                });
 }
 
 } // namespace taut::impl
