@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """documents.py ROOT: pages for users are free of the idioms of a laboratory, and no link within the repository is dead.
 
-Pages for users are README.md and docs/ but for docs/log, which says what was tried and when. Links are those of all
-documents, with their headings, and pages that sources name as docs/FOLDER/PAGE.md."""
+Pages for users are README.md and docs/ but for docs/log, which says what was tried and when. Those that are no
+explanation name public headers alone, no path below impl/. Links are those of all documents, with their headings, and
+pages that sources name as docs/FOLDER/PAGE.md."""
 
 import pathlib
 import re
@@ -15,6 +16,7 @@ IDIOMS = [
     r"next to nothing", r"\bfound and told\b", r"\bno numbers\b", r"\bwhoever laid\b", r"\bsewn along\b",
     r"\bwho has stopped\b", r"\bwhat nothing holds\b", r"became [0-9]", r"\bidle cores\b", r"in the same hour",
 ]
+EXPLANATION = ["explanation", "log"]
 GONE = re.compile(r"TAUT_COMPILED|taut::compiled|TAUT_ON_USE")
 SOURCES = ["include", "src", "tools", "tests", "examples", "bench", "scripts", "cmake", "kernels"]
 
@@ -53,6 +55,11 @@ def main():
 
     for page in documents:
         log = root / "docs" / "log" in page.parents
+        internal = page.name == "CHANGELOG.md" or any(root / "docs" / kind in page.parents for kind in EXPLANATION)
+        if not internal:
+            for number, line in enumerate(page.read_text(encoding="utf-8").split("\n"), 1):
+                if found := re.search(r"\bimpl(?:/|::)[\w/.:]*", line):
+                    fault(page, number, f"{found[0]} is internal; name a public header, or say what happens")
         for number, line in enumerate(without_code(page.read_text(encoding="utf-8")), 1):
             if not log and page.name != "CHANGELOG.md":
                 if found := GONE.search(line):

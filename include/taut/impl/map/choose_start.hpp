@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// Computes the map of a run without the constraints; none if that has no valid one. Defined in parameterization.hpp.
+/// Computes the map of a run without the constraints; none if that has no valid one. Defined in mapped.hpp.
 inline std::vector<vec2> free_draft(const map_run& run);
 
 /// Chooses the first of these that works: a penalty continuation for pins on levels; where that fails and the boundary
