@@ -38,7 +38,7 @@ struct atlas_seconds
     double certify = 0;
 };
 
-/// The plane of a surface that is its own mirror image, and its charts.
+/// Plane of symmetry of a surface, and counts of its charts.
 struct atlas_symmetry
 {
     vec3 normal{0.0};

@@ -50,7 +50,7 @@ inline std::vector<char> seams_between(const facet_table& f, std::span<const idx
     return seam;
 }
 
-/// The polygon of each triangle, by the first of its triangles.
+/// Polygon of each triangle, by the first of its triangles.
 /// together: one flag per side of the surface, 1 on the diagonals of polygons; or empty
 inline std::vector<idx> polygons_of(const facet_table& f, std::span<const char> together)
 {
@@ -103,7 +103,7 @@ inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std
     return length;
 }
 
-/// The sides of a surface, whose facets are `f`, at which two triangles have no common edge in its charts.
+/// Sides of a surface, whose facets are `f`, at which two triangles have no common edge in its charts.
 inline std::vector<char> seams_of(const chart_mesh& charts, const facet_table& f)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
@@ -120,8 +120,8 @@ inline std::vector<char> seams_of(const chart_mesh& charts, const facet_table& f
     return seam;
 }
 
-/// The pieces of a surface that hang together across edges that are no seams: the number of its piece for each
-/// triangle, pieces in the order of their first triangles, and how many there are.
+/// Connected pieces of a surface cut along seams: the piece of each triangle, pieces in the order of their first
+/// triangles, and their number.
 inline std::pair<std::vector<idx>, idx> pieces_between(const facet_table& f, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
@@ -149,7 +149,7 @@ inline std::pair<std::vector<idx>, idx> pieces_between(const facet_table& f, std
     return {std::move(piece), pieces};
 }
 
-/// The fans that seams part the triangles around vertices into.
+/// Fans of triangles around vertices between seams.
 struct vertex_fans
 {
     std::vector<idx> of_corner;    ///< one per corner
@@ -187,8 +187,8 @@ inline vertex_fans fans_between(const mesh<triangle>& m, const facet_table& f, s
 namespace taut
 {
 
-/// Cuts a surface apart along seams. What hangs together across other edges is a chart, and a vertex becomes one vertex
-/// for each of the fans that seams part its triangles into.
+/// Cuts a surface apart along seams. Charts are the components connected across other edges, and a vertex becomes one
+/// vertex for each fan of its triangles between seams.
 /// m:    without non-manifold facets (mesh/facets.hpp), which are `f`
 /// seam: one flag per side, the same on both sides of an edge; sides without a twin need none
 inline chart_mesh cut_charts(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)

@@ -41,7 +41,7 @@ struct cluster_tree
 
     idx nodes() const { return leaves + static_cast<idx>(children.size()); }
 
-    /// The charts of an antichain: for each triangle the node among `chosen` (one flag per node) that it is in.
+    /// Charts of an antichain: for each triangle the node among `chosen` (one flag per node) that it is in.
     std::vector<idx> labels(std::span<const char> chosen) const
     {
         std::vector<idx> label(static_cast<std::size_t>(nodes()), none);
@@ -57,7 +57,7 @@ struct cluster_tree
         return label;
     }
 
-    /// The seams of charts as labels() gives them, one flag per side: edges between charts, and slits in a chart.
+    /// Seams of charts as given by labels(), one flag per side: edges between charts, and slits in a chart.
     std::vector<char> seams(const facet_table& f, std::span<const idx> label) const
     {
         std::vector<char> seam = seams_between(f, label);
@@ -71,12 +71,12 @@ struct cluster_tree
     }
 };
 
-/// Unites neighbouring pieces, those first that save most length of seam for the distortion that it costs.
+/// Unites neighbouring pieces in the order of merge cost, added distortion per saved seam length.
 class clustering
 {
 public:
-    /// keep: one flag per side, edges that remain seams, or empty; together: those that go before all others, or empty
-    /// apart: pairs of triangles that no piece has both of
+    /// keep: one flag per side, edges that remain seams, or empty; together: edges removed before all others, or empty
+    /// apart: pairs of triangles that are kept in different pieces
     clustering(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep,
                std::span<const char> together, std::span<const std::array<idx, 2>> apart)
         : mesh_(m),
@@ -126,7 +126,7 @@ public:
             }
     }
 
-    /// limits: asked now and then; where it says no, pieces remain as they are by then
+    /// limits: asked periodically; once it refuses, the current pieces are returned
     cluster_tree run(budget* limits)
     {
         constexpr int often = 4096; // some milliseconds
@@ -189,9 +189,9 @@ private:
 
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// Tells corners and open holes by the Gaussian curvature of nodes. A hole is filled with a polygon of equal
-    /// angles; a hole that is then far from flat is open: a border that no chart closes around. A corner is curved
-    /// together with its neighbours, too: noise is not.
+    /// Detects corners and open holes by the Gaussian curvature of nodes. A hole is filled with a polygon of equal
+    /// angles; a hole that is then far from flat is open: no chart encloses it. A corner is curved together with its
+    /// neighbours, too, unlike noise.
     void measure_nodes()
     {
         constexpr double pi = std::numbers::pi;
@@ -227,7 +227,7 @@ private:
         }
     }
 
-    /// The piece that there is when an arc is gone.
+    /// Piece that results from the removal of an arc.
     chart_moments without(idx h)
     {
         chart_moments result = pieces_[u(graph_.polygon(h))].moments;
@@ -250,14 +250,14 @@ private:
         return (cost + without(h).strain()) / arcs_[u(h)].worth;
     }
 
-    /// Returns whether all that would bound the piece is a slit of one edge, which opens nothing.
+    /// Returns whether the boundary of the piece would be a slit of one edge.
     bool leaves_one_edge(idx h) const
     {
         const idx last = graph_.last_without(h);
         return last >= 0 && arcs_[u(last)].first == arcs_[u(last)].last;
     }
 
-    /// Returns whether two pieces, by their polygons, have triangles that are to be apart.
+    /// Returns whether two pieces, by their polygons, have triangles that must be separate.
     bool are_rivals(idx p, idx q)
     {
         if (rivals_.empty()) return false;
@@ -356,11 +356,11 @@ private:
 };
 
 /// Clusters a surface. Deterministic; time O(n log n).
-/// m:    an oriented manifold; several components, handles and holes are welcome; f: its facets
+/// m:    an oriented manifold; with any components, handles and holes; f: its facets
 /// keep: one flag per side, edges that are to remain seams, the same on both sides; or empty
-/// together: edges whose triangles are united before all others, in the same way
-/// apart: pairs of triangles that no piece is to have both of
-/// limits: asked now and then, or null; where it says no, what is united by then is the tree
+/// together: edges whose triangles are united before all others, in the same way apart: pairs of triangles that are
+///           kept in different pieces
+/// limits: asked periodically, or null; once it refuses, the current tree is returned
 inline cluster_tree make_cluster_tree(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep = {},
                                       std::span<const char> together = {},
                                       std::span<const std::array<idx, 2>> apart = {}, budget* limits = nullptr)

@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// Returns whether the image of a loop that does not meet itself has its inside to its left; exact.
+/// Returns whether the image of a simple loop is counter-clockwise; exact.
 inline bool turns_left(std::span<const idx> loop, std::span<const vec2> uv)
 {
     const auto at = [&](std::size_t k) { return uv[static_cast<std::size_t>(loop[k % loop.size()])]; };
@@ -25,9 +25,9 @@ inline bool turns_left(std::span<const idx> loop, std::span<const vec2> uv)
     return orient2d(at(first + loop.size() - 1), at(first), at(first + 1)) > 0;
 }
 
-/// Returns whether the borders of a chart show that its map, free of flips, covers something twice. How often a point
-/// is covered is the sum of how often the borders wind around it: at most once if they are simple, apart from each
-/// other, and all but one run around holes.
+/// Returns whether the borders of a chart show that its map, free of flips, overlaps. The number of times that a point
+/// is covered is the sum of the winding numbers of the borders: at most once if they are simple, apart from each other,
+/// and all but one run around holes.
 inline bool overlaps_itself(std::span<const std::vector<idx>> loops, std::span<const vec2> uv)
 {
     const auto left = [&](const std::vector<idx>& loop) { return turns_left(loop, uv); };

@@ -27,7 +27,7 @@
 namespace taut::impl
 {
 
-/// The charts of a surface with their maps, each where it was flattened: the first phases of make_atlas().
+/// Charts of a surface with their maps, each as flattened: the first phases of make_atlas().
 class flat_charts
 {
 public:
@@ -50,14 +50,14 @@ public:
 protected:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// The triangles of the surface in the plane, in its units, each as it lies in its chart.
+    /// Triangles of the surface in the plane, in its units, as in their charts.
     struct laid_triangles
     {
         std::vector<vec2> uv;       // one per corner
         std::vector<double> energy; // one per triangle: of its chart
     };
 
-    /// Asks whether to go on, in a stage.
+    /// Checks the limits, in a stage.
     observer asking(std::string_view stage)
     {
         return [this, stage](const progress& p)
@@ -73,7 +73,7 @@ protected:
         };
     }
 
-    /// All charts at once. steps: of each, at most
+    /// Flattens all charts at once. steps: maximum for each
     flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps)
     {
         auto params = params_.flattening;
@@ -110,7 +110,7 @@ protected:
         if (report_.complete) mend(unfit());
     }
 
-    /// The charts of a run that has ended; those that have no map yet, or none that is any good, as they are seen.
+    /// Charts of a run that has ended; those without a valid map as planar projections.
     void cut_unfinished(laid_triangles laid, std::span<const char> crosses)
     {
         const double most = std::max(seen_patches::most_energy, params_.charts.max_distortion);
@@ -149,8 +149,8 @@ protected:
         mend(turned());
     }
 
-    /// One flag per chart: 1 where a triangle is turned over, as it may be where polygons that are mirror images are
-    /// cut along other diagonals.
+    /// One flag per chart: 1 where a triangle is flipped, as may happen where polygons that are mirror images are cut
+    /// along other diagonals.
     std::vector<char> turned() const
     {
         std::vector<char> bad(energy_.size(), 0);
@@ -194,7 +194,7 @@ protected:
         return bad;
     }
 
-    /// Keeps the borders of these charts apart, and takes those apart for which that does not succeed.
+    /// Removes the crossings of the borders of these charts, and divides those for which that fails.
     void mend(std::vector<char> bad)
     {
         constexpr idx most = 32; // one by one: more would take long
@@ -239,8 +239,8 @@ protected:
         if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
     }
 
-    /// These charts become patches that lie as they are seen; charts that are to be kept cannot.
-    /// largest: triangles of a patch at most
+    /// Divides these charts into planar-projection patches, unless they are to be kept. largest: maximum number of
+    /// triangles of a patch
     void take_apart(const std::vector<char>& bad, std::size_t largest = 1024)
     {
         if (!report_.reason.empty()) return;
@@ -264,7 +264,7 @@ protected:
                                 std::to_string(patches) + ", laid as they are seen");
     }
 
-    /// These triangles, one flag each, become patches of so many at most. Returns how many patches there are.
+    /// Divides these triangles, one flag each, into patches of a maximum size. Returns the number of patches.
     std::size_t lay_patches(laid_triangles& laid, std::vector<char> wanted, std::size_t largest = 1024)
     {
         constexpr std::ptrdiff_t many = 50'000; // worth more threads, where what comes of it is for want of time
@@ -281,7 +281,7 @@ protected:
         return seen.energy.size();
     }
 
-    /// The triangles of the surface as they lie in the charts.
+    /// Triangles of the surface as mapped in the charts.
     laid_triangles triangles_as_laid() const
     {
         laid_triangles laid{std::vector<vec2>(facets_.twin.size()), std::vector<double>(mesh_.cells().size())};
@@ -293,7 +293,7 @@ protected:
         return laid;
     }
 
-    /// Lays some triangles in other places, and has seams there. label(triangle): of its chart, -1 where all stays;
+    /// Replaces the maps of some triangles, with seams around them. label(triangle): its new chart, -1 if unchanged;
     /// energy_of(label), uv_of(triangle, corner): of the new ones
     template <class Label, class Energy, class Map>
     void lay_anew(laid_triangles& laid, Label&& label, Energy&& energy_of, Map&& uv_of)
@@ -329,7 +329,7 @@ protected:
             energy_.push_back(laid.energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
     }
 
-    /// Polygons that several charts have parts of become charts by themselves.
+    /// Makes polygons that are divided by seams charts of their own.
     void join_polygons()
     {
         const auto& together = params_.charts.together;

@@ -96,7 +96,7 @@ private:
         return clock_.proceed({.iteration = done_, .value = mapped > 0 ? sum / mapped : 0.0, .usable = mapped > 0});
     }
 
-    /// Orders all charts and makes their first maps.
+    /// Orders all charts and computes their initial maps.
     void prepare()
     {
         for_each(work_.size(),
@@ -135,7 +135,7 @@ private:
         return uv;
     }
 
-    /// Newton's method, in batches whose arrays fit the memory of a device well.
+    /// Runs Newton's method in batches that fit the memory of a device.
     void minimize()
     {
         std::vector<std::size_t> by_size;
@@ -198,7 +198,7 @@ private:
         result_.seconds.solve += clock_.lap();
     }
 
-    /// The large charts, one by one.
+    /// Solves the large charts, one by one.
     void map_large()
     {
         for (std::size_t k = 0; k < work_.size(); ++k)
@@ -238,7 +238,7 @@ private:
         ++done_;
     }
 
-    /// Brings the maps to the units of the surface and looks at what came out.
+    /// Converts the maps to the units of the surface and certifies them.
     void certify()
     {
         parallel_for(

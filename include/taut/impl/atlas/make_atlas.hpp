@@ -44,9 +44,9 @@ inline constexpr mesh_requirements atlas_requirements{
 /// of them at once on the queue's device, packs them, and certifies the result in exact arithmetic.
 ///
 /// m: an oriented manifold without flat triangles; it may have several parts, be closed, have handles and holes.
-///    repair_surface() (repair/repair_surface.hpp) makes one of what is not.
-/// A run that the time limit or the observer ends returns charts as they are by then, packed and certified all the
-/// same; atlas_report::complete is false. Throws mesh_error, symmetry_error, parameter_error, device_error,
+///    repair_surface() (repair/repair_surface.hpp) makes one of other input. A run that the time limit or the observer
+///    ends returns the current charts, packed and certified all the same; atlas_report::complete is false. Throws
+///    mesh_error, symmetry_error, parameter_error, device_error,
 /// build_error.
 atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params = {});
 

@@ -47,7 +47,7 @@ public:
         return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
     }
 
-    /// The pinned charts of this surface with an atlas of the rest, certified together.
+    /// Joins the pinned charts of this surface with an atlas of the rest, certified together.
     atlas with(const pinned_charts& pins, atlas made)
     {
         budget_.lap(); // what the rest took is in its report
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    /// Lays charts in the tiles, as a file holds them.
+    /// Packs charts into the tiles, rounded as in the file.
     void lay()
     {
         if (!report_.reason.empty())
@@ -102,8 +102,8 @@ private:
         report_.seconds.pack += budget_.lap();
     }
 
-    /// Charts that rounding spoils, and that cannot be mended where they lie, are laid anew: larger, if they are small
-    /// for the digits of the file, else in smaller patches.
+    /// Replaces charts that rounding makes invalid and that cannot be corrected in place: by larger ones, if they are
+    /// small for the digits of the file, else by smaller patches.
     void settle()
     {
         constexpr int most_rounds = 32; // places change for all charts, and so do the digits of those that were good
@@ -125,8 +125,8 @@ private:
         }
     }
 
-    /// Has a chart laid larger if its triangles are not much larger than the steps of the file's numbers. Returns
-    /// whether they are not.
+    /// Scales a chart up if its triangles are not much larger than the units of the file's numbers. Returns whether it
+    /// did.
     bool enlarge(std::size_t k)
     {
         const std::span own(uv_.data() + charts_->first_vertex[k], uv_.data() + charts_->first_vertex[k + 1]);

@@ -20,11 +20,11 @@
 namespace taut::impl
 {
 
-/// Charts that stay where they are, and the rest of their surface.
+/// Pinned charts, and the rest of their surface.
 class pinned_charts
 {
 public:
-    /// Refers to all; some triangles are pinned. Throws packing_error where charts cannot stay.
+    /// Refers to all; some triangles are pinned. Throws packing_error where pinned charts are invalid.
     pinned_charts(const mesh<triangle>& m, const facet_table& f, const atlas_params& params)
         : mesh_(m),
           params_(params),
@@ -112,7 +112,7 @@ public:
 
     idx charts() const { return pinned_.charts.charts(); }
 
-    /// The area of their triangles where they lie.
+    /// Area of their triangles in the atlas.
     double area() const
     {
         double sum = 0;

@@ -17,8 +17,8 @@
 namespace taut::impl
 {
 
-/// Disks that a surface is parted into, each as it is seen along the normal of one of its triangles, without flips and
-/// overlaps. They cost next to nothing and have a map whatever the surface is.
+/// Planar-projection charts: disks that a surface is divided into, each projected along the normal of one of its
+/// triangles, without flips and overlaps. They are cheap and exist for any surface.
 struct seen_patches
 {
     std::vector<idx> patch;              ///< one per triangle, -1 where none was wanted
@@ -28,12 +28,11 @@ struct seen_patches
     static constexpr double most_energy = 6.25; ///< that of a triangle which is seen at 60 degrees
 };
 
-/// Grows patches in breadth, in one region of a surface.
+/// Grows patches breadth-first, in one region of a surface.
 class patch_growing
 {
 public:
-    /// patches: those of all regions; it reads and writes what there is of triangles of its own, which gets numbers
-    /// from 0
+    /// patches: those of all regions; it reads and writes the entries of its own triangles, which are numbered from 0
     patch_growing(const mesh<triangle>& m, const facet_table& f, std::span<const char> regions, char own,
                   std::span<const char> keep, seen_patches& patches)
         : mesh_(m),
@@ -122,7 +121,7 @@ private:
         return !for_each_meeting(border_, seen_, [](std::size_t, std::size_t) { return false; });
     }
 
-    /// Forgets the last patch.
+    /// Discards the last patch.
     void undo()
     {
         for (const idx c : front_)
@@ -156,7 +155,7 @@ private:
         double area, cosine;
     };
 
-    /// Lays a triangle as it is seen.
+    /// Projects a triangle.
     sight see(idx c)
     {
         constexpr double least = 0.5;
@@ -185,9 +184,9 @@ private:
     std::vector<double> energy_; // one per patch
 };
 
-/// regions: one per triangle, from 1; 0: no patch is wanted there. None leads from one into another, so that they are
-/// parted at the same time.
-/// keep: one flag per side, borders that no patch leads over, or empty; largest: triangles of a patch at most
+/// regions: one per triangle, from 1; 0: no patch there. Patches stay within a region, so that regions are processed in
+/// parallel. keep: one flag per side, borders that no patch crosses, or empty; largest: maximum number of triangles of
+/// a patch
 inline seen_patches lay_as_seen(const mesh<triangle>& m, const facet_table& f, std::span<const char> regions,
                                 std::span<const char> keep, std::size_t largest)
 {
@@ -213,7 +212,7 @@ inline seen_patches lay_as_seen(const mesh<triangle>& m, const facet_table& f, s
     return patches;
 }
 
-/// The octant that each triangle is in, of those about the mean of the vertices: 1 to 8.
+/// Octant of each triangle about the mean of the vertices: 1 to 8.
 inline std::vector<char> octants(const mesh<triangle>& m)
 {
     vec3 sum(0.0);

@@ -19,7 +19,7 @@
 namespace taut::impl
 {
 
-/// The charts of a surface with their maps, and how they are made anew: what cutting and uniting them have in common.
+/// Charts of a surface with their maps, and their replacement in cuts and unions.
 class surface_charts
 {
 public:
@@ -93,7 +93,7 @@ protected:
         return triangles;
     }
 
-    /// Flattens some of the pieces that the nodes of an antichain are, and calls told(node, energy, overlaps itself).
+    /// Flattens some of the pieces of an antichain, and calls told(node, energy, overlaps itself).
     template <class Told>
     void flatten_some(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
                       const std::vector<char>& antichain, const std::vector<char>& some, Told&& told)
@@ -109,7 +109,7 @@ protected:
             told(label[u(part.triangles[u(part.charts.first_cell[u(k)])])], maps.energy[u(k)], shapes[u(k)].crosses);
     }
 
-    /// Makes the charts of these triangles anew, from the seams, and their maps.
+    /// Rebuilds the charts of these triangles from the seams, with their maps.
     void renew(std::span<const idx> triangles)
     {
         for (const idx c : triangles)
@@ -128,7 +128,7 @@ protected:
         return {std::move(maps), std::move(shapes)};
     }
 
-    /// Takes over chart k of a part, with its map.
+    /// Takes chart k of a part, with its map.
     void take(const surface_part& part, const chart_maps& maps, const laid_shape& shape, idx k)
     {
         record r{
@@ -156,7 +156,7 @@ protected:
         return triangles;
     }
 
-    /// Charts that stay although their maps were not finished get maps that are.
+    /// Finishes the maps of the remaining charts.
     void settle()
     {
         std::vector<idx> some;
@@ -179,7 +179,7 @@ protected:
         }
     }
 
-    /// Two charts, or one that is named twice, as they are.
+    /// Joins two charts, or one given twice, as they are.
     record before(const std::array<idx, 2>& charts) const
     {
         const record &a = charts_[u(charts[0])], &b = charts_[u(charts[1])];

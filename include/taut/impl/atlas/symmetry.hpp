@@ -18,7 +18,7 @@ namespace taut
 class symmetry_error : public error
 {
 public:
-    /// edges: all vertices have images, but these have edges that have none
+    /// edges: true if all vertices have images, but edges of these have none
     symmetry_error(const vec3& normal, double offset, std::vector<idx> vertices, bool edges)
         : error(message(normal, offset, vertices, edges)),
           normal_(normal),
@@ -42,7 +42,7 @@ private:
     bool edges_;
 };
 
-/// A plane in which a surface is its own mirror image, vertex by vertex and polygon by polygon.
+/// Plane of symmetry of a surface, vertex by vertex and polygon by polygon.
 struct mirror_symmetry
 {
     vec3 normal{0.0};  ///< unit normal of the plane
@@ -69,7 +69,7 @@ struct mirror_symmetry
 
 /// Finds a plane in which a surface is its own mirror image.
 /// together:  diagonals of polygons, as in segment_params: they need no images
-/// tolerance: how far a vertex may be from where it has to be, of the diagonal of the box
+/// tolerance: maximum distance of a vertex from the image of another one, relative to the diagonal of the box
 /// Throws symmetry_error if there is none.
 mirror_symmetry find_symmetry(const mesh<triangle>& m, const facet_table& f, std::span<const char> together = {},
                               double tolerance = 1e-4);

@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// A spring with a stiffness per coordinate: it adds the sum over k of stiffness[k] (x - target)[k]^2.
+/// Spring with a stiffness per coordinate: it adds the sum over k of stiffness[k] (x - target)[k]^2.
 template <int D>
 struct directed_spring
 {
@@ -41,7 +41,7 @@ struct point_constraints
 
     bool empty() const { return held.empty() && springs.empty() && slides.empty(); }
 
-    /// For vertices in other numbers.
+    /// Renumbers the vertices.
     point_constraints renumbered(const permutation& p) const
     {
         point_constraints r;
@@ -59,7 +59,7 @@ struct point_constraints
         return r;
     }
 
-    /// For a map whose lengths are `factor` times as long.
+    /// Scales the constraints to a map with lengths multiplied by `factor`.
     point_constraints scaled(double factor) const
     {
         point_constraints r = *this;

@@ -23,16 +23,14 @@ struct untangle_problem
     mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
     std::vector<vec<D>> initial; ///< one per vertex, in any state; a fixed coordinate is a hard constraint
     impl::held_marks<D> held;    ///< one per vertex
-    /// A map near to the one that is sought, without a defect, that need not have fixed coordinates at their targets;
-    /// empty: none is known.
+    /// Initial guess: a valid map near the solution, whose fixed coordinates need not be at their targets; empty: none.
     std::vector<vec<D>> draft = {};
     /// Target shapes of elements, if not those at rest: edge matrices, upper triangular with a positive diagonal, one
     /// per cell; their measures are weights, too.
     std::vector<mat<D>> wanted = {};
-    /// The cell that each simplex is a corner of (mesh/cell_corners.hpp), where they are corners of others; else empty.
+    /// Owner of each simplex (mesh/cell_corners.hpp), where they are the corners of other cells; else empty.
     std::vector<idx> owners = {};
-    /// Vertices that stages hold where they are, though they may move along a line or in a plane: no proof may count
-    /// on their places.
+    /// Sliding vertices, which stages fix: proofs must not rely on their positions.
     std::vector<idx> sliding = {};
 
     /// Fixed coordinates that proofs may rely on.
@@ -54,7 +52,8 @@ struct untangle_problem
                            });
     }
 
-    /// Throws parameter_error: one initial position and one set of fixed coordinates per vertex, all of it finite.
+    /// Checks the problem: one initial position and one set of fixed coordinates per vertex, all finite. Throws
+    /// parameter_error.
     void validate() const
     {
         const std::size_t n = rest.points().size();

@@ -16,7 +16,7 @@ namespace taut::impl
 unsigned threads_at_once();
 
 /// The threads that help callers of parallel_for, kept between calls: starting one costs as much as a small piece of
-/// work. They look for work for a moment before they sleep, and give way to whoever wants their core.
+/// work. They look for work for a moment before they sleep, and give way to others that wants their core.
 class crew
 {
 public:

@@ -32,16 +32,15 @@ public:
     {
     }
 
-    /// The same energy with numbers that it reads as e.parameter(k). They are arguments of its kernels: other values
-    /// take no other kernel.
+    /// Returns the energy with parameters that it reads as e.parameter(k). They are arguments of its kernels: changing
+    /// them needs no new kernel.
     any_energy with_parameters(std::vector<double> parameters) const
     {
         any_energy e = *this;
         e.parameters_ = std::move(parameters);
         return e;
     }
-    /// With numbers that stand for e.attribute(k) where an element comes without its own, and whether elements come
-    /// with directions (cell_data).
+    /// Returns the energy with default values of e.attribute(k), and whether elements have directions (cell_data).
     any_energy with_data(std::vector<double> usual_attributes, bool directions) const
     {
         any_energy e = *this;
@@ -49,7 +48,7 @@ public:
         e.directions_ = directions;
         return e;
     }
-    /// With another projection of its Hessian where that is not positive semi-definite.
+    /// Returns the energy with another projection of its Hessian where that is not positive semi-definite.
     any_energy with_eigenvalues(impl::negative_eigenvalues treated) const
     {
         any_energy e = *this;
@@ -65,8 +64,8 @@ public:
     /// True if the energy is +infinity where det S <= 0.
     bool barrier() const { return model_->barrier(); }
 
-    /// The density at one element: a number for T = double, a node of the current tape for T = sym<double>, in
-    /// the precision of the recording.
+    /// Evaluates the density at one element: a number for T = double, a node of the current tape for T = sym<double>,
+    /// in the precision of the recording.
     template <class T, int D>
     T operator()(const element<T, D>& e) const
     {
@@ -80,7 +79,7 @@ public:
         return model_->at(full);
     }
 
-    /// Second derivatives by the entries of S, by columns, filtered, of an energy that says them itself, as
+    /// Second derivatives by the entries of S, by columns, filtered, of an energy that provides them, as
     ///
     ///     template <class T>
     ///     symmetric_matrix<T, D * D> hessian(const element<T, D>&, const eigenvalue_filter<T>&, scalar_type) const;

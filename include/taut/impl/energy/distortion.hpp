@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// The map of element c as an energy sees it: S = A W^-1 (eq. 3), with A the edges of the image from corner 0.
+/// Arguments of an energy for element c of a map: S = A W^-1 (eq. 3), with A the edges of the image from corner 0.
 /// x: #V image points, in the units of `ideal`. The measure is the one of `ideal`.
 template <class Element>
 element<double, Element::dimension> mapped_element(const mesh<Element>& m, const ideal_elements<Element>& ideal,
@@ -70,7 +70,7 @@ struct means
     double uniform = 0; ///< every element counts 1, as in the paper
     double measure = 0; ///< every element counts its rest area or volume
 
-    /// Sums on the way to means: adds an element, or other sums; then divides them.
+    /// Accumulates sums: adds an element, or other sums; then divides them.
     void add(double value, double by)
     {
         uniform += value;

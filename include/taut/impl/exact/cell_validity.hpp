@@ -80,7 +80,7 @@ inline std::pair<jacobian_polynomial, jacobian_polynomial> halves(const jacobian
     return result;
 }
 
-/// The axis along which the coefficients are farthest from linear, which halving mends.
+/// Axis along which the coefficients are farthest from linear, to be halved.
 inline std::size_t most_curved_axis(const jacobian_polynomial& p)
 {
     std::array<double, 3> most{};
@@ -92,7 +92,7 @@ inline std::size_t most_curved_axis(const jacobian_polynomial& p)
     return static_cast<std::size_t>(std::max_element(most.begin(), most.end()) - most.begin());
 }
 
-/// By bounds and halving; boxes: how many parts may be looked at.
+/// Decides by bounds and bisection; boxes: maximum number of parts.
 inline cell_validity validity_of(const jacobian_polynomial& whole, std::size_t boxes)
 {
     std::vector<jacobian_polynomial> open{whole};

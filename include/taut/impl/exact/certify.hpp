@@ -34,7 +34,7 @@ struct certificate
 
     std::size_t defects() const { return flipped + branched; }
 
-    /// Takes over what another one counted; the range of det stays.
+    /// Adds the counts of another certificate; the range of det is kept.
     void take_defects(const certificate& other)
     {
         elements = other.elements;
@@ -72,7 +72,7 @@ struct flip_count
         most = std::max(most, det);
     }
 
-    /// Takes in the count of the elements that follow.
+    /// Adds the counts of the following elements.
     void add(const flip_count& next, std::size_t max_ids)
     {
         flipped += next.flipped;

@@ -39,8 +39,8 @@ struct convex_polygons
 namespace taut::impl
 {
 
-/// The outline of triangles that make up a polygon, from one vertex to the next, until the next call on a thread; empty
-/// if it is none without holes.
+/// Outline of the triangles of a polygon, valid until the next call on the thread; empty unless it is a polygon without
+/// holes.
 inline std::span<const idx> outline_of(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon)
 {
     static thread_local std::vector<std::array<idx, 2>> sides, border;
@@ -66,8 +66,8 @@ inline std::span<const idx> outline_of(std::span<const std::array<idx, 3>> cells
     return loop;
 }
 
-/// Returns whether an outline in space is convex, as it is seen along its normal; almost straight corners do not count
-/// as that.
+/// Returns whether an outline in space is convex in projection along its normal; nearly straight corners do not count
+/// as convex.
 inline bool is_convex(std::span<const idx> loop, std::span<const vec3> points)
 {
     constexpr double straight = 1e-6; // sine of the angle

@@ -23,7 +23,7 @@ struct facet_table
     static constexpr idx crowded = -2;  ///< three or more cells share the facet
 
     std::vector<idx> twin;                 ///< other side of each side, or boundary, or crowded
-    std::vector<std::array<idx, 2>> clash; ///< pairs of sides that run the same way: one cell is turned over
+    std::vector<std::array<idx, 2>> clash; ///< pairs of sides that run the same way: one cell is flipped
     std::vector<std::vector<idx>> crowds;  ///< the sides of each facet with three or more
 
     bool manifold() const { return crowds.empty(); }                  ///< at most two cells per facet

@@ -35,7 +35,7 @@ inline std::vector<idx> fans(const placed_triangles& t, const side_pairs& pairs)
     return fan;
 }
 
-/// Opens sides so that vertices name edges and triangles: sheets that touch along an edge and hang together around both
+/// Opens sides so that vertices name edges and triangles: sheets that touch along an edge and are connected around both
 /// its ends have the same two vertices there, as if they were one edge; and a triangle stitched to another at its place
 /// all around has the same three. Fans where that comes from sewing are taken apart again. Where it does not, all sides
 /// of the edge are opened: fans fall apart at each, and a piece between two has these two at most, which run opposite

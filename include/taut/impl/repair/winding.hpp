@@ -38,8 +38,8 @@ inline void choose_way(const placed_triangles& t, std::span<const idx> cells, bo
 
 /// Spreads the winding of a triangle over what hangs together with it, breadth first, so that what must be cut of a
 /// one-sided part is where two fronts meet: about as short as can be. What edges of the input join goes before what is
-/// stitched: a part of the input that agrees with itself is turned over as a whole or not at all. Polygons are reached
-/// as a whole, so that none is cut.
+/// stitched: a part of the input that agrees with itself is flipped as a whole or not at all. Polygons are reached as a
+/// whole, so that none is cut.
 /// twin: the other side of each side, or -1
 inline winding wind(const placed_triangles& t, std::span<const idx> twin)
 {

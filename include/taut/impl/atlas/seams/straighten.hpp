@@ -18,14 +18,14 @@
 namespace taut::impl
 {
 
-/// Moves seams to shorter ways between the nodes at which they end, near where they were. What lies beside an arc stays
-/// as it is connected: the way leads through the inside of the two charts there, which are one disk without the arc, or
-/// through the one chart that has it on both sides.
+/// Moves seams to shorter paths between their end nodes, near their old positions. The topology of the charts is kept:
+/// the path runs through the inside of the two charts beside the arc, which are one disk without it, or of the one
+/// chart that has it on both sides.
 class straightening
 {
 public:
-    /// m: oriented; f: its facets. seam: one flag per side; kept: seams that stay where they are, or empty; together:
-    /// edges that no way leads along, or empty
+    /// m: oriented; f: its facets. seam: one flag per side; kept: seams that are not moved, or empty; together: edges
+    /// that no path uses, or empty
     straightening(const mesh<triangle>& m, const facet_table& f, std::vector<char>& seam, std::span<const char> kept,
                   std::span<const char> together)
         : mesh_(m),
@@ -50,7 +50,7 @@ public:
                 for (const idx v : side_vertices(m, static_cast<idx>(s))) on_seam_[u(v)] = 1;
     }
 
-    /// limits: asked now and then; where it says no, the other seams stay
+    /// limits: asked periodically; once it refuses, the other seams are kept
     void run(budget& limits)
     {
         // Piece by piece, since the shortest way between the ends of a long arc may be another one altogether: around
@@ -131,7 +131,7 @@ private:
         return (a == left_ || a == right_) && (b == left_ || b == right_);
     }
 
-    /// The edges around the start of a side, as far as no seam is between.
+    /// Edges around the start of a side, up to the next seams.
     std::vector<idx> sector(idx side) const
     {
         const auto turned = [](idx s, idx by) { return s / 3 * 3 + (s + by) % 3; };
@@ -151,7 +151,7 @@ private:
         return result;
     }
 
-    /// The vertices within some rings of an arc that a way may lead through, and its ends.
+    /// Vertices within some rings of an arc that a path may use, and its ends.
     void gather_band(std::span<const idx> arc, idx to)
     {
         constexpr idx rings = 3; // of triangles: seams that lead over the tip of a finger are to stay there
@@ -177,7 +177,7 @@ private:
         }
     }
 
-    /// Dijkstra's algorithm in the band, from one of the sides `starts` to the start of one of `ends`.
+    /// Runs Dijkstra's algorithm in the band, from one of the sides `starts` to the start of one of `ends`.
     double find_way(idx from, idx to, std::span<const idx> starts, std::span<const idx> ends)
     {
         using entry = std::pair<double, idx>;
@@ -210,7 +210,7 @@ private:
         return infinite;
     }
 
-    /// Triangles between an old and a new way change charts.
+    /// Moves triangles between an old and a new path to the other chart.
     void relabel(std::span<const idx> way)
     {
         std::vector<idx> front;

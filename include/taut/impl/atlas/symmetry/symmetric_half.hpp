@@ -13,8 +13,8 @@
 namespace taut::impl
 {
 
-/// One of the halves of a surface that is its own mirror image, and with it what lies across the plane. What becomes of
-/// it becomes of the whole: charts of the half have images, and what lies across is in charts of its own.
+/// Half of a symmetric surface, with the polygons across the plane. Its charts determine those of the whole: charts of
+/// the half have images, and polygons across the plane are in charts of their own.
 class symmetric_half
 {
 public:
@@ -47,7 +47,7 @@ public:
         return params;
     }
 
-    /// Seams of the whole: those of the half, their images, and where the half ends. One flag per side.
+    /// Seams of the whole surface: those of the half, their images, and the border of the half. One flag per side.
     std::vector<char> seams(std::span<const char> of_half) const
     {
         std::vector<char> seam(facets_.twin.size(), 0);
@@ -91,7 +91,7 @@ private:
         return side;
     }
 
-    /// Returns whether what lies across, the half and its image meet at a side.
+    /// Returns whether the half, its image and the polygons across the plane meet at a side.
     bool parts(std::size_t s) const { return facets_.twin[s] >= 0 && of_[s / 3] != of_[u(facets_.twin[s]) / 3]; }
 
     surface_part part() const
