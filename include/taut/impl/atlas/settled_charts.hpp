@@ -28,8 +28,8 @@ inline idx turned_triangle(const chart_mesh& charts, std::size_t k, std::span<co
 }
 
 /// Rounds charts to the precision of a file so that each is valid, if its vertices need not leave their reach.
-/// polygons: to be convex; uv: positions, one per vertex of the charts, then the rounded ones Returns one flag per
-/// chart: 1 where triangles are flipped still, or the border meets itself.
+/// polygons: to be convex; uv: positions, one per vertex of the charts, then the rounded ones
+/// Returns one flag per chart: 1 where triangles are still flipped, or the border meets itself.
 inline std::vector<char> settle_charts(const chart_mesh& charts, const convex_polygons& polygons, std::span<vec2> uv,
                                        const settling& how)
 {

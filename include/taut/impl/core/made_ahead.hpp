@@ -40,7 +40,7 @@ public:
         if (thread_.joinable()) thread_.join();
     }
 
-    /// Value k, once, as soon as it is there; throws what making it threw.
+    /// Returns value k, once, as soon as it is made; throws the exception of make(k).
     T take(std::size_t k) { return values_[k].get_future().get(); }
 
 private:

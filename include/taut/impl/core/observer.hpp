@@ -22,11 +22,11 @@ struct progress
     bool iterate =
         true; ///< a new iterate; false: in the middle of a line search, the other fields are the last iterate's
     bool usable = true; ///< a run that ends now has a result; false where one of several phases has none yet
-    /// The map as it is, one point per vertex in the user's order and lengths, for a live view: valid as what is
-    /// returned, but not certified. Empty where there is no map of the whole surface. It costs a download where it is
-    /// called, and nothing where it is not; to be called by the observer only.
+    /// Current map, one point per vertex in the user's order and lengths, for a live view: as valid as the result, but
+    /// not certified. Empty where there is no map of the whole surface. A call costs a download; to be called by the
+    /// observer only.
     std::function<std::vector<vec2>()> coordinates = {};
-    /// The same of a volume.
+    /// Current shape of a volume, in the same way.
     std::function<std::vector<vec3>()> positions = {};
 };
 

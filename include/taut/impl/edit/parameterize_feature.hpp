@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// A vertex of a feature and where it shall be in the map of the target.
+/// Pin of a vertex of a feature in the map of the target.
 struct feature_pin
 {
     idx vertex; ///< of the feature's region

@@ -23,25 +23,25 @@
 namespace taut
 {
 
-/// Paste of a feature on a surface. The constructor looks for the place of the rim, makes room for it, fills the gap
-/// and factors the systems of the fields that bend both sides of the seam. pose() then moves, turns and scales the
-/// feature while it stays attached, at the cost of back-substitutions and kernels.
+/// Paste of a feature on a surface. The constructor projects the rim, removes triangles of the target, fills the gap
+/// and factors the systems of the fields that bend both sides of the seam. pose() then translates, rotates and scales
+/// the attached feature, at the cost of back-substitutions and kernels.
 ///
 ///     taut::paste p(queue, target, taut::make_feature(taut::geodesic_disk(source, v, radius)), onto);
 ///     p.pose({.turn = 0.3, .softness = 0.5});
 ///     const auto result = p.surface();                // to be written, or the target of the next one
 ///
-/// The target is kept: surface() of none of its poses changes it, and target() undoes the paste. Triangles of the
-/// result: those of the target that are left, in their order; those of the gap; those of the feature. Vertices: those
-/// of the target that are left, in their order; those of the feature. Where the target was manifold, the result is, and
-/// no boundary is added. Not to be used from two threads at once. Objects may be moved, not copied.
+/// The original target is kept: target() undoes the paste. Triangles of the result: the remaining ones of the target,
+/// in their order; those of the gap; those of the feature. Vertices: the remaining ones of the target, in their order;
+/// those of the feature. The result is manifold if the target was, and no boundary is added. Not to be used from two
+/// threads at once. Objects may be moved, not copied.
 class paste
 {
 public:
     using cell = mesh<triangle>::cell;
 
-    /// Throws region_error where the surroundings of vertex `onto` are no disk, paste_error where the rim does not fit
-    /// there, parameter_error, mesh_error, device_error.
+    /// Pastes a feature at vertex `onto`. Throws region_error where its neighbourhood is no disk, paste_error where the
+    /// rim does not fit there, parameter_error, mesh_error, device_error.
     paste(queue& q, mesh<triangle> target, feature part, idx onto, const paste_params& params = {})
         : queue_(q),
           target_(std::move(target)),
@@ -56,9 +56,9 @@ public:
         pose(params_.pose);
     }
 
-    /// Puts the feature elsewhere. What it is attached to stays: for a way across the surface that is longer than some
-    /// edges, and for a turn of more than some twenty degrees, paste anew. The first soft one maps the feature. Throws
-    /// paste_error where that fails.
+    /// Changes the pose of the feature. Its correspondences are kept: for a move of more than some edges, and for a
+    /// rotation of more than some twenty degrees, paste anew. The first soft pose maps the feature. Throws paste_error
+    /// where that fails.
     paste& pose(const paste_pose& to)
     {
         to.validate();
@@ -66,8 +66,8 @@ public:
         params_.pose = to;
         return *this;
     }
-    /// Puts another surface within the same rim, say a tessellation of the feature's map. Throws parameter_error for
-    /// another rim.
+    /// Replaces the feature by another surface with the same rim, say a tessellation of its map. Throws parameter_error
+    /// for another rim.
     paste& refill(feature part)
     {
         const auto rim_points = [](const feature& f)
@@ -92,7 +92,7 @@ public:
 
     const mesh<triangle>& target() const { return target_; } ///< as it was
 
-    /// The vertex of the target that vertex v of the result was, or -1: it is one of the feature.
+    /// Vertex of the target that vertex v of the result comes from, or -1 for those of the feature.
     const std::vector<idx>& origins() const { return origins_; }
     const std::vector<idx>& kept_faces() const
     {
@@ -108,8 +108,8 @@ public:
 
     const paste_report& report() const { return report_; }
 
-    /// Pairs of triangles of the result that meet elsewhere than in what they share, but for those that did so in the
-    /// target or in the feature; exact (see taut::self_intersections).
+    /// New self-intersections: pairs of triangles of the result that meet elsewhere than in what they share, and did
+    /// not in the target or in the feature; exact (see taut::self_intersections).
     std::vector<std::array<idx, 2>> self_intersections() const
     {
         auto pairs = taut::self_intersections(surface());
@@ -312,7 +312,7 @@ private:
         return ids;
     }
 
-    /// Means of neighbours along a closed loop, again and again.
+    /// Smooths a closed loop by repeated means of neighbours.
     static std::vector<vec3> smooth_along(std::vector<vec3> values)
     {
         const std::size_t n = values.size();
@@ -325,7 +325,8 @@ private:
         return values;
     }
 
-    /// The feature laid on the target, and the width of the band that follows it: of a few, that which folds least.
+    /// Maps the feature to the target, and chooses the width of the blended band: of a few, the one with the fewest
+    /// folds.
     void lay(const paste_pose& to)
     {
         const double far = *std::max_element(from_rim_.begin(), from_rim_.end());
@@ -394,7 +395,7 @@ private:
         for (std::size_t i = 0; i < own.rim.size(); ++i) points_[feature_begin_ + at(own.rim[i])] = meeting[i];
     }
 
-    /// Near its rim the feature follows the bent target, so that both sides have one tangent plane at softness 1.
+    /// Blends the feature near its rim to the bent target, so that both sides have one tangent plane at softness 1.
     void follow_target(double softness, const impl::rbf_field& of_target)
     {
         const auto by = bend_laid_(of_target);

@@ -37,8 +37,8 @@ struct paste_params
 {
     paste_pose pose = {}; ///< initial pose of the feature
 
-    /// Radius of the part of the target that makes room, by that of the rim at its scale: 1.2 or more. What the
-    /// rim covers is replaced, and what is around it bends.
+    /// Radius of the region of the target that may bend, relative to that of the scaled rim: 1.2 or more. Triangles
+    /// under the rim are replaced.
     double reach = 1.8;
 
     /// Basis of the fields that bend target and feature. `linear` overshoots least.
@@ -48,7 +48,7 @@ struct paste_params
     /// untangling, which may not end.
     std::chrono::duration<double> time_limit{20};
 
-    /// At most so many control points of each kind: along the rim, and where nothing moves.
+    /// Maximum number of control points of each kind: along the rim, and fixed ones.
     idx controls = 300;
 
     /// Throws parameter_error that names the field.

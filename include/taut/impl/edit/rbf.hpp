@@ -41,8 +41,8 @@ struct rbf_params
 };
 
 /// Radial basis function interpolation at points in space, factored once: solve() takes values and costs a
-/// back-substitution. Points in one place are merged. The polynomial is that on the affine hull of the points, so that
-/// points in a plane or on a line will do. Dense LU with pivots of the symmetric system
+/// back-substitution. Coincident points are merged. The polynomial is that on the affine hull of the points, so that
+/// planar or collinear points are allowed. Dense LU with pivots of the symmetric system
 ///
 ///     | Phi  P | | w |   | values |
 ///     | P^T  0 | | c | = | 0      |      (paper, eq. 27, with P the polynomial at the points)
@@ -66,8 +66,8 @@ public:
             factor_dense();
     }
 
-    /// The field that has values[i] at point i. Throws parameter_error for another number of values or one that is not
-    /// finite, rbf_error where points in one place get different values.
+    /// Computes the field with values[i] at point i. Throws parameter_error for another number of values or one that is
+    /// not finite, rbf_error where coincident points get different values.
     impl::rbf_field solve(std::span<const vec3> values) const
     {
         if (values.size() != merged_to_.size())
@@ -128,7 +128,7 @@ private:
         field_.radius = params_.radius > 0 ? params_.radius / field_.unit : 0.5;
     }
 
-    /// Points within rounding of each other are one.
+    /// Merges points that are equal within rounding.
     void merge(std::span<const vec3> points)
     {
         std::vector<vec3> y;

@@ -21,8 +21,8 @@
 namespace taut::io::impl
 {
 
-/// A side of a cell of the file's dimension: a face, its normal pointing out where the cell is positive, or in the
-/// plane an edge, with the cell to its left.
+/// Side of a cell of the file's dimension: a face, its normal pointing out where the cell is positive, or in the plane
+/// an edge, with the cell to its left.
 struct cell_face
 {
     idx cell;                    ///< as for_each_cell() counts
@@ -176,8 +176,8 @@ inline cell_faces cell_faces_of(const volume_file& file)
 namespace taut::io::impl
 {
 
-/// Numbers of the cells of a file by what they are labelled with, 0: with nothing. Of gmsh files physical groups or
-/// else entities count, of VTK arrays those that are no numbers of single cells.
+/// Labels of the cells of a file as numbers, 0: none. For gmsh files these are physical groups or else entities, for
+/// VTK integer arrays that do not number single cells.
 inline std::vector<idx> region_numbers(const volume_file& file)
 {
     std::size_t cells = 0;
@@ -203,9 +203,9 @@ inline std::vector<idx> region_numbers(const volume_file& file)
     return numbers;
 }
 
-/// The sides between cells of different labels, references or regions, those inside that a labelled face of the file
-/// lies on (in the plane a line), and, if boundary says so, the sides of the boundary: what a mesh keeps while it is
-/// smoothed. A piece has the same labels on both sides and on its faces.
+/// Facets that smoothing preserves: sides between cells of different labels, references or regions, inner ones with a
+/// labelled face of the file (in the plane a line), and, if `boundary`, the sides of the boundary. A piece has the same
+/// labels on both sides and on its faces.
 inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, bool boundary)
 {
     const auto numbers = impl::region_numbers(file);

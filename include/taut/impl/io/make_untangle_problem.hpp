@@ -15,7 +15,7 @@ namespace taut
 {
 
 /// Makes the untangling problem of a mesh and a map of it, one position per vertex, under the hard pins; springs are
-/// ignored. Pinned coordinates get their values, whatever the map has there.
+/// ignored. Pinned coordinates of the map are replaced by their targets.
 /// Throws constraint_error (wrong_count) unless map and constraints are of this mesh.
 template <class Element>
 untangle_problem<Element> make_untangle_problem(mesh<Element> rest, std::vector<vec<Element::dimension>> initial,

@@ -114,7 +114,7 @@ private:
         soup_.add_texcoord({u, in_.content_ends() ? 0.0 : in_.number()}, in_.path(), in_.here());
     }
 
-    /// One that is none is no reason to refuse a file whose normals nobody may need.
+    /// Ignores invalid normals, which may not be needed.
     void read_normal()
     {
         soup_.normals.emplace_back(std::numeric_limits<double>::quiet_NaN());

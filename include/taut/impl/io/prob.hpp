@@ -22,7 +22,7 @@ namespace taut::io
 {
 
 /// Untangling problem as a file states it: every index is in range, every number finite, no cell names a vertex twice.
-/// Whether it has a solution is another matter.
+/// It need not be feasible.
 template <class Element>
 struct prob_file
 {
@@ -39,7 +39,7 @@ struct prob_file
 namespace taut::io::impl
 {
 
-/// Reads the four blocks of a problem, each a line with its size and then one item a line.
+/// Reads the four blocks of a problem, each a line with its size and then one item per line.
 class prob_reader
 {
 public:
@@ -204,10 +204,10 @@ private:
 ///
 ///     nRest dimRest           then nRest lines of rest coordinates
 ///     nInit dimMap            then nInit = nRest lines: the initial map
-///     nSimplices dimMap+1     then one simplex a line, vertices counted from 0, positive at rest
-///     nFixed                  then one fixed vertex a line
+///     nSimplices dimMap+1     then one simplex per line, vertices counted from 0, positive at rest
+///     nFixed                  then one fixed vertex per line
 ///
-/// Throws io_error with the line for whatever is not so.
+/// Throws io_error with the line of a fault.
 template <class Element>
 prob_file<Element> parse_prob(std::string_view text, const std::string& path = "problem text")
 {

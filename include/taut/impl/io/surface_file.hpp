@@ -59,7 +59,7 @@ struct file_faces
     }
 };
 
-/// The text of an OBJ file, and what write_obj needs to find its way in it.
+/// Text of an OBJ file, with an index of its statements for write_obj.
 struct obj_text
 {
     /// Statements that can be read by themselves.
@@ -163,8 +163,7 @@ struct surface_soup
 namespace taut::io::impl
 {
 
-/// Vertices without a triangle are no fault, whatever their coordinates: says so in the notes, and brings those whose
-/// coordinates are not finite to the place of another vertex.
+/// Notes vertices without a triangle, and moves those with non-finite coordinates to the position of another vertex.
 inline void ignore_unused_vertices(surface_soup& soup)
 {
     auto unused = taut::impl::unused_vertices(soup.points.size(), soup.triangles);
@@ -181,7 +180,7 @@ inline void ignore_unused_vertices(surface_soup& soup)
     taut::impl::set_aside(std::span<const idx>(unused), soup.triangles, soup.points);
 }
 
-/// The surface of triangles without such faults. path: named in errors. Throws `fault`, or mesh_error as mesh does.
+/// Makes the surface of valid triangles. path: named in errors. Throws `fault`, or mesh_error as mesh does.
 inline surface_file to_surface_file(surface_soup&& soup, const std::string& path)
 {
     if (soup.fault) throw mesh_error(*soup.fault);

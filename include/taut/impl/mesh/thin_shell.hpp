@@ -27,7 +27,8 @@ struct shell_attributes
 };
 
 /// Thin shell: a surface in space that bends and stretches, as its hinges and their rest shapes. Vertices are those of
-/// the surface. Sums over hinges are integrals over the surface: a triangle is shared out evenly among its hinges.
+/// the surface. Sums over hinges are integrals over the surface: the area of a triangle is divided equally among its
+/// hinges.
 class thin_shell
 {
 public:
