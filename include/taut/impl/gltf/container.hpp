@@ -116,8 +116,7 @@ inline std::string join_glb(std::string json, std::string_view bin, const std::v
     return bytes;
 }
 
-/// The file of a buffer, which must lie in the folder of the document: a stranger's model must not lay open others.
-/// Throws io_error.
+/// Path of the file of a buffer, which must be in the folder of the document, as models are untrusted. Throws io_error.
 inline std::filesystem::path file_of_buffer(const gltf_source& source, const gltf_object& buffer,
                                             const std::string& uri)
 {

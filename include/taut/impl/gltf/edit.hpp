@@ -15,7 +15,7 @@
 namespace taut::io::impl
 {
 
-/// Calls f with each "bufferView" of a value that is one; what extras hold is nobody's business.
+/// Calls f with each "bufferView" of a value that is one; extras are ignored.
 template <class Json, class F>
 void for_each_view_reference(Json& value, F f)
 {

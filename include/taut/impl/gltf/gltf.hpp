@@ -21,10 +21,10 @@ namespace taut::io
 
 /// Model of a glTF file: the triangles of all its meshes, in its order, and the file itself.
 ///
-/// Corners of a mesh with equal coordinates are one point, whatever glTF has split vertices for: normals, texture
-/// coordinates, materials. Points of different meshes are not joined. Coordinates are those of meshes: a mesh that is
-/// drawn by several nodes is there once, and what nodes do to its size is not regarded. Strips and fans are triangles;
-/// points and lines are left out, and so are primitives that draw the same triangles as an earlier one.
+/// Corners of a mesh with equal coordinates are one point, although glTF splits vertices for normals, texture
+/// coordinates and materials. Points of different meshes are not welded. Coordinates are those of meshes: a mesh drawn
+/// by several nodes appears once, and the scale of nodes is ignored. Strips and fans are triangles; points and lines
+/// are left out, and so are primitives that draw the same triangles as an earlier one.
 struct gltf_model
 {
     std::vector<vec3> points; ///< those that triangles name, in the order of first appearance; may be not finite
@@ -64,8 +64,8 @@ namespace taut::io
 
 /// Makes a new glTF document of a surface, to be written with texture coordinates: one mesh, points as floats in their
 /// order, normals weighted by area, and an attribute _SOURCE_VERTEX that tells the point of each vertex: two unsigned
-/// shorts, the lower and the upper 16 bits of its number. Triangles keep their numbers; one that names a point that is
-/// not there or not finite draws nothing.
+/// shorts, the lower and the upper 16 bits of its number. Triangles keep their numbers; one with a missing or
+/// non-finite point draws nothing.
 ///
 /// Points farther from 0 than the surface is large, or where floats end, are relative to a node with a translation, and
 /// a scale if need be, which are doubles: rounding moves nothing by more than 2e-7 of its size. A note counts triangles
@@ -84,8 +84,8 @@ enum class gltf_numbers
 namespace taut::io::impl
 {
 
-/// Texture coordinates as a glTF file holds them, and as they are read back bit for bit: the nearest such number.
-/// Certify these if the file is to be certain.
+/// Rounds texture coordinates to the numbers of a glTF file, which are read back bit for bit. Certify these rather than
+/// the unrounded ones.
 vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers = gltf_numbers::floats);
 
 /// The files that hold the buffers of the document at a path; none of a .glb, or where they cannot be told.
@@ -105,10 +105,10 @@ namespace taut::io
 /// Encodes a model with new texture coordinates as the files to be written: one, or a .gltf and the .bin beside it.
 /// Their bytes are made here.
 ///
-/// The set is added or replaced in all primitives with triangles. A vertex becomes several only where its corners
-/// differ in texture coordinates; vertices keep their numbers, new ones follow, and have all attributes of theirs bit
-/// for bit. All else is as it was: every member of the JSON, the bytes of every bufferView that needs no change, and
-/// images, whose URIs are made relative to the new file. All buffers become one.
+/// The set is added or replaced in all primitives with triangles. A vertex is split only where its corners differ in
+/// texture coordinates; vertices keep their numbers, new ones follow, with all attributes bit for bit. All else is
+/// kept: every member of the JSON, the bytes of every bufferView that needs no change, and images, whose URIs are made
+/// relative to the new file. All buffers become one.
 ///
 /// corner_uv:    one per corner of model.triangles, v downwards; a triangle with a non-finite corner is mapped to the
 ///               point (0, 0)

@@ -26,7 +26,7 @@ struct rigid_motion
         return from + t * (to - from) + turned(p - from, t * angle);
     }
 
-    /// v turned about the axis, as Rodrigues' formula has it.
+    /// v rotated about the axis, by Rodrigues' formula.
     vec<D> turned(const vec<D>& v, double by) const
     {
         const double c = std::cos(by), s = std::sin(by);
@@ -56,7 +56,7 @@ inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<
 }
 
 /// Fits a rigid motion of space after Horn, "Closed-form solution of absolute orientation using unit quaternions"
-/// (1987): the eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix, found by squaring it again and again.
+/// (1987): the eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix, found by repeated squaring.
 inline rigid_motion<3> fit_rigid_motion(std::span<const vec3> points, std::span<const vec3> images)
 {
     rigid_motion<3> m;

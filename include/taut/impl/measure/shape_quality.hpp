@@ -27,7 +27,7 @@ struct element_shape
     double min_angle = 0;       ///< degrees; corner angles of triangles, dihedral ones of tetrahedra, 0 to 180
     double max_angle = 0;
 
-    /// Takes the worse of each.
+    /// Takes the worse value of each measure.
     void join(const element_shape& other)
     {
         mean_ratio = std::min(mean_ratio, other.mean_ratio);

@@ -21,11 +21,11 @@ namespace taut
 struct packing_certificate
 {
     chart_overlaps overlaps; ///< exact
-    /// Least distance of two charts in tiles, by borders, and which ones; infinite for a single chart, 0 where borders
-    /// cross. To a few ulps of the coordinates.
+    /// Minimum distance of two charts in tiles, by borders, and their numbers; infinite for a single chart, 0 where
+    /// borders cross. To a few ulps of the coordinates.
     double gap = std::numeric_limits<double>::infinity();
     std::array<idx, 2> nearest{-1, -1};
-    /// Least distance of a chart to the border of its tile, negative where it crosses it, and which one.
+    /// Minimum distance of a chart to the border of its tile, negative where it crosses it, and its number.
     double border = std::numeric_limits<double>::infinity();
     idx outermost = -1;
 
@@ -56,7 +56,7 @@ inline double distance(const vec2& a, const vec2& b, const vec2& c, const vec2& 
     return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
 }
 
-/// certify_packing() of charts whose borders, in these coordinates, are known.
+/// Certifies a packing of charts with known borders in these coordinates.
 inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
                                             const chart_outlines& outlines, std::span<const char> pinned)
 {

@@ -34,7 +34,7 @@ struct chart_overlaps
 namespace taut::impl
 {
 
-/// True if the interiors of two triangles have a common point; exact. Whichever way they are turned.
+/// True if the interiors of two triangles have a common point; exact. For either orientation.
 inline bool interiors_meet(std::array<vec2, 3> t, std::array<vec2, 3> s)
 {
     for (auto* k : {&t, &s})
@@ -54,7 +54,7 @@ inline bool interiors_meet(std::array<vec2, 3> t, std::array<vec2, 3> s)
     return !parted(t, s) && !parted(s, t);
 }
 
-/// The search for charts that overlap, each pair counted once.
+/// Search for overlapping charts, each pair counted once.
 class overlap_search
 {
 public:
@@ -81,7 +81,7 @@ public:
             { return spend() && (!edges_meet(outlines_.edges[i], outlines_.edges[j], uv_) || look(i, j)); });
     }
 
-    /// Charts within the triangles of another: one point of each connected part of a border is asked.
+    /// Finds charts inside of others: one point of each connected part of a border is located.
     void nested(const edge_tree& tree)
     {
         const auto within = [&](idx inner, idx outer)

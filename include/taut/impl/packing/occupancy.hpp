@@ -237,7 +237,7 @@ class occupancy
 public:
     explicit occupancy(idx width) : cells_(width), blocks_((width + 3) / 4) {}
 
-    /// Takes all of a row: a wall between tiles.
+    /// Occupies all of a row: a wall between tiles.
     void block(idx row)
     {
         grow(row + 1);
@@ -245,7 +245,7 @@ public:
         cells_.update(row);
     }
 
-    /// Takes cells, moved by (x, y); what lies outside the strip is left out.
+    /// Occupies cells, moved by (x, y), and ignores those outside the strip.
     void take(const cell_rows& mask, idx x, idx y)
     {
         const idx first = std::max<idx>(0, y + mask.low), last = y + mask.low + mask.rows();
@@ -261,8 +261,8 @@ public:
         for (idx row = first / 4; 4 * row < last; ++row) fill_blocks(row);
     }
 
-    /// The lowest row from y on, up to and with `top`, where a mask has room, and its leftmost place there: {y, x};
-    /// x = -1 if there is none.
+    /// Finds the lowest row from y to `top` where a mask fits, and its leftmost position there: {y, x}; x = -1 if there
+    /// is none.
     std::pair<idx, idx> find(const room_mask& mask, idx y, idx top)
     {
         const auto open = [](std::uint64_t w) { return w != ~std::uint64_t{0}; };

@@ -19,9 +19,8 @@
 namespace taut::impl
 {
 
-/// The borders of charts: edges as pairs of vertices, chart after chart, so that what winds around is to the left of
-/// them. Triangles that are clockwise are turned first, so what a chart covers has a winding number of at least 1,
-/// whether it is folded or not.
+/// Borders of charts: edges as pairs of vertices, chart after chart, with the inside to the left. Clockwise triangles
+/// are reversed first, so points covered by a chart have a winding number of at least 1, folded or not.
 struct chart_outlines
 {
     std::vector<std::array<idx, 2>> edges;

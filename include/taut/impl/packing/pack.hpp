@@ -56,7 +56,7 @@ namespace taut::impl
 
 struct chart_outlines;
 
-/// pack() of charts whose borders, in these coordinates, are known.
+/// Packs charts with known borders in these coordinates.
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params);
 
 } // namespace taut::impl

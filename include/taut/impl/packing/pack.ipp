@@ -89,7 +89,7 @@ private:
         idx tile = 0;
     };
 
-    /// The largest one, about, that is as far from the walls and the border as pieces are to be.
+    /// Approximately largest free square at the distance of pieces from the walls and the border.
     tile_square free_square() const
     {
         constexpr idx cells = 512;
@@ -141,8 +141,8 @@ private:
         return taken;
     }
 
-    /// Halves what is between a side of the tiles at which pieces find no room beside the walls, and one at which they
-    /// do: walls grow with the tiles.
+    /// Bisects between a side of the tiles at which pieces do not fit beside the walls, and one at which they do: walls
+    /// grow with the tiles.
     void search_around_walls()
     {
         const bool quick = pieces_.size() > 1500;
@@ -178,8 +178,8 @@ private:
         return half + std::sqrt(half * half + area_ / density);
     }
 
-    /// Tries some layouts, each in tiles of the side that the one before makes likely. What has more pieces has finer
-    /// cells; of very many each gets less time.
+    /// Tries some layouts, each in tiles of the side predicted by the previous one. More pieces have finer cells; of
+    /// very many each gets less time.
     void search(double length, int turns)
     {
         const std::size_t n = pieces_.size();
@@ -214,7 +214,7 @@ private:
         keep(best, least);
     }
 
-    /// Tries other orders near the one that was best, as many as take about as long whatever there is to lay.
+    /// Tries other orders near the best one, in a number of constant total time.
     void reorder(tile_layout& best, double& least)
     {
         const std::size_t n = pieces_.size();
@@ -242,7 +242,7 @@ private:
         }
     }
 
-    /// Draws all pieces in their poses; large ones will be laid first.
+    /// Rasterizes all pieces in their poses; large ones are placed first.
     void draw(double cells_per_length, int turns)
     {
         cells_per_length_ = cells_per_length;
@@ -269,7 +269,7 @@ private:
         std::stable_sort(order_.begin(), order_.end(), [&](idx a, idx b) { return size(a) > size(b); });
     }
 
-    /// Takes a layout in tiles of this side, if it is better.
+    /// Replaces the layout by one in tiles of this side, if it is better.
     void keep(const tile_layout& l, double side)
     {
         const double cell = (1 - 2 * border_) / side, scale = cell * cells_per_length_;

@@ -135,7 +135,7 @@ inline std::vector<piece> make_pieces(std::span<const vec2> uv, const chart_outl
     return pieces;
 }
 
-/// A piece turned and drawn: as a mask for cells of one size.
+/// Rotated and rasterized piece: a mask for cells of one size.
 struct pose
 {
     vec2 axis;   ///< direction of the chart that is turned to x
@@ -144,7 +144,7 @@ struct pose
     room_mask mask;
 };
 
-/// Distance of charts from the borders of their masks, in cells: rounding never carries them across.
+/// Distance of charts from the borders of their masks, in cells: rounding never moves them across.
 inline constexpr double inset = 1e-6;
 
 /// The edges of a piece in a pose, in cells, its box from (inset, inset) on.

@@ -67,7 +67,7 @@ constexpr const char* to_string(repair_kind kind)
 namespace taut::impl
 {
 
-/// Number of ids a thing of a kind has: 2 for edges and pairs.
+/// Number of ids of a defect of a kind: 2 for edges and pairs.
 constexpr int ids_each(repair_kind kind)
 {
     return kind == repair_kind::duplicate_cell || kind == repair_kind::coincident_vertex ||
@@ -76,7 +76,7 @@ constexpr int ids_each(repair_kind kind)
                : 1;
 }
 
-/// Returns whether a mesh with this is none that charts can be made of. What is else mended makes it better.
+/// Returns whether no charts can be made of a mesh with this defect. Other defects are repaired, too.
 constexpr bool is_fault(repair_kind kind)
 {
     return kind != repair_kind::unreferenced_vertex && kind != repair_kind::coincident_vertex &&

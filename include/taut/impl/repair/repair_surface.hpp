@@ -15,22 +15,22 @@ namespace taut
 /// Parameters of repair_surface(). Every field has a sensible default.
 struct repair_params
 {
-    /// Ends of open edges at most so far apart are one place, which is that of the first of them; in units of the
-    /// surface, 0 or more. 0: only equal coordinates. Raise it where edges that should meet do so in few digits only:
-    /// usual_weld_tolerance() is such a length. Nothing moves by half of an edge that it ends, so that no edge
+    /// Weld tolerance: maximum distance of ends of open edges to be welded, to the position of the first of them; in
+    /// units of the surface, 0 or more. 0: only equal coordinates. Raise it where edges that should meet agree in few
+    /// digits only, to usual_weld_tolerance(). No vertex moves by half of an edge that ends there, so that no edge
     /// vanishes.
     double weld_tolerance = 0;
 
-    /// Normals of the file, or none. They are compared with the triangles, nothing else.
+    /// Normals of the file, or none. They are only compared with the triangles.
     std::span<const vec3> normals = {};
     /// The normals of the corners of each triangle, -1: none; empty: there is one normal per vertex.
     std::span<const std::array<idx, 3>> normal_cells = {};
 
-    /// The body that each vertex is of, or none: vertices of two bodies are at two places, whatever their coordinates,
-    /// so that nothing of one body is stitched to another one or a copy of it.
+    /// Body of each vertex, or none: vertices of different bodies are distinct, whatever their coordinates, so that
+    /// nothing of one body is stitched to another one or a duplicate of it.
     std::span<const idx> bodies = {};
 
-    /// The polygon that each triangle is of, or none: triangles of one polygon stay together wherever edges are parted.
+    /// Polygon of each triangle, or none: triangles of one polygon stay together where edges are separated.
     std::span<const idx> polygons = {};
 
     /// Throws parameter_error. points, triangles: how many the input has
@@ -62,7 +62,7 @@ struct repaired_surface
 /// Repairs a triangle soup to an oriented manifold surface: indices out of range, non-finite coordinates, repeated
 /// vertices, degenerate triangles, duplicates, cracks between equal vertices, any winding, non-manifold edges.
 /// Triangles keep their order and their places; vertices do (apart from a tolerance), and come in the order of their
-/// origins. Repairs are local: all else stays as it was. O(n log n), the same on any number of threads.
+/// origins. Repairs are local. O(n log n), the same on any number of threads.
 ///
 /// - Two triangles at an edge of the input stay neighbours. Open edges are stitched to open ones at the same place.
 /// - Of duplicates the first stays: of triangles at the same place that face the same way, and of those with the same

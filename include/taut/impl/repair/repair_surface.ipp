@@ -53,7 +53,7 @@ void repair_params::validate(std::size_t points, std::size_t triangles) const
 namespace taut::impl
 {
 
-/// One repair, step by step. Each leaves out or decides what those after it need not look at any more.
+/// One repair, step by step.
 class surface_repair
 {
 public:
@@ -126,7 +126,7 @@ private:
     bool is_vertex(idx v) const { return v >= 0 && u(v) < points_.size(); }
     static bool is_repeated(const std::array<idx, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-    /// Finds what is at one place, and leaves out what is flat.
+    /// Finds coincident points, and removes degenerate triangles.
     void bring_to_places()
     {
         std::vector<char> used(points_.size(), 0);
@@ -177,7 +177,7 @@ private:
         return flat;
     }
 
-    /// Leaves out triangles of a list that increases.
+    /// Removes the triangles of an ascending list.
     void leave_out(const std::vector<idx>& some)
     {
         take_out(cells_, [&](idx c) { return std::binary_search(some.begin(), some.end(), c); });

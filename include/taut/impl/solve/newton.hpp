@@ -119,7 +119,7 @@ private:
         return accept(*found);
     }
 
-    /// d_ for the current point; a reason to stop if the norm of the gradient, which comes with it, gives one.
+    /// Computes d_ for the current point; returns a reason to stop by the norm of the gradient, which comes with it.
     std::optional<solve::stop> direction(bool exact)
     {
         f_.linearize(x_, exact);
@@ -140,7 +140,7 @@ private:
     double noise() const { return rounding_ * f_.size(value_); }
 
     /// Makes d_, a direction of the projected Hessian, conjugate to the last one (Hestenes & Stiefel 1952, with the
-    /// projected Hessian as preconditioner), as far as the change of the gradient along that one tells.
+    /// projected Hessian as preconditioner), by the change of the gradient along that one.
     void conjugate()
     {
         const vector* const left[] = {&last_g_, &g_};
@@ -162,8 +162,8 @@ private:
         bool capped;
     };
 
-    /// The step of the lowest value among some, or among ever shorter ones until one meets the Armijo condition; the
-    /// longest of those that rounding cannot tell apart.
+    /// Chooses the step of lowest value among some, or among ever shorter ones until one meets the Armijo condition;
+    /// the longest of those that are equal within rounding.
     std::optional<trial> search()
     {
         if (!(model_.slope < 0)) return std::nullopt;
@@ -269,7 +269,7 @@ private:
         return settle(square);
     }
 
-    /// Minimises by itself what the last step, a share of d_, found far from quadratic: where the gradient is not
+    /// Eliminates the parts that the last step, a fraction of d_, found far from quadratic: where the gradient is not
     /// (1 - share) times the one before, as it is where the model holds. square: of the gradient's norm.
     void eliminate(double share, double& square)
     {
@@ -296,7 +296,7 @@ private:
         }
     }
 
-    /// Books the last step, now that its gradient is known.
+    /// Records the last step, once its gradient is known.
     std::optional<solve::stop> settle(double gradient_squared)
     {
         pending_ = false;
@@ -360,7 +360,7 @@ namespace taut::solve::impl
 {
 
 /// Minimises f from x by truncated Newton's method with the preconditioner of the objective. x ends at the best
-/// iterate whatever the reason to stop. Throws parameter_error, and nothing else but what f and the observer do.
+/// iterate whatever the reason to stop. Throws parameter_error, and exceptions of f and the observer.
 template <objective Objective>
     requires has_hessian<Objective> report newton(Objective& f, typename Objective::point& x,
                                                   const newton_params& params = {},

@@ -13,11 +13,11 @@ namespace taut::solve
 /// Constants of the Wolfe conditions (Nocedal & Wright, Numerical Optimization, 2nd ed., section 3.1).
 struct wolfe_params
 {
-    /// c1: the least decrease, as a part of what the slope promises. Range (0, 0.5). Hardly ever worth a change.
+    /// c1: minimum decrease, as a fraction of that predicted by the slope. Range (0, 0.5). Hardly ever worth a change.
     double sufficient_decrease = 1e-4;
 
-    /// c2: the slope that may remain, as a part of the slope at the start. Range (c1, 1). 0.9 for quasi-Newton
-    /// directions; 0.1 makes searches nearly exact, which plain conjugate gradients like.
+    /// c2: maximum remaining slope, as a fraction of the initial one. Range (c1, 1). 0.9 for quasi-Newton directions;
+    /// 0.1 makes searches nearly exact, which suits plain conjugate gradients.
     double curvature = 0.9;
 
     friend bool operator==(const wolfe_params&, const wolfe_params&) = default;
@@ -76,8 +76,8 @@ struct line_search_params
     wolfe_params wolfe = {};
     exact_params exact = {};
 
-    /// No trial step is longer than this part of the step to the barrier (objectives with max_step). Range (0, 1);
-    /// 0.9 to 0.99 are sensible: nearer to 1 the energy at the end of the step explodes.
+    /// Maximum trial step as a fraction of the step to the barrier (objectives with max_step). Range (0, 1); 0.9 to
+    /// 0.99 are sensible: nearer to 1 the energy at the end of the step explodes.
     double barrier_fraction = 0.9;
 
     static constexpr int most_batch = 16;
@@ -85,15 +85,15 @@ struct line_search_params
     /// Trial steps in one pass where the objective has `values`. Range 1..most_batch.
     int batch = 6;
 
-    /// Gradients that strong_wolfe, or values that backtracking may take. Range >= 1.
+    /// Maximum number of gradients of strong_wolfe, or of values of backtracking. Range >= 1.
     int max_evaluations = 30;
 
     /// Factor between the steps of backtracking. Range (0, 1).
     double shrink = 0.5;
 
     /// Relative rounding error of a value. Changes below this are noise; decreases are then tested by the slope
-    /// (approximate Wolfe conditions, Hager and Zhang). Range [0, 1e-3). An objective that computes in float says so by
-    /// its own rounding(), and the larger one holds.
+    /// (approximate Wolfe conditions, Hager and Zhang). Range [0, 1e-3). An objective that computes in float has its
+    /// own rounding(), and the larger one applies.
     double rounding = 1e-14;
 
     friend bool operator==(const line_search_params&, const line_search_params&) = default;
@@ -117,27 +117,24 @@ struct stopping_params
     /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
     /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
     ///
-    /// A gradient is long where f is steep, not where much is left to gain. Newton's method stops, too, where the
-    /// Hessian promises, `decrease_count` times in a row, a decrease of at most 1e-2 gradient_tolerance * |f - base|:
-    /// Newton's decrement, which is the same in all units and scalings (Boyd & Vandenberghe 2004, 9.5).
+    /// Newton's method stops, too, where the Newton decrement is below tolerance: `decrease_count` times in a row a
+    /// predicted decrease of at most 1e-2 gradient_tolerance * |f - base|, which does not depend on units and scalings
+    /// (Boyd & Vandenberghe 2004, 9.5).
     double gradient_tolerance = 1e-6;
 
     /// Stop after `decrease_count` decreases in a row of at most decrease_tolerance * |f - base|. A decrease along a
-    /// step that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only where the
-    /// gradient has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop
-    /// where the value, not the point, matters.
+    /// step that a barrier cut is not counted; one that is lost in rounding is counted only where the gradient has
+    /// reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop where the
+    /// value, not the point, matters.
     double decrease_tolerance = 1e-14;
 
     /// Newton's method: stop where five steps in a row, each of which ended at a relative gradient of at most 1e-2,
     /// have together gained at most settled_tolerance * |f - base|, unless the last one was a full step along a
-    /// definite Hessian, after which the end is near anyway. Meant for long ways through valleys at the end of which
-    /// next to nothing is gained: 1e-4 left 0.07 % at most of what lies above the energy at rest on 67 maps, most of
-    /// them hard (docs/explanation/numerics.md, "Stopping criteria"). Range [0, 1); off here, on in maps of surfaces
-    /// that say nothing else.
+    /// definite Hessian, after which the end is near anyway. For long valleys with negligible decrease at their end
+    /// (docs/explanation/numerics.md, "Stopping criteria"). Range [0, 1); off here, on by default in maps of surfaces.
     double settled_tolerance = 0;
 
-    /// A value that f cannot fall below, or 0. What is left above it, not the value itself, then tells what a decrease
-    /// is worth.
+    /// Lower bound of f, or 0. Decreases are judged relative to f - base, not to f.
     double base = 0;
 
     /// Range >= 1. One small decrease is often an accident of the line search.
@@ -189,8 +186,8 @@ struct descent_params
     /// iteration only. Range > 0. Unused with a preconditioner, whose scale is trusted.
     double first_length = 1;
 
-    /// An objective with a Hessian makes its preconditioner anew, and the method forgets its pairs, once the value has
-    /// fallen by more than this part since the last time. Range > 0.
+    /// Relative decrease of the value after which an objective with a Hessian renews its preconditioner, and the method
+    /// discards its pairs. Range > 0.
     double linearize_after = 0.03;
 
     void validate() const
@@ -269,8 +266,8 @@ struct conjugate_gradient_params
     /// the plain method.
     memory_params memory = {.pairs = 5, .scaling = scaling::largest};
 
-    /// Forget the step before every so many iterations. Range >= 0; 0: only where the direction does not descend or
-    /// the line search fails. The number of unknowns is the classic choice for the plain method on small problems.
+    /// Number of iterations between restarts. Range >= 0; 0: only where the direction does not descend or the line
+    /// search fails. The number of unknowns is the classic choice for the plain method on small problems.
     int restart_interval = 0;
 
     void validate() const
@@ -283,12 +280,12 @@ struct conjugate_gradient_params
 /// Parameters of conjugate gradients on a Newton system.
 struct pcg_params
 {
-    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000. Newton's method doubles it, up to
-    /// eightfold, after each full step along the Hessian itself whose system took them all.
+    /// Maximum number of products with the matrix, and with the preconditioner. Range 1..1000. Newton's method doubles
+    /// it, up to eightfold, after each full step along the Hessian itself whose system took them all.
     int max_steps = 40;
 
-    /// Steps between two looks at the result, at most; each look is a host wait. The first system is looked at after
-    /// two, each further one after as many as the one before was found to need. Range 1..8.
+    /// Maximum number of steps between two convergence tests, each of which is a host wait. The first system is tested
+    /// after two, each further one after as many as the previous one needed. Range 1..8.
     int block = 6;
 
     /// Stop when the last decrease of the model is below this fraction of the mean decrease (Nash & Sofer 1990,
@@ -309,20 +306,18 @@ struct newton_params
 {
     pcg_params pcg = {};
 
-    /// The Hessian itself takes the place of its positive semi-definite (projected) Hessian once an iteration lowers
-    /// the value by less than this part: near a minimum it halves the iterations, far from one it misleads. Range [0,
-    /// 1).
+    /// Relative decrease of the value per iteration below which the Hessian itself replaces the projected one: near a
+    /// minimum it halves the iterations, far from one it misleads. Range [0, 1).
     double exact_below = 1e-5;
 
-    /// After a step shorter than this the objective is asked to relax what cut it short. Range [0, 1].
+    /// Step length below which the objective relaxes the elements that cut the step. Range [0, 1].
     double relax_below = 0.5;
 
-    /// From this iteration on, and once one lowers the value by less than that part, the objective is asked to minimise
-    /// by itself where a step has brought a gradient that the model did not expect; earlier, the whole is too far from
-    /// where its parts belong. Ranges >= 1 and >= 0; 0: never.
+    /// First iteration, and relative decrease of the value, from which the objective eliminates strongly nonlinear
+    /// parts, whose gradients differ from the model's. Ranges >= 1 and >= 0; 0: never.
     int eliminate_from = 10;
     double eliminate_below = 1e-3;
-    /// And only if what was not expected is longer than this part of the gradient before. Range > 0.
+    /// Minimum length of that difference relative to the previous gradient. Range > 0.
     double eliminate_above = 0.3;
 
     void validate() const
@@ -410,7 +405,7 @@ struct params
         if (method == solve::method::newton) require_newton_search();
     }
 
-    /// Throws parameter_error where something is set that Newton's method has no use for.
+    /// Throws parameter_error where a parameter is set that Newton's method does not use.
     void require_newton_search() const
     {
         const impl::descent_params unset;

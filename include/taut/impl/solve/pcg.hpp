@@ -59,9 +59,9 @@ public:
     }
 
     /// A(v, out) and M(v, out) are the products, M symmetric positive definite on the space of g. proceed() is asked
-    /// between blocks of steps; where it says no, d is what there is. max_steps: in the place of
-    /// pcg_params::max_steps, unless it is 0. known: a direction that d is likely to have a part of, not d itself; the
-    /// last step of the first block, which takes no preconditioning. Where it brings much, the search goes on.
+    /// between blocks of steps; once it returns false, d is the current direction. max_steps: in the place of
+    /// pcg_params::max_steps, unless it is 0. known: a direction with a likely component in d; the last step of the
+    /// first block, which takes no preconditioning. If it brings much, the iteration continues.
     /// noise: of values; where the model falls by no more, a negative curvature is taken for rounding, too.
     template <class Product, class Preconditioner, class Proceed = always>
     pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d, Proceed&& proceed = {},
@@ -318,8 +318,8 @@ private:
     }
 
     /// The k-th vector made conjugate to those before it, along which the model falls with a negative curvature; empty
-    /// if rounding may have made that, or where the residual is next to nothing. b: slopes; gained: the decrease so
-    /// far. The first k - 1 rows of K are positive definite.
+    /// if rounding may have made that, or where the residual is negligible. b: slopes; gained: the decrease so far. The
+    /// first k - 1 rows of K are positive definite.
     static std::vector<double> descent(const small& K, const std::vector<double>& b, std::size_t k, double gained)
     {
         constexpr double least = 1e-6; // as in minimiser()

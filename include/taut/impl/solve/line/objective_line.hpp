@@ -117,7 +117,7 @@ private:
         trial_step_ = a;
     }
 
-    /// After every launch: count it, and let the observer speak.
+    /// Counts an evaluation and calls the observer, after every launch.
     double note(double a, double value, int values, int gradients)
     {
         monitor_.count(values, gradients);
