@@ -358,8 +358,8 @@ private:
 /// Clusters a surface. Deterministic; time O(n log n).
 /// m:    an oriented manifold; with any components, handles and holes; f: its facets
 /// keep: one flag per side, edges that are to remain seams, the same on both sides; or empty
-/// together: edges whose triangles are united before all others, in the same way apart: pairs of triangles that are
-///           kept in different pieces
+/// together: edges whose triangles are united before all others, in the same way
+/// apart: pairs of triangles that are kept in different pieces
 /// limits: asked periodically, or null; once it refuses, the current tree is returned
 inline cluster_tree make_cluster_tree(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep = {},
                                       std::span<const char> together = {},
