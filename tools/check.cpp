@@ -127,7 +127,7 @@ void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element
         report.add({false, "feasibility", to_string(f.kind), f.ids, f.message}, exit_code::valid);
 }
 
-/// What --repair mends.
+/// Repairs of --repair.
 std::vector<repair_finding> find_repairs(const io::surface_soup& soup)
 {
     try

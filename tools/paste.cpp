@@ -109,7 +109,7 @@ private:
                                std::to_string(m.vertex_count() - 1));
     }
 
-    /// Where the feature has a map for that.
+    /// Changes the softness, if the feature has a map.
     void soften(double softness)
     {
         if (softness == 0) return;
@@ -137,7 +137,7 @@ private:
         distance_ = std::max(largest_distance(before, after), largest_distance(after, before));
     }
 
-    /// Of corners, middles of edges and centroids of one surface from another one.
+    /// Largest distance of corners, middles of edges and centroids of one surface from another one.
     static double largest_distance(const mesh<triangle>& from, const mesh<triangle>& to)
     {
         const taut::impl::surface_tree tree(to.points(), to.cells());

@@ -33,7 +33,7 @@ struct view_options
     bool no_browser = false;
 };
 
-/// Where that fails, there is the address that was printed.
+/// Opens a browser; if that fails, the address was printed.
 void open_browser(std::optional<view::browser>& browser, const std::string& url)
 {
     try

@@ -31,13 +31,13 @@ class atlas_source
 public:
     virtual ~atlas_source() = default;
 
-    /// What is mapped: the triangles of the file, or what repair has made of them.
+    /// Surface to be mapped: the triangles of the file, or the repaired ones.
     const mesh<triangle>& surface() const { return repaired_ ? repaired_->surface : *whole_; }
 
     /// The vertex of the file that a vertex of the surface is.
     idx vertex_origin(idx v) const { return repaired_ ? repaired_->vertex_origins[static_cast<std::size_t>(v)] : v; }
 
-    /// What was mended.
+    /// Repairs of the input.
     std::span<const repair_finding> repairs() const
     {
         return repaired_ ? std::span<const repair_finding>(repaired_->findings) : std::span<const repair_finding>();

@@ -206,7 +206,7 @@ protected:
     const map& x() const { return session_->x(); }
     const taut::constraints<Element>& asked() const { return asked_; }
 
-    /// What is pinned, and the vertices outside of the focus where they are.
+    /// Pins, and the vertices outside of the focus at their positions.
     taut::constraints<Element> all_held() const
     {
         auto all = asked_;
@@ -255,7 +255,7 @@ private:
         return x()[static_cast<std::size_t>(v)];
     }
 
-    /// Where it is, but for coordinates that are pinned.
+    /// Fixes a vertex at its position, except coordinates that are pinned.
     void hold(taut::constraints<Element>& c, idx v) const
     {
         for (int k = 0; k < D; ++k)

@@ -27,7 +27,7 @@ namespace taut::tools
 namespace
 {
 
-/// How far cells are from isometric.
+/// Summary of the distortion of cells.
 struct distortion_summary
 {
     double median = 0, percentile99 = 0, most = 0;

@@ -217,7 +217,7 @@ private:
         report_.run.notes.insert(report_.run.notes.end(), notes_.begin(), notes_.end());
     }
 
-    /// Whether writing may round a coordinate: it is none that the user, or a boundary that slides, holds.
+    /// Returns whether writing may round a coordinate: it is none that the user, or a boundary that slides, holds.
     auto movable(const map& x) const
     {
         std::vector<char> still(x.size(), 0);

@@ -18,7 +18,7 @@
 namespace taut::tools
 {
 
-/// Whether a name is that of a volume file, problems aside.
+/// Returns whether a name is that of a volume file, problems aside.
 bool names_volume(const std::string& path);
 
 /// Throws usage_error for "-": a mesh is one file or two.

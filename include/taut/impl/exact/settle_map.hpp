@@ -364,7 +364,7 @@ private:
 /// remain valid.
 /// cells:   of the piece, whose vertices are numbered from `first`
 /// corners: triples of them that are to turn left, as those of convex_polygons
-/// x:       of the whole map: positions, then the rounded ones
+/// x: of the whole map: positions, then the rounded ones
 /// Returns the remaining faults.
 inline map_faults settle_piece(std::span<const std::array<idx, 3>> cells, std::span<const std::array<idx, 3>> corners,
                                idx first, idx end, std::span<vec2> x, const settling& how = {})
