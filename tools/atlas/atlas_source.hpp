@@ -43,7 +43,7 @@ public:
         return repaired_ ? std::span<const repair_finding>(repaired_->findings) : std::span<const repair_finding>();
     }
 
-    /// Texture coordinates of the file, in the plane of the atlas, one per corner of the surface; empty if one is missing.
+    /// Texture coordinates of the file, in the plane of the atlas, one per corner of the surface; or empty.
     std::vector<std::array<vec2, 3>> texcoords() const;
 
     /// The same with what is no number where one is missing.

@@ -50,7 +50,7 @@ struct distortion_summary
     }
 };
 
-/// What the map from rest does.
+/// Map from the rest shape.
 struct volume_map
 {
     taut::quality quality; ///< of all cells with a volume at rest

@@ -19,7 +19,7 @@ namespace taut::tools
 namespace
 {
 
-/// What both commands have. usual: the tolerance without an option
+/// Options that both commands have. usual: the tolerance without an option
 void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
 {
     add_input(app, "MESH", o.input, "the input",

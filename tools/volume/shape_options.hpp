@@ -13,7 +13,7 @@
 namespace taut::tools
 {
 
-/// What to minimise while a mesh deforms.
+/// Energies of a deformation.
 enum class shape_energy
 {
     isometric,
@@ -22,7 +22,7 @@ enum class shape_energy
     neo_hookean
 };
 
-/// What the user asked `taut deform` or `taut smooth` for.
+/// Options of `taut deform` and `taut smooth`.
 struct shape_options
 {
     std::string input, output, stats, picture, cut, device, progress;

@@ -111,7 +111,7 @@ private:
         report_.springs = pins_.springs().size();
     }
 
-    /// Of a file that has regions, or labelled faces.
+    /// Keeps the interfaces of a file with regions or labelled faces.
     void keep_interfaces()
     {
         if (options_.free_interfaces) return;
@@ -254,7 +254,7 @@ private:
         report_.after = std::move(written.state);
     }
 
-    /// How far pins are from their places in what is written; whether all are there.
+    /// Measures the distances of pins from their targets in the output; returns whether all are met.
     bool measure_pins(const map& x)
     {
         session_report& run = report_.run;

@@ -18,7 +18,7 @@ struct drawn_state
     std::vector<idx> inverted; ///< cells
 };
 
-/// How a picture of states of one mesh is drawn.
+/// Options of pictures of a mesh.
 struct drawing_options
 {
     std::string path;      ///< whose extension says what it is

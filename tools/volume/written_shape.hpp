@@ -47,7 +47,7 @@ struct written_shape
         points = input.in_file(x);
     }
 
-    /// What is wrong, and what helps; empty: nothing.
+    /// Describes the defects, with the remedy; empty: none.
     std::string defects(const volume_case<Element>& input) const
     {
         if (state.simplices) return {};
