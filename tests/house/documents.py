@@ -14,6 +14,8 @@ IDIOMS = [
     r"by turns", r"(?:is|are) not kept", r"the version before", r"since then", r"trial programs?\b",
     r"stand-ins?\b", r"\bstays? open", r"\bthe doors\b", r"\bdraft(?:s|ed)?\b", r"pins? (?:is|are) (?:drawn|led)",
     r"next to nothing", r"\bfound and told\b", r"\bno numbers\b", r"\bwhoever laid\b", r"\bsewn along\b",
+    r"\bone an? (?:vertex|triangle|corner|point|side|chart|cell|element|line)\b", r"\bwhoever\b", r"\bturned over\b",
+    r"\bmend(?:s|ed)?\b", r"\bcomes? to lie\b", r"\bstands? in for\b", r"\blengths of the run\b",
     r"\bwho has stopped\b", r"\bwhat nothing holds\b", r"became [0-9]", r"\bidle cores\b", r"in the same hour",
 ]
 EXPLANATION = ["explanation", "log"]

@@ -20,7 +20,7 @@ struct hierarchy_params
     idx min_vertices = 50; ///< of the coarsest level, about; at least 3
     unsigned threads = 0;  ///< at most so many; 0: as many as the machine runs at once. The result does not change
 
-    /// Asked between rounds of thinning: callback; once it returns false, no further level is made.
+    /// Callback between rounds of coarsening; once it returns false, no further level is made.
     std::function<bool()> proceed = {};
 
     /// Throws parameter_error with the name of a field outside its domain.

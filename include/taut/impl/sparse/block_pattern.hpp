@@ -81,7 +81,7 @@ private:
     std::array<idx, most> items_{};
 };
 
-/// A row at hand, to look its columns up.
+/// Row of the pattern, to look up its columns.
 class sliced_row
 {
 public:

@@ -204,7 +204,7 @@ private:
         return begin;
     }
 
-    /// Work and memory that go beyond this are for more than the file says, whatever packed it.
+    /// Charges work and memory against a limit in proportion to the file.
     void charge(std::size_t n)
     {
         spent_ += n;

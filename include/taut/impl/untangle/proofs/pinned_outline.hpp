@@ -18,7 +18,7 @@
 namespace taut::impl
 {
 
-/// Twice the area (six times the volume) that an outline encloses, by the sign exact: the sum of the determinants of
+/// Twice the area (six times the volume) that an outline encloses, with an exact sign: the sum of the determinants of
 /// all elements inside, whatever the free vertices do.
 template <int D>
 orientation enclosed(std::span<const std::array<idx, D>> outline, std::span<const vec<D>> x)
