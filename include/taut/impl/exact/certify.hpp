@@ -34,7 +34,7 @@ struct certificate
 
     std::size_t defects() const { return flipped + branched; }
 
-    /// Adds the counts of another certificate; the range of det is kept.
+    /// Takes the counts of another certificate; the range of det is kept.
     void take_defects(const certificate& other)
     {
         elements = other.elements;

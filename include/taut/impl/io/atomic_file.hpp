@@ -21,7 +21,7 @@ using new_file = posix_file;
 #else
 using new_file = plain_file;
 
-/// Fallback for systems without signal handlers.
+/// Does nothing: there is no signal handler on systems without POSIX.
 inline void remove_temporaries() noexcept {}
 #endif
 

@@ -114,7 +114,7 @@ private:
         soup_.add_texcoord({u, in_.content_ends() ? 0.0 : in_.number()}, in_.path(), in_.here());
     }
 
-    /// Ignores invalid normals, which may not be needed.
+    /// Reads a normal; an invalid one is stored as not a number, as normals may not be needed.
     void read_normal()
     {
         soup_.normals.emplace_back(std::numeric_limits<double>::quiet_NaN());

@@ -98,7 +98,7 @@ struct surface_file
     impl::file_faces faces = {};                    ///< faces that the triangles were made from
     impl::file_vertices vertices = {};              ///< OFF and PLY
     impl::obj_text obj = {};                        ///< OBJ; else empty
-    std::string texcoord_fault = {}; ///< what is wrong with the texture coordinates of the file, which then are none
+    std::string texcoord_fault = {}; ///< fault of the texture coordinates of the file, which then are none
                                      ///< here: one is no finite number, or is named and not there; place and fault
 
     /// The texture coordinate of corner k of triangle c.

@@ -53,7 +53,7 @@ public:
             if (grow(std::span(middles).first(count))) break;
     }
 
-    /// Orders patches by size, the largest first.
+    /// Patches found, the largest first.
     std::vector<patch<Element>> patches()
     {
         std::vector<patch<Element>> all;
@@ -99,7 +99,7 @@ private:
         return order;
     }
 
-    /// Adds vertices; returns false, and adds none, where there would be too many.
+    /// Grows patches around these centres; returns false, with none, where they would be too large.
     bool grow(std::span<const idx> middles)
     {
         const auto most =

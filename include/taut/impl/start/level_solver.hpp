@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// Fallback energy: accepts any map without flips.
+/// Some map without flips, for warm-up launches.
 inline std::vector<vec2> some_map(const mesh<triangle>& m)
 {
     return barycentric_map(m, facets(m), {}).uv;

@@ -94,7 +94,7 @@ private:
         return true;
     }
 
-    /// Takes the map; returns false if there is none.
+    /// Starts from an injective map that ignores fixed coordinates; returns false if there is none.
     bool lay(untangle_state<Element>& state)
     {
         if constexpr (D == 2)
