@@ -81,7 +81,7 @@ namespace taut
 struct infeasibility
 {
     std::vector<impl::infeasibility_finding> proofs;   ///< each is enough: no map is locally injective
-    std::vector<impl::infeasibility_finding> warnings; ///< properties that no map with these pins has, though maps may exist
+    std::vector<impl::infeasibility_finding> warnings; ///< properties that no map with these pins has
 
     /// True if infeasibility is proved.
     explicit operator bool() const { return !proofs.empty(); }
