@@ -29,7 +29,7 @@ namespace taut::impl
 template <int D>
 struct operator_result
 {
-    std::vector<vec<D>> map; ///< the state with the fewest inverted elements; fixed coordinates are those of the problem
+    std::vector<vec<D>> map; ///< map with the fewest inverted elements; fixed coordinates are those of the problem
     operator_stop why = operator_stop::iterations;
     int iterations = 0;              ///< moves made
     int best_iteration = 0;          ///< how many of them lead to the map
