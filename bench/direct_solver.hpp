@@ -25,7 +25,7 @@ public:
     virtual void solve(std::span<const taut::vec3> b, std::span<taut::vec3> d) = 0;
 };
 
-/// By CHOLMOD; null where the build left it out (TAUT_BENCH_PEERS). pattern: a matrix of it. free: one a vertex.
+/// By CHOLMOD; null where the build left it out (TAUT_BENCH_PEERS). pattern: a matrix of it. free: one per vertex.
 std::unique_ptr<direct_solver> make_direct_solver(const taut::impl::block_rows<3>& pattern,
                                                   const std::vector<bool>& free);
 

@@ -13,8 +13,8 @@
 namespace taut::tools
 {
 
-/// What a subcommand does once its options are parsed and its files looked at. Failures are exceptions; main() knows
-/// their exit codes.
+/// Body of a subcommand, called once its options are parsed and its files checked. Failures are exceptions; main()
+/// knows their exit codes.
 using command = std::function<exit_code(const outputs&)>;
 
 /// Each adds one subcommand with its options and returns what it does. `launch` is when the program started.

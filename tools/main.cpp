@@ -44,7 +44,7 @@ int fail(exit_code code, const std::string& what, const std::string& remedy = {}
     return to_int(code);
 }
 
-/// What is wrong with a parameter of the library, in the words of the command: of the option that sets it, if one does.
+/// Describes a parameter_error in terms of the command: by the option that sets it, if one does.
 std::string in_words_of(const CLI::App* command, const parameter_error& e)
 {
     std::string option = "--" + e.field();

@@ -65,28 +65,30 @@ using packed_rows = Eigen::Matrix<T, Eigen::Dynamic, K, Eigen::RowMajor>;
 namespace taut
 {
 
-/// A surface of V and F. Throws parameter_error for another number of columns, mesh_error as the constructor of mesh.
+/// Surface mesh of V (#V by 2 or 3 points) and F (#F by 3 vertex indices). Throws parameter_error for another number of
+/// columns, mesh_error as the constructor of mesh.
 template <class Points, class Cells>
 mesh<triangle> mesh_from(const Eigen::DenseBase<Points>& V, const Eigen::DenseBase<Cells>& F)
 {
     return impl::mesh_of_matrices<triangle>(V, F, "F");
 }
 
-/// A volume of V and T.
+/// Tetrahedral mesh of V (#V by 3 points) and T (#T by 4 vertex indices).
 template <class Points, class Cells>
 mesh<tetrahedron> volume_from(const Eigen::DenseBase<Points>& V, const Eigen::DenseBase<Cells>& T)
 {
     return impl::mesh_of_matrices<tetrahedron>(V, T, "T");
 }
 
-/// Points of a matrix with D columns.
+/// Points from the rows of a matrix with D columns.
 template <int D, class Points>
 std::vector<vec<D>> points_from(const Eigen::DenseBase<Points>& X)
 {
     return points_of<D>(impl::rows_of<D>(X, "X"));
 }
 
-/// Points as a matrix with one row a point. It is the memory of x and no copy: assign it to a matrix of your own,
+/// Points as a matrix with one row per point. It maps the memory of x without a copy: assign it to a matrix of your
+/// own,
 ///
 ///     Eigen::MatrixXd uv = taut::matrix_of(result.uv);
 ///     mine.leftCols(2) = taut::matrix_of(result.uv).cast<float>();
@@ -114,7 +116,7 @@ Eigen::Map<const impl::packed_rows<idx, static_cast<int>(K)>> matrix_of(const st
 template <std::size_t K>
 void matrix_of(const std::vector<std::array<idx, K>>&&) = delete;
 
-/// How the coordinates of n points in D dimensions are numbered as unknowns.
+/// Numbering of the coordinates of n points in D dimensions as unknowns.
 enum class unknown_order
 {
     by_point,     ///< coordinate k of point v is D v + k: a matrix by rows, read as one vector
@@ -154,8 +156,8 @@ Eigen::SparseMatrix<double> matrix_of(const impl::block_rows<D>& H, unknown_orde
     return matrix;
 }
 
-/// Pins of the vertices b at the rows of bc, bit for bit. Throws parameter_error for another number of rows,
-/// constraint_error as constraints::pin does.
+/// Pins of the vertices b at the rows of bc, fixed exactly (as in libigl). Throws parameter_error for another number of
+/// rows, constraint_error as constraints::pin does.
 template <class Element, class Vertices, class Points>
 constraints<Element> constraints_from(const mesh<Element>& m, const Eigen::DenseBase<Vertices>& b,
                                       const Eigen::DenseBase<Points>& bc)

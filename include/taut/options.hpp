@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What all entry points share: limits of a run, progress and cancellation, precision.
+/// Common types of all entry points: limits of a run, progress and cancellation, precision.
 #include <taut/impl/core/observer.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/objective/stage_report.hpp>

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """documents.py ROOT: pages for users are free of the idioms of a laboratory, and no link within the repository is dead.
 
-Pages for users are README.md and docs/ but for docs/log, which says what was tried and when. Links are those of all
-documents, with their headings, and pages that sources name as docs/FOLDER/PAGE.md."""
+Pages for users are README.md and docs/ but for docs/log, which says what was tried and when. Those that are no
+explanation name public headers alone, no path below impl/. Links are those of all documents, with their headings, and
+pages that sources name as docs/FOLDER/PAGE.md."""
 
 import pathlib
 import re
@@ -13,8 +14,11 @@ IDIOMS = [
     r"by turns", r"(?:is|are) not kept", r"the version before", r"since then", r"trial programs?\b",
     r"stand-ins?\b", r"\bstays? open", r"\bthe doors\b", r"\bdraft(?:s|ed)?\b", r"pins? (?:is|are) (?:drawn|led)",
     r"next to nothing", r"\bfound and told\b", r"\bno numbers\b", r"\bwhoever laid\b", r"\bsewn along\b",
+    r"\bone an? (?:vertex|triangle|corner|point|side|chart|cell|element|line)\b", r"\bwhoever\b", r"\bturned over\b",
+    r"\bmend(?:s|ed)?\b", r"\bcomes? to lie\b", r"\bstands? in for\b", r"\blengths of the run\b",
     r"\bwho has stopped\b", r"\bwhat nothing holds\b", r"became [0-9]", r"\bidle cores\b", r"in the same hour",
 ]
+EXPLANATION = ["explanation", "log"]
 GONE = re.compile(r"TAUT_COMPILED|taut::compiled|TAUT_ON_USE")
 SOURCES = ["include", "src", "tools", "tests", "examples", "bench", "scripts", "cmake", "kernels"]
 
@@ -53,6 +57,11 @@ def main():
 
     for page in documents:
         log = root / "docs" / "log" in page.parents
+        internal = page.name == "CHANGELOG.md" or any(root / "docs" / kind in page.parents for kind in EXPLANATION)
+        if not internal:
+            for number, line in enumerate(page.read_text(encoding="utf-8").split("\n"), 1):
+                if found := re.search(r"\bimpl(?:/|::)[\w/.:]*", line):
+                    fault(page, number, f"{found[0]} is internal; name a public header, or say what happens")
         for number, line in enumerate(without_code(page.read_text(encoding="utf-8")), 1):
             if not log and page.name != "CHANGELOG.md":
                 if found := GONE.search(line):

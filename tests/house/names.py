@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""names.py ROOT [--rows]: the public names of the headers are those of docs/reference/names.md.
+"""names.py ROOT [--rows]: the public names of the headers are those of docs/reference/names.md and have docstrings.
 
 Public is what a header declares in taut, taut::io, taut::energy or taut::solve; the rest is in the impl of one of them.
-The page has a section for each header of include/taut. Each name stands in one section, of a header that brings it.
+The page has a section for each header of include/taut. Each name stands in one section, of a header that brings it,
+with a meaning. A docstring starts with a noun phrase or a verb in the third person, never with What, Whether, Who, How, ...
 --rows prints the rows of names that the page lacks, with the first sentence of their comments."""
 import collections
 import pathlib
@@ -12,6 +13,7 @@ import sys
 PUBLIC = ("taut", "taut::io", "taut::energy", "taut::solve")
 root = pathlib.Path(sys.argv[1])
 include = root / "include/taut"
+QUESTION = re.compile(r"(?:What|Whether|Who|Whose|Whom|How|Of|Where|When|Which|Why)\b")
 QUIET = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)+'", re.S)
 DECLARED = re.compile(r"(?:^|\s)(?:class|struct|enum class|enum|concept|using|namespace)\s+(?:\[\[\w+\]\]\s+)?(\w+)")
 
@@ -82,6 +84,8 @@ def name_of(head):
     if "->" in flat and "auto" not in flat:
         return None  # a deduction guide
     called = re.search(r"\b(?!requires\b|noexcept\b|decltype\b|template\b)(\w+)\s*\(", flat)
+    if called and flat[:called.start()].endswith("::"):
+        return None  # a member, defined out of its class
     words = [called.group(1)] if called else re.findall(r"[\w:]+", before.split("=")[0])
     if not words or "::" in words[-1]:
         return None
@@ -89,7 +93,7 @@ def name_of(head):
 
 
 def declared(text):
-    """{(namespace, name): comment} of one header."""
+    """{(namespace, name): comments of its declarations} of one header."""
     code, found = blank(text), {}
     for m in re.finditer(r"^namespace ([\w:]+)\n\{", code, re.M):
         space = m.group(1)
@@ -105,8 +109,8 @@ def declared(text):
                 raise SystemExit(f"namespace {nested.group(1)} within {space}: name it in one piece")
             name = name_of(head)
             if name:
-                comment = re.findall(r"///\s?([^\n]*)", text[begin:begin + len(head)])
-                found.setdefault((space, name), " ".join(comment))
+                lines = re.findall(r"^[ \t]*///[ \t]?([^\n]*)", text[begin:begin + len(head)], re.M)
+                found.setdefault((space, name), []).append(" ".join(lines).strip())
     return found
 
 
@@ -117,7 +121,6 @@ for path, text in headers.items():
         names[path] = declared(text)
     except SystemExit as e:
         sys.exit(f"{path}: {e}")
-every = collections.ChainMap(*names.values())
 
 
 def reached(path, seen):
@@ -140,18 +143,29 @@ for section in re.split(r"^## ", page, flags=re.M)[1:]:
         faults.append(f"section {section.splitlines()[0]}: no such header")
         continue
     brought = {written(*key) for path in reached(header.group(1), {header.group(1)}) for key in names[path]}
-    for row in re.findall(r"^\| `([\w:]+)`", section, re.M):
+    for row, meaning in re.findall(r"^\| `([\w:]+)` \|(.*)\|$", section, re.M):
         listed[row] += 1
+        if not meaning.strip():
+            faults.append(f"{row}: no meaning on the page")
+        if QUESTION.match(meaning.strip().capitalize()):
+            faults.append(f"{row}: the page answers no question; name the thing, or say what it does with a verb")
         if row not in brought:
             faults.append(f"{row}: {header.group(1)} does not bring it")
-public = {written(*key): comment for key, comment in every.items()}
+public = {}
+for declarations in names.values():
+    for key, comments in declarations.items():
+        name = written(*key)
+        public[name] = public.get(name) or next(filter(None, comments), "")
+        faults += [f'{name}: a docstring starts with a noun phrase or a verb, not "{comment[:30]} ..."'
+                   for comment in comments if QUESTION.match(comment)]
+faults += [f"{n}: no docstring" for n, comment in public.items() if not comment]
 faults += [f"{n}: twice on the page" for n, count in listed.items() if count > 1]
 faults += [f"{n}: on the page, but in no header" for n in sorted(set(listed) - set(public))]
 missing = sorted(set(public) - set(listed))
 if "--rows" in sys.argv:
     for n in missing:
         sentence = re.split(r"(?<=[.:])\s", public[n] + " ")[0].rstrip(".: ")
-        print(f"| `{n}` | {sentence[:1].lower() + sentence[1:]} |")
+        print(f"| `{n}` | {sentence} |")
     sys.exit()
 faults += [f"{n}: public, but not on the page" for n in missing]
 flat = sorted(p for p in headers if "/" not in p and p not in ("taut.hpp", "version.hpp"))

@@ -37,7 +37,7 @@ test_shells()
     # To standard output, and what is held by nothing is told.
     expect 0 deform in.obj -o -
     says out '^# kept$' '^v '
-    says err 'nothing is held or moved'
+    says err 'nothing is fixed or moved'
 
     # Wrong use.
     expect 2 deform in.obj -o late.obj --thickness 0

@@ -58,7 +58,7 @@ void keep_freed_memory()
 #endif
 }
 
-/// What glTF makes of a coordinate in the plane of the atlas, whose v is -v there.
+/// Rounds a coordinate in the plane of the atlas as in glTF, whose v is -v there.
 template <io::gltf_numbers Numbers>
 vec2 in_gltf(vec2 x)
 {
@@ -66,7 +66,7 @@ vec2 in_gltf(vec2 x)
     return {y.x, -y.y};
 }
 
-/// Whether pinned corners stay as they are.
+/// Returns whether pinned corners stay as they are.
 bool holds_pinned(const atlas_params& params)
 {
     for (std::size_t c = 0; c < params.pinned.size(); ++c)
@@ -101,7 +101,7 @@ public:
         catch (const mesh_error& e)
         {
             if (options_.repair || e.fault() == mesh_fault::empty || e.fault() == mesh_fault::too_large) throw;
-            std::string more = "; or let --repair mend it";
+            std::string more = "; or let --repair repair it";
             for (const auto& s : sources_)
                 if (!s->near_edges.empty()) more += "; " + s->near_edges;
             throw mesh_error(e.fault(), e.ids(), e.what() + more);

@@ -21,8 +21,8 @@ namespace
 void declare_charts(CLI::App& app, atlas_options& o)
 {
     app.add_flag("--repair", o.repair,
-                 "Mend what is no surface: duplicate and flat triangles, edges of three triangles, winding, ...; the "
-                 "files keep their vertices and faces, what is left out has no vt");
+                 "Repair the input: duplicate and degenerate triangles, non-manifold edges, "
+                 "winding, ...; the files keep their vertices and faces, removed faces have no vt");
     app.add_option_function<double>(
            "--weld",
            [&o](const double& d)
@@ -30,8 +30,9 @@ void declare_charts(CLI::App& app, atlas_options& o)
                o.weld = d;
                o.repair = true;
            },
-           "Repair, and join corners at open edges that are at most D apart, in units of the file; 0: equal ones only. "
-           "--repair alone joins those within 1e-7 of the size, or 8 units of the last digit of the file")
+           "Repair, and weld corners at open edges that are at most D apart, in units of "
+           "the file; 0: equal ones only. --repair alone welds those within 1e-7 of the "
+           "size, or 8 units of the last digit of the file")
         ->type_name("D")
         ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must be a length, 0 or more"));
     const auto distortion = number_that([](double x) { return x > 4 && std::isfinite(x); }, "is not above 4");
@@ -40,7 +41,8 @@ void declare_charts(CLI::App& app, atlas_options& o)
         ->type_name("D")
         ->check(distortion);
     app.add_option("--mean-distortion", o.mean_distortion,
-                   "Bound of that of all charts; default 4.045, or --max-distortion if that is given")
+                   "Bound of the mean over all charts; default 4.045, or --max-distortion if that "
+                   "is given")
         ->type_name("D")
         ->check(distortion);
     add_choice<chart_preference>(app, "--prefer", o.prefer,
@@ -49,15 +51,16 @@ void declare_charts(CLI::App& app, atlas_options& o)
                                   {"one", chart_preference::one}},
                                  "Few charts along short seams, charts that fill the square better, or one a component");
     add_choice<bool>(app, "--charts", o.keep_charts, {{"auto", false}, {"keep", true}},
-                     "Make charts, or keep those that the vt of the file show and relax them");
-    app.add_flag("--keep-seams", o.keep_seams, "The seams of the file's vt and its materials are seams of charts, too");
+                     "Make charts, or keep those of the vt of the file and relax them");
+    app.add_flag("--keep-seams", o.keep_seams, "Keep the seams of the file's vt and between its materials");
     app.add_flag("--symmetric", o.symmetric,
-                 "Charts are mirror images of each other, in a plane that is found; no chart leads across it");
+                 "Make charts that are mirror images of each other in the plane of symmetry, "
+                 "which is detected; no chart crosses it");
     add_input(app, "--seams", o.seams, "the file of seams",
-              "Edges that are seams of charts, a line each: two vertices, from 0");
+              "Edges that are seams of charts, one per line: two vertices, from 0");
     add_input(app, "--pin", o.pinned, "the file of pinned faces",
-              "Faces, from 0: the charts of the file's vt that have one of them stay as and where they are, others "
-              "are laid around them");
+              "Faces, from 0, that pin their charts of the file's vt: these keep shape and "
+              "place, others are packed around them");
 }
 
 void declare_packing(CLI::App& app, atlas_options& o)
@@ -70,11 +73,11 @@ void declare_packing(CLI::App& app, atlas_options& o)
         ->type_name("N")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
-    app.add_option("--udim", o.tiles, "Squares to fill: 1001, 1002, ... of UDIM, ten in a row")
+    app.add_option("--udim", o.tiles, "Number of tiles: 1001, 1002, ... of UDIM, ten in a row")
         ->type_name("N")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    app.add_flag("--upright", o.upright, "Charts are shifted only, not turned");
+    app.add_flag("--upright", o.upright, "Translate charts only, without rotation");
 }
 
 void declare_reports(CLI::App& app, atlas_options& o)
@@ -97,10 +100,10 @@ void declare(CLI::App& app, atlas_options& o)
               "Surfaces that share the atlas: OBJ, OFF, PLY, STL, glTF; - is standard input")
         ->required()
         ->type_name("FILE...");
-    add_output(
-        app, "-o,--output", o.outputs, {.extensions = {".obj", ".glb", ".gltf"}, .made_of = "IN", .in_place = true},
-        "What to write, once for each surface: the file as it is, with new vt; one for several: an OBJ of all of "
-        "them as triangles, an object each; - is standard output")
+    add_output(app, "-o,--output", o.outputs,
+               {.extensions = {".obj", ".glb", ".gltf"}, .made_of = "IN", .in_place = true},
+               "Output, once for each surface: the input file with new vt; one for several: an "
+               "OBJ of all of them as triangles, an object each; - is standard output")
         ->required()
         ->allow_extra_args(false)
         ->type_name("OUT.obj|.glb");

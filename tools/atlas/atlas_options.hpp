@@ -16,7 +16,7 @@
 namespace taut::tools
 {
 
-/// What the user asked `taut atlas` for.
+/// Options of `taut atlas`.
 struct atlas_options
 {
     std::vector<std::string> inputs, outputs; ///< as many of these as of those
@@ -37,7 +37,7 @@ void declare(CLI::App& app, atlas_options& options);
 /// Throws usage_error for options that do not fit together.
 void check(const atlas_options& options);
 
-/// What to type to have the same again.
+/// Command line that reproduces a run.
 std::string as_command_line(const atlas_options& options);
 
 /// atlas_params::origin for these outputs.
@@ -45,7 +45,7 @@ vec2 origin_of(const atlas_options& options);
 
 source_options to_source_options(const atlas_options& options);
 
-/// What the library is to do, all but seams, the map to begin with and the observer.
+/// Parameters of the library, without seams, initial map and observer.
 atlas_params to_params(const atlas_options& options);
 
 } // namespace taut::tools

@@ -38,7 +38,7 @@ std::vector<idx> face_materials(std::string_view text)
     return numbers.size() > 1 ? materials : std::vector<idx>();
 }
 
-/// Whether triangles are one piece, by common corners.
+/// Returns whether triangles are one piece, by common corners.
 bool hang_together(std::span<const std::array<idx, 3>> cells)
 {
     impl::disjoint_sets pieces(static_cast<idx>(cells.size()));

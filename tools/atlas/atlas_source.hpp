@@ -31,20 +31,19 @@ class atlas_source
 public:
     virtual ~atlas_source() = default;
 
-    /// What is mapped: the triangles of the file, or what repair has made of them.
+    /// Surface to be mapped: the triangles of the file, or the repaired ones.
     const mesh<triangle>& surface() const { return repaired_ ? repaired_->surface : *whole_; }
 
     /// The vertex of the file that a vertex of the surface is.
     idx vertex_origin(idx v) const { return repaired_ ? repaired_->vertex_origins[static_cast<std::size_t>(v)] : v; }
 
-    /// What was mended.
+    /// Repairs of the input.
     std::span<const repair_finding> repairs() const
     {
         return repaired_ ? std::span<const repair_finding>(repaired_->findings) : std::span<const repair_finding>();
     }
 
-    /// The texture coordinates that the file has, in the plane of the atlas, one a corner of the surface; empty if one
-    /// is missing.
+    /// Texture coordinates of the file, in the plane of the atlas, one per corner of the surface; or empty.
     std::vector<std::array<vec2, 3>> texcoords() const;
 
     /// The same with what is no number where one is missing.

@@ -20,7 +20,7 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
 /// The edges between triangles of one polygon, one flag a side; empty if all faces are triangles.
 std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const facet_table& f);
 
-/// The texture coordinates of all files, one a corner of the joined surface.
+/// The texture coordinates of all files, one per corner of the joined surface.
 /// Throws unsuitable_input if a file has none, io::texcoord_error if a corner has none.
 std::vector<std::array<vec2, 3>> texcoords_of(const std::vector<std::unique_ptr<atlas_source>>& sources);
 

@@ -138,7 +138,7 @@ private:
     std::unique_ptr<child> child_;
 };
 
-/// Where a job can be at work.
+/// Slot of a running job.
 struct worker
 {
     std::unique_ptr<kernel_cache> cache;
@@ -252,7 +252,7 @@ private:
         }
     }
 
-    /// Who ends a whole group of processes, as schedulers do, may reach a job first.
+    /// Returns whether a job ended with the batch: schedulers that end a group of processes may reach it first.
     static bool belongs_to_interruption(const child_end& end)
     {
         if (end.by == child_end::asked) return true;

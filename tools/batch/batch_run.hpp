@@ -23,7 +23,7 @@ struct run_options
     std::filesystem::path caches; ///< of compiled kernels
 };
 
-/// How far a run is.
+/// Progress of a run.
 struct tally
 {
     std::size_t jobs = 0, skipped = 0, done = 0, failed = 0, running = 0;

@@ -36,7 +36,7 @@ struct shard
     bool has(std::size_t job) const noexcept { return job % count == index - 1; }
 };
 
-/// Of `3/8`. Nothing if it is no such pair of numbers.
+/// Parses `3/8`. None if it is no such pair of numbers.
 std::optional<shard> parse_shard(const std::string& text);
 
 } // namespace taut::tools::batch

@@ -25,7 +25,7 @@ using hashes = std::map<std::string, std::optional<std::string>>;
 
 hashes hashes_of(const std::vector<std::string>& paths);
 
-/// What became of a job, as a JSON object, docs/howto/batch.md.
+/// Result of a job, as a JSON object, docs/howto/batch.md.
 using result = nlohmann::ordered_json;
 
 /// One word for how a job ended: a promise to scripts, as the exit codes are.
@@ -38,18 +38,18 @@ result make_result(const job& done, const child_end& end, const hashes& inputs, 
 /// One that was read back, whose keys have another order. (An ordered object looks through all keys for each.)
 using earlier_result = nlohmann::json;
 
-/// Whether a result is one of success: a map that was asked for is there.
+/// Returns whether a result is one of success: a map that was asked for is there.
 template <class Json>
 bool succeeded(const Json& r)
 {
     return r["code"] == to_int(exit_code::valid) || r["code"] == to_int(exit_code::time_limit);
 }
 
-/// Whether a result still stands: the same arguments, inputs with the same content as then, or as the job left them,
-/// and outputs that exist.
+/// Returns whether a result still stands: the same arguments, inputs with the same content as then, or as the job left
+/// them, and outputs that exist.
 bool stands(const earlier_result& r, const job& wanted, const job_files& files);
 
-/// What a file needs before results can be appended to it.
+/// Repair that a file needs before results can be appended to it.
 struct result_ending
 {
     enum need

@@ -127,7 +127,7 @@ void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element
         report.add({false, "feasibility", to_string(f.kind), f.ids, f.message}, exit_code::valid);
 }
 
-/// What --repair mends.
+/// Repairs of --repair.
 std::vector<repair_finding> find_repairs(const io::surface_soup& soup)
 {
     try
@@ -342,8 +342,8 @@ exit_code run(const check_options& options)
 command add_check(CLI::App& program)
 {
     const auto options = std::make_shared<check_options>();
-    auto& app = *program.add_subcommand(
-        "check", "Say what is wrong with a surface, a volume, a problem or pins, without solving");
+    auto& app = *program.add_subcommand("check",
+                                        "Report the faults of a surface, a volume, a problem or pins, without solving");
     add_input(app, "IN", options->input, "the input",
               "Surface (OBJ, OFF, PLY, STL) as `unwrap` takes it, problem (.prob), or volume, or mesh of the plane "
               "(.mesh .msh .vtk .vtu .node .su2); - is standard input")
@@ -356,7 +356,7 @@ command add_check(CLI::App& program)
                                                {"ply", surface_format::ply},
                                                {"stl", surface_format::stl},
                                                {"prob", {}}},
-                                              "What IN is; auto: what its name says, for - (standard input) a surface");
+                                              "Kind of IN; auto: by its name, for - (standard input) a surface");
     add_input(app, "--pins", options->pins, "the pins",
               "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
         ->type_name("FILE.csv");

@@ -20,7 +20,7 @@
 namespace taut::tools
 {
 
-/// What the user asked `taut check` for.
+/// Options of `taut check`.
 struct check_options
 {
     std::string input, pins;

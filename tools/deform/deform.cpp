@@ -48,8 +48,8 @@ command add_deform(CLI::App& program, std::chrono::steady_clock::time_point laun
 {
     const auto options = std::make_shared<shape_options>();
     declare_deform(
-        *program.add_subcommand(
-            "deform", "Deform a volume, a mesh of the plane, or a surface in space by what is held and moved"),
+        *program.add_subcommand("deform", "Deform a volume, a planar mesh, or a surface in space under fixed and moved "
+                                          "vertices"),
         *options);
     return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }
@@ -57,7 +57,9 @@ command add_deform(CLI::App& program, std::chrono::steady_clock::time_point laun
 command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<shape_options>();
-    declare_smooth(*program.add_subcommand("smooth", "Move vertices to where the elements are best shaped"), *options);
+    declare_smooth(
+        *program.add_subcommand("smooth", "Smooth a mesh: move vertices to improve the shapes of its elements"),
+        *options);
     return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }
 

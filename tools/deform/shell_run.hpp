@@ -19,7 +19,7 @@
 namespace taut::tools
 {
 
-/// Whether a file is one of a surface in space, by its extension.
+/// Returns whether a file is one of a surface in space, by its extension.
 bool names_surface(const std::string& path);
 
 /// One run of `taut deform` on a surface in space.
@@ -42,7 +42,7 @@ private:
     shell_params params(const thin_shell& shell, const constraints<hinge>& pins);
     void take(const session_result<hinge>& found, const mesh<triangle>& surface, const constraints<hinge>& pins);
     [[noreturn]] void refuse() const;
-    /// What --rest names. Throws unsuitable_input for another mesh.
+    /// Reads the mesh of --rest. Throws unsuitable_input for another mesh.
     mesh<triangle> shape_at_rest(const mesh<triangle>& surface) const;
     void write(const io::surface_file& file, const mesh<triangle>& rest);
     std::string picture(const mesh<triangle>& rest) const;

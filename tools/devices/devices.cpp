@@ -47,7 +47,7 @@ exit_code list_devices()
 
 command add_devices(CLI::App& program)
 {
-    program.add_subcommand("devices", "List the OpenCL devices of this machine and the one that is taken by default")
+    program.add_subcommand("devices", "List the OpenCL devices of this machine and the default one")
         ->footer("exit codes: 0 listed; 2 usage; 5 no device");
     return [](const outputs&) { return list_devices(); };
 }

@@ -105,9 +105,9 @@ command add_eval(CLI::App& program)
         "OBJ file with texture coordinates; seams are cut open; - is standard input. Or a volume (.mesh .msh .vtk "
         ".vtu .node .su2), or a problem (.prob)")
         ->required();
-    add_input(app, "MAP", options->map, "the map", "The volume IN after it was deformed: the same vertices and cells");
+    add_input(app, "MAP", options->map, "the map", "The deformed volume, with the vertices and cells of IN");
     add_format(app, options->format);
-    add_drawing(app, options->picture, options->cut, "Draw a volume, or a mesh of the plane");
+    add_drawing(app, options->picture, options->cut, "Draw a volume or a planar mesh");
     add_zone(app, options->zone);
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");

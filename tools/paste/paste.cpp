@@ -110,7 +110,7 @@ private:
                                std::to_string(m.vertex_count() - 1));
     }
 
-    /// Where the feature has a map for that.
+    /// Changes the softness, if the feature has a map.
     void soften(double softness)
     {
         if (softness == 0) return;
@@ -138,7 +138,7 @@ private:
         distance_ = std::max(largest_distance(before, after), largest_distance(after, before));
     }
 
-    /// Of corners, middles of edges and centroids of one surface from another one.
+    /// Largest distance of corners, middles of edges and centroids of one surface from another one.
     static double largest_distance(const mesh<triangle>& from, const mesh<triangle>& to)
     {
         const taut::impl::surface_tree tree(to.points(), to.cells());
@@ -328,7 +328,7 @@ private:
 exit_code run(const paste_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
 {
     if (options.region.empty() == (options.at < 0 || !(options.radius > 0)))
-        throw usage_error("say what to cut out: --at V --radius R, or --region FILE, and not both");
+        throw usage_error("define the feature: --at V --radius R, or --region FILE, and not both");
     const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
     const run_clock clock(launch);
     limit_time(options.time_limit - clock.now());
@@ -344,37 +344,40 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
     const auto positive = number_that([](double x) { return x > 0 && std::isfinite(x); }, "is not positive");
     add_input(app, "--source", options->source, "the source", "Surface that has the feature: OBJ, OFF, PLY or STL")
         ->required();
-    app.add_option("--at", options->at, "Its vertex in the middle of the feature, from 0")
+    app.add_option("--at", options->at, "Vertex of the source at the centre of the feature, from 0")
         ->type_name("V")
         ->check(whole_number());
-    app.add_option("--radius", options->radius, "How far the feature reaches along the surface, in units of the source")
+    app.add_option("--radius", options->radius, "Geodesic radius of the feature, in units of the source")
         ->type_name("R")
         ->check(positive);
     add_input(app, "--region", options->region, "the file of triangles",
-              "Instead of these: triangles of the source, from 0, that are the feature");
+              "Triangles of the source, from 0, that are the feature, instead of --at and "
+              "--radius");
     add_input(app, "--target", options->target, "the target", "Surface to paste it on")->required();
-    app.add_option("--onto", options->onto, "Its vertex where the middle of the rim goes, from 0")
+    app.add_option("--onto", options->onto, "Vertex of the target at the centre of the rim, from 0")
         ->required()
         ->type_name("V")
         ->check(whole_number());
-    app.add_option("--rotate", options->degrees, "Turn it about the normal of the target, counter-clockwise")
+    app.add_option("--rotate", options->degrees, "Rotate the feature about the normal of the target, counter-clockwise")
         ->type_name("DEGREES")
         ->check(number_that([](double x) { return std::isfinite(x); }, "is no angle"));
-    app.add_option("--scale", options->pose.scale, "Lengths in the result by those in the source")
+    app.add_option("--scale", options->pose.scale, "Scale of the feature: lengths in the result by those in the source")
         ->type_name("S")
         ->check(positive);
-    app.add_option(
-           "--softness", options->pose.softness,
-           "0: the feature keeps its shape, the target bends; 1: its rim is laid on the target, the feature bends")
+    app.add_option("--softness", options->pose.softness,
+                   "Softness: 0: the feature keeps its shape, the target bends; 1: its rim is "
+                   "projected to the target, the feature bends")
         ->type_name("0..1")
         ->check(number_that([](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1"));
-    app.add_option("--reach", options->reach, "Radius of what may bend on the target, by that of the feature")
+    app.add_option("--reach", options->reach,
+                   "Radius of the region of the target that may bend, relative to that of the "
+                   "feature")
         ->type_name("1.2..")
         ->check(number_that([](double x) { return x >= 1.2 && std::isfinite(x); }, "is not 1.2 or more"));
     add_output(app, "-o,--output", options->output, {.extensions = {".obj"}}, "Surface to write; - is standard output")
         ->required()
         ->type_name("OUT.obj");
-    app.add_option("--triangles", options->triangles, "Make the feature anew from its map, of about so many triangles")
+    app.add_option("--triangles", options->triangles, "Remesh the feature from its map, with about this many triangles")
         ->type_name("N")
         ->check(CLI::Range(1, 100'000'000));
     add_output(app, "--map", options->map, {.extensions = {".exr", ".png"}},

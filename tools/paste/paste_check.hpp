@@ -11,7 +11,7 @@
 #include "shared/failure.hpp"
 #include "shared/text_table.hpp"
 
-/// What is looked at before a surface with a pasted feature is written: the surface itself, not the library's word.
+/// Checks of a surface with a pasted feature before it is written, independent of the library's report.
 namespace taut::tools
 {
 
@@ -30,7 +30,7 @@ inline seam_quality require_sound(const paste& p)
     return quality;
 }
 
-/// What there is to tell of it. meeting: pairs of triangles, as paste::self_intersections() finds them
+/// Notes about it. meeting: pairs of triangles, as paste::self_intersections() finds them
 inline std::vector<std::string> notes_of(const seam_quality& quality, const std::vector<std::array<idx, 2>>& meeting)
 {
     std::vector<std::string> notes;

@@ -46,7 +46,7 @@ public:
     /// Side of a square, in units of uv.
     double period() const noexcept { return period_; }
 
-    /// Which of the two colours a point has.
+    /// Returns whether a point is in a dark square.
     bool dark(const vec2& uv) const
     {
         const vec2 cell = glm::floor((uv - low_) / period_);

@@ -35,7 +35,7 @@ public:
     double lowest() const noexcept { return lowest_; }
     double highest() const noexcept { return highest_; }
 
-    /// Where a distortion lies on the scale, in [0, 1]; beyond the ends it is clamped. NaN stays NaN.
+    /// Position of a distortion on the scale, in [0, 1]; beyond the ends it is clamped. NaN stays NaN.
     double position(double distortion) const
     {
         if (std::isnan(distortion)) return distortion;

@@ -11,7 +11,7 @@
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/core/types.hpp>
 
-/// What pictures need to know about the faces of a map: which can be drawn, which are flipped, how distortions spread.
+/// Survey of the faces of a map for pictures: drawable and flipped ones, distribution of distortions.
 namespace taut::io
 {
 
@@ -21,7 +21,7 @@ inline double uv_determinant(const vec2& a, const vec2& b, const vec2& c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// What a look at all faces tells, before anything is drawn.
+/// Survey of all faces, before anything is drawn.
 struct face_survey
 {
     std::size_t faces = 0;                         ///< all of them

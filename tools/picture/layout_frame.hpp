@@ -12,8 +12,8 @@
 namespace taut::io
 {
 
-/// Where everything of a UV layout goes: shared by the pixels and the SVG, and the place to ask where a uv point lies
-/// when something is to be drawn on top (a pin, a target, a displacement).
+/// Frame of a UV layout, shared by the pixels and the SVG, with the positions of uv points for overlays (a pin, a
+/// target, a displacement).
 ///
 ///     +-----------------------------------------+
 ///     | title                                   |

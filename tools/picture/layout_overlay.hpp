@@ -26,7 +26,7 @@ struct layout_pin
     std::uint8_t held = 3; ///< of a pin: 1: u alone, 2: v alone; drawn as a rail along the other axis
 };
 
-/// What is drawn on top of a layout.
+/// Overlay of a layout.
 struct layout_overlay
 {
     std::vector<layout_pin> pins = {};
@@ -38,7 +38,7 @@ struct layout_overlay
 namespace impl
 {
 
-/// How a pin is drawn, in pixels.
+/// Style of a pin, in pixels.
 struct pin_mark
 {
     enum shape
@@ -80,7 +80,7 @@ std::vector<pin_mark> pin_marks(const layout_overlay& overlay, const Place& plac
     return marks;
 }
 
-/// What the legend says: pins, springs.
+/// Entries of the legend: pins, springs.
 inline std::vector<std::pair<bool, std::string>> pin_legend(const layout_overlay& overlay)
 {
     bool hard = false, soft = false;

@@ -16,7 +16,7 @@
 #include <picture/layout_frame.hpp>
 #include <picture/layout_overlay.hpp>
 
-/// What a UV layout consists of, worked out once for the pixels and the SVG, which only paint it.
+/// Parts of a UV layout, computed once for the pixels and the SVG.
 namespace taut::io::impl
 {
 
@@ -35,7 +35,7 @@ void for_each_boundary_edge(std::span<const vec2> uv, const std::vector<idx>& lo
     }
 }
 
-/// Where the ring around a flipped face goes, in pixels; none around a face large enough to be seen.
+/// Centre of the ring around a flipped face, in pixels; none around a face large enough to be seen.
 inline std::optional<vec2> ring_centre(const layout_frame& frame, const std::array<vec2, 3>& t)
 {
     const std::array<vec2, 3> p{frame(t[0]), frame(t[1]), frame(t[2])};

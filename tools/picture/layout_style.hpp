@@ -8,7 +8,7 @@
 namespace taut::io
 {
 
-/// How a UV layout is drawn, as PNG pixels or SVG. The defaults suit a README.
+/// Style of a UV layout, as PNG pixels or SVG. The defaults suit a README.
 struct layout_style
 {
     int width = 1200; ///< pixels, [1, 16384 / samples]

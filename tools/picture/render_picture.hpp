@@ -19,7 +19,7 @@
 namespace taut::io
 {
 
-/// How a surface is rendered. The defaults suit a README.
+/// Style of a rendering. The defaults suit a README.
 struct render_style
 {
     int width = 1600; ///< pixels, [1, 16384 / samples]; half of it for each view

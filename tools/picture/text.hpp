@@ -12,7 +12,7 @@
 namespace taut::io
 {
 
-/// Where a text hangs on its point.
+/// Alignment of a text to its point.
 enum class anchor
 {
     left,
@@ -20,7 +20,7 @@ enum class anchor
     right
 };
 
-/// How letters look: size in pixels as in CSS (capitals are 0.72 of it), pen width as a part of the size.
+/// Style of letters: size in pixels as in CSS (capitals are 0.72 of it), pen width as a part of the size.
 struct text_style
 {
     double size = 16;

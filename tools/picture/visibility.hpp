@@ -14,8 +14,8 @@
 namespace taut::io::impl
 {
 
-/// Which face is in front at each sample of a grid, by a z-buffer. Shading comes after, once a visible sample instead
-/// of once a drawn one.
+/// Visible face at each sample of a grid, by a z-buffer. Shading comes after, once a visible sample instead of once a
+/// drawn one.
 class visibility
 {
 public:

@@ -33,7 +33,7 @@ struct volume_view
     std::string title, note; ///< lines above it
 };
 
-/// How volumes are drawn, next to each other. The defaults suit a README.
+/// Style of pictures of volumes, side by side. The defaults suit a README.
 struct volume_style
 {
     int width = 1100; ///< largest width of a view in pixels, narrow ones take less; [1, 16384 / samples] of them all

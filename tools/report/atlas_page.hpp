@@ -28,7 +28,7 @@ struct chart_column
     std::vector<double> values; ///< one a chart; NaN: not known
 };
 
-/// What a report shows. Spans are read while the report is made.
+/// Content of a report. Spans are read while the report is made.
 struct atlas_page
 {
     std::string title;   ///< the name of the model

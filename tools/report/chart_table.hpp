@@ -13,7 +13,7 @@ namespace taut::report
 /// Throws parameter_error where a column has another length, or a triangle a chart below -1.
 std::vector<chart_column> chart_table(const atlas_page& page);
 
-/// How much of the area has which distortion: parts of all charts' area, by the logarithm of energy / 4, in equal steps
+/// Histogram of distortion by area: fractions of the area of all charts, by the logarithm of energy / 4, in equal steps
 /// from 1 to `highest`, and a last one for what is beyond or not known.
 std::vector<double> histogram(const atlas_page& page, int steps, double highest);
 

@@ -37,7 +37,7 @@ idx number(const std::vector<Value>& values, std::vector<idx>& numbers)
     return static_cast<idx>(sorted.size());
 }
 
-/// What moving vertices together would make of a mesh.
+/// Clustering of vertices of a mesh.
 struct clusters
 {
     std::vector<idx> of_point, of_place; ///< numbers

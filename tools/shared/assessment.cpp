@@ -85,7 +85,7 @@ assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv)
         a.quality.flips.take_defects(all);
     }
     if (a.quality.flips.flipped == a.quality.flips.elements && a.quality.flips.max_det < 0)
-        a.notes.push_back("the map is mirrored as a whole: negate u to turn it over");
+        a.notes.push_back("the map is mirrored as a whole: negate u to reflect it");
     look_at_boundary(a, surface, uv);
     return a;
 }

@@ -38,7 +38,7 @@ std::string variable(const char* name)
     return value ? value : "";
 }
 
-/// Where PoCL keeps kernels.
+/// Folder of PoCL's kernel cache.
 fs::path kernels_of_pocl()
 {
     if (const auto named = variable("POCL_CACHE_DIR"); !named.empty()) return named;
@@ -47,14 +47,14 @@ fs::path kernels_of_pocl()
     return "/tmp/pocl";
 }
 
-/// What `taut build-kernels` is told.
+/// Input of `taut build-kernels`.
 struct order
 {
     std::vector<std::string> arguments; ///< none: it cannot
     std::string input;
 };
 
-/// Of the kernels of matrices, the one whole program that it knows how to launch.
+/// Order of the kernels of matrices, the one whole program that it can launch.
 order order_of(const std::string& options, const taut::device& device)
 {
     for (const int dimension : {2, 3})

@@ -28,7 +28,7 @@ struct limits
 /// NAME=VALUE of this process.
 std::vector<std::string> environment();
 
-/// How a child ended.
+/// End of a child process.
 struct child_end
 {
     enum cause
@@ -59,7 +59,7 @@ public:
     child(const child&) = delete;
     child& operator=(const child&) = delete;
 
-    /// What to wait for: something to read, or its end.
+    /// Descriptors to wait for: output to read, or its end.
     std::array<pollfd, 3> news() const noexcept;
 
     /// Reads what it has said, and holds it to its limits. To be called every few hundredths of a second.

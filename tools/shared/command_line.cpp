@@ -32,7 +32,7 @@ CLI::Option* add_files(CLI::App& command, const std::string& name, Paths& paths,
     return declare_files(command, option, std::move(use));
 }
 
-/// What the k-th file of an option is made of, where there is one for each.
+/// Input of the k-th file of an option, where there is one for each.
 std::filesystem::path source_of(const CLI::App& command, const CLI::Option& option, const file_use& use, std::size_t k)
 {
     const auto* const made_of = use.made_of.empty() ? nullptr : command.get_option_no_throw(use.made_of);

@@ -13,13 +13,13 @@
 namespace taut::tools
 {
 
-/// What - stands for on the command line.
+/// Files that - means on the command line.
 inline constexpr const char *standard_input = "/dev/stdin", *standard_output = "/dev/stdout";
 
-/// What a command does with the files that an option names.
+/// Use of the files of an option by a command.
 struct file_use
 {
-    /// Of files that are read: what they are, in messages: "the pins". Empty: the files are written.
+    /// Name of input files in messages: "the pins". Empty: the files are written.
     std::string read_as = {};
 
     // Of files that are written:

@@ -4,7 +4,7 @@
 namespace taut::tools
 {
 
-/// What the program returns to the shell: a promise to scripts, so a number never changes its meaning.
+/// Exit codes of the program, stable for scripts.
 /// `valid` and `time_limit` leave a map behind that is certified to have no flipped element, `interrupted` and
 /// `terminated` do if there was one by then; others leave none.
 enum class exit_code : int

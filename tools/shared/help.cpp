@@ -14,7 +14,7 @@ namespace taut::tools
 namespace
 {
 
-/// How many letters to put in, leave out or change to get from one word to the other.
+/// Edit distance of two words: letters to insert, delete or change.
 std::size_t edit_distance(std::string_view from, std::string_view to)
 {
     std::vector<std::size_t> row(to.size() + 1);

@@ -21,7 +21,7 @@ namespace taut::tools
 namespace
 {
 
-/// Where the program stands.
+/// State of the program for signal handlers.
 enum class standing
 {
     nothing, ///< to keep

@@ -20,10 +20,11 @@ void watch_interrupts();
 /// The program ends with code 6 so many seconds from now if it has nothing to keep then. Infinite: never.
 void limit_time(double seconds);
 
-/// Whether there is something that a run which stops would write: a map, even if only the best of those with flips.
+/// Returns whether there is something that a run which stops would write: a map, even if only the best of those with
+/// flips.
 void keep(bool something);
 
-/// Whether a run that has something to keep was asked to stop. Cheap, callable from any thread.
+/// Returns whether a run that has something to keep was asked to stop. Cheap, callable from any thread.
 bool interrupted() noexcept;
 
 /// The exit code of the signal that asked, `interrupted` or `terminated`.

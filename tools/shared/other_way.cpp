@@ -24,7 +24,7 @@ std::string other_way(mesh_fault fault, std::string_view name)
     case mesh_fault::too_large:
         return {};
     default:
-        return view ? std::string() : "`taut atlas --repair` mends what is no surface";
+        return view ? std::string() : "`taut atlas --repair` repairs the surface";
     }
 }
 

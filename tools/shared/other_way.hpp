@@ -10,8 +10,7 @@
 namespace taut::tools
 {
 
-/// What the program offers, behind a message, where a map of one disk cannot be; empty if the command of that name
-/// offers nothing.
+/// Alternative that the program offers, after a message, where a surface is no disk; empty if the command has none.
 std::string other_way(mesh_fault fault, std::string_view name);
 
 /// The same for a file that a command does not read.

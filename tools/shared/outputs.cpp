@@ -78,7 +78,7 @@ bool require_place(const run_file& output)
     }
 }
 
-/// Whether an output is to replace that input, as a whole.
+/// Returns whether an output is to replace that input, as a whole.
 bool is_in_place(const run_file& output, const run_file& input)
 {
     return output.use->in_place && output.source == input.given && same_file(output.given, input.given) &&

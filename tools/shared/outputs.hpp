@@ -21,22 +21,22 @@ public:
     /// two inputs are standard input.
     explicit outputs(std::span<const run_file> files);
 
-    /// Where a report for people goes: standard output, or standard error if a file goes there. Throws usage_error if
-    /// that is closed.
+    /// Stream of the report: standard output, or standard error if a file goes there. Throws usage_error if that is
+    /// closed.
     const char* place_of_report() const;
 
 private:
     bool standard_output_taken_ = false;
 };
 
-/// Whether somebody may read what is written to place_of_report(): who has closed the terminal or ended the pager must
-/// not lose the map.
+/// Returns whether somebody may read what is written to place_of_report(): who has closed the terminal or ended the
+/// pager must not lose the map.
 bool has_reader(const char* place_of_report);
 
 /// The extension in lower case, ".png".
 std::string extension(const std::filesystem::path& path);
 
-/// Where a map goes that is not valid; nowhere if the output is a device or a pipe, or no file at all.
+/// Name of the file for an invalid map; empty if the output is a device or a pipe, or no file at all.
 std::string name_of_invalid(const std::string& output);
 
 /// Removes what an earlier run has left under name_of_invalid().

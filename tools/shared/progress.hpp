@@ -18,7 +18,7 @@
 namespace taut::tools
 {
 
-/// How progress is told.
+/// Modes of progress output.
 enum class progress_mode
 {
     bar,  ///< one line that is drawn over and over: for a terminal
@@ -36,7 +36,7 @@ inline std::optional<progress_mode> parse_progress_mode(std::string_view word,
     return std::nullopt;
 }
 
-/// Where a run is.
+/// Progress of a run.
 struct progress_report
 {
     std::string_view phase = {}; ///< "start map", "optimize", ...

@@ -16,7 +16,7 @@
 namespace taut::tools
 {
 
-/// What `--repair` makes of a file. Throws repair_error; mesh_error if the file has no triangle.
+/// Repairs a file, for `--repair`. Throws repair_error; mesh_error if the file has no triangle.
 /// weld: repair_params::weld_tolerance; nothing: the usual one
 repaired_surface repair(const io::surface_soup& soup, std::optional<double> weld = {});
 

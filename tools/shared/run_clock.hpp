@@ -18,13 +18,13 @@ public:
 
     double now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - launch_).count(); }
 
-    /// What is left of a limit of seconds since the start, which solvers want to be positive.
+    /// Remaining part of a limit of seconds since the start, positive for solvers.
     std::chrono::duration<double> left(double limit) const
     {
         return std::chrono::duration<double>(std::max(1e-6, limit - now()));
     }
 
-    /// How long f takes.
+    /// Seconds that f takes.
     template <class F>
     double timed(F&& f) const
     {

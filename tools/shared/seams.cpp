@@ -20,7 +20,7 @@ namespace taut::tools
 namespace
 {
 
-/// Whether a fault is one of the pieces that a cut leaves, not of some triangles.
+/// Returns whether a fault is one of the pieces that a cut leaves, not of some triangles.
 bool is_of_pieces(const mesh_finding& f)
 {
     return f.fault == mesh_fault::several_components || f.fault == mesh_fault::closed_surface ||

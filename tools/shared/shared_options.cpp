@@ -40,7 +40,7 @@ void add_format(CLI::App& app, io::surface_format& format)
                                     {"off", io::surface_format::off},
                                     {"ply", io::surface_format::ply},
                                     {"stl", io::surface_format::stl}},
-                                   "What IN is; auto: what its name says, for - (standard input) how it begins");
+                                   "Format of IN; auto: by its name, for - (standard input) by its first bytes");
 }
 
 void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const std::string& help)
@@ -54,14 +54,12 @@ void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const st
 
 void add_fix(CLI::App& app, std::vector<std::string>& groups)
 {
-    app.add_option("--fix", groups, "Keep the vertices of a group where they are; more than once, if need be")
-        ->type_name("GROUP");
+    app.add_option("--fix", groups, "Fix the vertices of a group; may be repeated")->type_name("GROUP");
 }
 
 void add_zone(CLI::App& app, int& zone)
 {
-    app.add_option("--zone", zone,
-                   "Of a SU2 file with several zones: the one that is meant, from 1; others stay as they are")
+    app.add_option("--zone", zone, "Zone of a SU2 file with several, from 1; others are not changed")
         ->type_name("N")
         ->check(CLI::Range(1, std::numeric_limits<int>::max()));
 }
@@ -96,8 +94,9 @@ void add_time_limit(CLI::App& app, double& seconds, const std::string& help)
 void add_progress(CLI::App& app, std::string& progress, bool& quiet)
 {
     add_choice<std::string>(app, "--progress", progress, {{"auto", "auto"}, {"json", "json"}, {"none", "none"}},
-                            "On standard error: a bar if it is a terminal, a JSON object a line, nothing");
-    app.add_flag("--quiet", quiet, "Print errors only, and what --progress asks for by name");
+                            "Progress on standard error: a bar if it is a terminal, one JSON object per "
+                            "line, nothing");
+    app.add_flag("--quiet", quiet, "Print errors only, and progress if --progress is given");
 }
 
 progress_mode progress_of(const std::string& progress, bool quiet)

@@ -35,8 +35,8 @@ void writing(F&& write)
     }
 }
 
-/// Whether there is a picture of that name to be drawn. Whoever interrupts a run does not wait for pictures: their
-/// names are cleared, with a note.
+/// Returns whether there is a picture of that name to be drawn. Whoever interrupts a run does not wait for pictures:
+/// their names are cleared, with a note.
 inline bool drawn(std::string& picture, std::vector<std::string>& notes)
 {
     if (interrupted() && !picture.empty())

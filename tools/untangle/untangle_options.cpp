@@ -36,16 +36,16 @@ void declare(CLI::App& app, untangle_options& o)
         "Problem (rest shape, initial map, cells and fixed vertices, as text), - is standard input; or a volume, or "
         "a mesh of the plane, with inverted elements: .mesh .msh .vtk .vtu .node .su2")
         ->required();
-    add_output(
-        app, "-o,--output", o.output, {.made_of = "PROBLEM", .may_fail = true},
-        "What to write; of a problem the map, a vertex a line, - is standard output; of a volume the same file with "
-        "other coordinates. OUT.invalid if it is not injective")
+    add_output(app, "-o,--output", o.output, {.made_of = "PROBLEM", .may_fail = true},
+               "Output; of a problem the map, one vertex per line, - is standard output; of a "
+               "volume the same file with other coordinates. OUT.invalid if it is not injective")
         ->required()
         ->type_name("OUT");
     add_input(app, "--rest", o.rest, "the shape at rest",
-              "The volume at rest, the same vertices and cells; without it elements are wanted to be regular");
+              "The volume at rest, the same vertices and cells; without it the target shapes "
+              "are regular elements");
     add_input(app, "--pins", o.pins, "the file of pins",
-              "Vertices of the volume to hold: vertex,x,y,z, vertices from 0")
+              "Pins of vertices of the volume: vertex,x,y,z, vertices from 0")
         ->type_name("FILE.csv");
     add_fix(app, o.fixed);
     add_zone(app, o.zone);
@@ -53,10 +53,12 @@ void declare(CLI::App& app, untangle_options& o)
                std::vector<choice<untangle_boundary>>{{"auto", untangle_boundary::automatic},
                                                       {"fixed", untangle_boundary::fixed},
                                                       {"free", untangle_boundary::free}},
-               "Whether the boundary of the volume stays where it is; auto: unless --pins or --fix hold something");
+               "Fix the boundary of the volume, or not; auto: fixed unless there are --pins or "
+               "--fix");
     add_refine(app, o.refine, o.refined_map,
-               "Split elements where it is proved that there is no injective map without that, or none was found; "
-               "what is written has more vertices then, the given ones first. OUT of a problem is a problem, too");
+               "Split elements where it is proved that there is no injective map otherwise, or "
+               "none was found; the output then has more vertices, the given ones first. OUT of "
+               "a problem is a problem, too");
     add_time_limit(app, o.time_limit, "Give up after S seconds");
     add_device(app, o.device);
     add_stats(app, o.stats);

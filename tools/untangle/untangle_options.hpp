@@ -10,7 +10,7 @@
 namespace taut::tools
 {
 
-/// Whether the boundary of a volume file stays where it is while it is untangled.
+/// Treatment of the boundary of a volume file while it is untangled.
 enum class untangle_boundary
 {
     automatic, ///< unless something else is held
@@ -18,7 +18,7 @@ enum class untangle_boundary
     free
 };
 
-/// What the user asked `taut untangle` for.
+/// Options of `taut untangle`.
 struct untangle_options
 {
     std::string input, output, stats, picture, device, progress;

@@ -93,7 +93,7 @@ public:
 private:
     void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
 
-    /// Of what a reader of the file will have.
+    /// Certifies the coordinates as a reader of the file will have them.
     certificate certified(const std::vector<vec<D>>& x, volume_state& state) const
     {
         if (!input_) return certify<D>(problem_->rest.cells(), std::span<const vec<D>>(x));

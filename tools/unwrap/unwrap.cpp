@@ -96,7 +96,7 @@ private:
                                     count(cut_->seam_vertices, "vertex lies", "vertices lie"));
     }
 
-    /// What is mapped: the surface of the file, or that cut open.
+    /// Surface to be mapped: that of the file, or that cut open.
     const mesh<triangle>& surface() const { return cut_ ? cut_->surface : file_->surface; }
 
     void write_obj(io::atomic_file& file, std::span<const vec2> uv) const

@@ -22,7 +22,7 @@ void declare_map(CLI::App& app, unwrap_options& o)
     add_choice<energy_kind>(
         app, "--energy", o.energy,
         {{"isometric", energy_kind::isometric}, {"shape", energy_kind::shape}, {"area", energy_kind::area}},
-        "What to keep: lengths, angles or areas");
+        "Energy, which preserves lengths, angles or areas");
     add_choice<boundary_kind>(
         app, "--boundary", o.boundary,
         {{"free", boundary_kind::free}, {"circle", boundary_kind::circle}, {"square", boundary_kind::square}},
@@ -30,17 +30,17 @@ void declare_map(CLI::App& app, unwrap_options& o)
     add_choice<energy::weighting>(app, "--weights", o.weights,
                                   {{"measure", energy::weighting::measure}, {"uniform", energy::weighting::uniform}},
                                   "Weight of a triangle: its area, or 1");
-    add_choice<start_kind>(
-        app, "--start", o.start,
-        {{"auto", start_kind::automatic},
-         {"coarse", start_kind::coarse},
-         {"stretch", start_kind::stretch},
-         {"tutte", start_kind::tutte},
-         {"mean-value", start_kind::mean_value},
-         {"conformal", start_kind::conformal},
-         {"uv", start_kind::uv}},
-        "First map: from a coarser mesh; barycentric with evened stretch, uniform or mean value weights; least squares "
-        "conformal; the file's vt. auto: coarse for newton and mg-lbfgs, else stretch");
+    add_choice<start_kind>(app, "--start", o.start,
+                           {{"auto", start_kind::automatic},
+                            {"coarse", start_kind::coarse},
+                            {"stretch", start_kind::stretch},
+                            {"tutte", start_kind::tutte},
+                            {"mean-value", start_kind::mean_value},
+                            {"conformal", start_kind::conformal},
+                            {"uv", start_kind::uv}},
+                           "Initial map: from a coarser mesh; barycentric with reduced stretch, uniform or "
+                           "mean value weights; least squares conformal; the file's vt. auto: coarse for "
+                           "newton and mg-lbfgs, else stretch");
     add_choice<boundary_spacing>(app, "--spacing", o.spacing,
                                  {{"chord", boundary_spacing::chord},
                                   {"uniform", boundary_spacing::uniform},
@@ -49,16 +49,18 @@ void declare_map(CLI::App& app, unwrap_options& o)
     add_choice<taut::placement>(
         app, "--placement", o.placement,
         {{"upright", placement::upright}, {"unit-square", placement::unit_square}, {"as-solved", placement::as_solved}},
-        "Where a map that nothing holds comes to lie: y up or x to the right, the lower left corner at 0,0; the same "
-        "scaled into the unit square; anywhere. With --boundary circle or square the boundary stays where it is laid, "
-        "unless unit-square brings it into the unit square, a square onto it");
+        "Placement of an unconstrained map: y up or x to the right, the lower left "
+        "corner at 0,0; the same scaled into the unit square; anywhere. With --boundary "
+        "circle or square the boundary is not moved, unless unit-square scales it into "
+        "the unit square, a square onto it");
     add_input(app, "--pins", o.pins, "the pins",
-              "Vertices that have to be somewhere, a line each: vertex,u,v[,weight]; from 0, in the order of the "
-              "file; without a weight exactly, with one as a spring; an empty u or v is free")
+              "Pins and springs, one per line: vertex,u,v[,weight]; from 0, in the order of "
+              "the file; without a weight a pin, met exactly, with one a spring; an empty u or "
+              "v is free")
         ->type_name("FILE.csv");
     app.add_flag("--cut", o.cut,
                  "Cut a surface that is no disk open along short seams: closed ones, handles, between boundaries");
-    app.add_flag("--holes", o.holes, "Take surfaces with holes; the longest boundary is the outer one");
+    app.add_flag("--holes", o.holes, "Accept surfaces with holes; the longest boundary is the outer one");
     app.add_flag("--no-overlap", o.no_overlap,
                  "Keep the boundary from crossing itself, so that no two triangles of the map overlap");
 }
@@ -78,8 +80,8 @@ void declare_solver(CLI::App& app, unwrap_options& o)
         ->check(whole_number())
         ->capture_default_str();
     app.add_option("--tolerance", o.tolerance,
-                   "Stop at this relative gradient, below 1, or where as good as nothing is left to gain; 0: never. "
-                   "Left out: 1e-6, or where five steps together have gained 1e-4 at most")
+                   "Stop at this relative gradient, below 1, or at a negligible Newton decrement; "
+                   "0: never. Default: 1e-6, or a total decrease of at most 1e-4 over five steps")
         ->type_name("T")
         ->check(number_that([](double x) { return x >= 0; }, "must not be negative"));
     add_time_limit(app, o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)");
@@ -102,8 +104,8 @@ void declare_reports(CLI::App& app, unwrap_options& o)
     const std::initializer_list<choice<std::optional<vec3>>> axes = {
         {"auto", {}},           {"+x", vec3(1, 0, 0)}, {"-x", vec3(-1, 0, 0)}, {"+y", vec3(0, 1, 0)},
         {"-y", vec3(0, -1, 0)}, {"+z", vec3(0, 0, 1)}, {"-z", vec3(0, 0, -1)}};
-    add_choice<std::optional<vec3>>(app, "--up", o.up, axes, "What is up in the render");
-    add_choice<std::optional<vec3>>(app, "--front", o.front, axes, "Which side the render shows first");
+    add_choice<std::optional<vec3>>(app, "--up", o.up, axes, "Up direction of the render");
+    add_choice<std::optional<vec3>>(app, "--front", o.front, axes, "Viewing side of the render");
     add_progress(app, o.progress, o.quiet);
 }
 
@@ -131,13 +133,12 @@ void check(const unwrap_options& o)
         throw usage_error("--boundary circle and square lay the boundary anew, which --start uv does not; "
                           "leave out one of them");
     if (o.start == start_kind::conformal && o.boundary != boundary_kind::free)
-        throw usage_error(
-            "--start conformal moves the boundary, which --boundary circle and square hold; leave out one "
-            "of them");
+        throw usage_error("--start conformal moves the boundary, which --boundary circle and square fix; "
+                          "leave out one of them");
     if (o.start == start_kind::coarse && !to_params(o).uses_levels())
         throw usage_error("--start coarse needs --solver newton or mg-lbfgs, which work on coarser meshes");
     if (o.placement != placement::upright && !o.pins.empty())
-        throw usage_error("--placement: --pins hold the map where it is; leave one of them out");
+        throw usage_error("--placement: --pins fix the map; leave one of them out");
     if ((o.up || o.front) && o.render.empty())
         throw usage_error("--up and --front turn the picture of --render; name one");
     if (o.tolerance && !(*o.tolerance < 1)) throw usage_error("--tolerance: must be below 1");

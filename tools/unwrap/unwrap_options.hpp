@@ -47,7 +47,7 @@ enum class energy_kind
     area
 };
 
-/// What the user asked `taut unwrap` for.
+/// Options of `taut unwrap`.
 struct unwrap_options
 {
     std::string input, output, pins, stats, picture, render, device, progress;
@@ -74,7 +74,7 @@ void declare(CLI::App& app, unwrap_options& options);
 /// Throws usage_error for options that do not fit together.
 void check(const unwrap_options& options);
 
-/// What the library is to do, all but the start's coordinates and the observer.
+/// Parameters of the library, without initial coordinates and observer.
 parameterize_params to_params(const unwrap_options& options);
 
 /// Words for reports.

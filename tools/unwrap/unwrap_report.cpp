@@ -35,11 +35,11 @@ std::string describe(const solve::report& r, const unwrap_options& options)
             return "converged: relative gradient " + number(r.gradient_norm, 2) +
                    " <= " + number(options.tolerance.value_or(solve::stopping_params{}.gradient_tolerance));
         case stop::settled:
-            return "converged: five steps gained next to nothing, relative gradient " + number(r.gradient_norm, 2);
+            return "converged: negligible decrease over five steps, relative gradient " + number(r.gradient_norm, 2);
         case stop::decrement:
-            return "converged: next to nothing left to gain, relative gradient " + number(r.gradient_norm, 2);
+            return "converged: Newton decrement below tolerance, relative gradient " + number(r.gradient_norm, 2);
         case stop::decrease:
-            return "converged: the energy falls no further, relative gradient " + number(r.gradient_norm, 2);
+            return "converged: no further decrease of the energy, relative gradient " + number(r.gradient_norm, 2);
         case stop::step:
             return "converged: the steps are tiny, relative gradient " + number(r.gradient_norm, 2);
         case stop::iterations:

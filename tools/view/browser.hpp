@@ -15,7 +15,7 @@ namespace taut::view
 class browser
 {
 public:
-    /// Where there is no browser, nothing happens. Throws error, std::system_error where the file cannot be written.
+    /// Opens a browser, if there is one. Throws error, std::system_error where the file cannot be written.
     explicit browser(const std::string& url);
 
     /// To be called now and then: takes note of the end of the program that has opened it.

@@ -52,7 +52,7 @@ inline std::string_view text(beast::string_view s)
 
 class connection;
 
-/// What all connections share.
+/// State shared by all connections.
 struct service
 {
     page files;

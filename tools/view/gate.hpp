@@ -8,7 +8,7 @@
 namespace taut::view
 {
 
-/// Who may talk to the program. Pages of others can make a browser send requests to it (a name of theirs that leads
+/// Access control of the server. Pages of others can make a browser send requests to it (a name of theirs that leads
 /// here, a form, a socket), so that an address of this machine alone keeps nobody out.
 class gate
 {
@@ -18,13 +18,13 @@ public:
 
     const std::string& token() const { return token_; }
 
-    /// Whether the Host of a request is this machine under one of its own names.
+    /// Returns whether the Host of a request is this machine under one of its own names.
     bool is_local(std::string_view host) const;
 
-    /// Whether the Origin is a page that the program itself gave to that Host.
+    /// Returns whether the Origin is a page that the program itself gave to that Host.
     bool is_own(std::string_view origin, std::string_view host) const;
 
-    /// Whether one of the offered subprotocols is "token." and the token. Takes as long for any token.
+    /// Returns whether one of the offered subprotocols is "token." and the token. Takes as long for any token.
     bool has_token(std::string_view subprotocols) const;
 
 private:
@@ -32,7 +32,7 @@ private:
     std::string token_;
 };
 
-/// How many messages may come: so many a second in the long run, and as many at once.
+/// Rate limit of messages: a number per second on average, and as many at once.
 class allowance
 {
 public:
@@ -40,7 +40,7 @@ public:
 
     explicit allowance(double a_second) : a_second_(a_second), left_(a_second) {}
 
-    /// Whether one more may come now.
+    /// Returns whether one more may come now.
     bool take(clock::time_point now);
 
 private:

@@ -65,7 +65,7 @@ public:
         return x;
     }
 
-    /// How many of them follow, which the bytes left must do.
+    /// Reads a count, and checks that the remaining bytes suffice.
     std::size_t count(std::size_t size)
     {
         const std::size_t n = take<std::uint32_t>();

@@ -22,7 +22,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Where a vertex has to be: bit k of held says that coordinate k is x[k].
+/// Pin of a vertex: bit k of held says that coordinate k is x[k].
 struct place
 {
     std::int32_t vertex;
@@ -30,7 +30,7 @@ struct place
     double x[3];
 };
 
-/// What a page asks for.
+/// Requests of a page.
 namespace ask
 {
 struct places ///< pins vertices, or moves their pins
@@ -97,7 +97,7 @@ enum class showing : std::uint8_t
     paste  ///< of a feature on a surface
 };
 
-/// What is shown. Points have three coordinates.
+/// Model to be shown. Points have three coordinates.
 struct model
 {
     std::uint8_t dimension; ///< of the positions in states: 2 or 3
@@ -108,7 +108,7 @@ struct model
     std::uint32_t first_of_feature = 0xffffffffu; ///< the faces from there on are the feature's
 };
 
-/// How it is at one time.
+/// State at one time.
 struct state
 {
     std::uint32_t number = 0;

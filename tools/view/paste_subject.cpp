@@ -165,7 +165,7 @@ private:
     const std::vector<mesh<triangle>::cell>& cells() const { return paste_ ? paste_->cells() : target_->cells(); }
     const std::vector<vec3>& points() const { return paste_ ? paste_->points() : target_->points(); }
 
-    /// Whether the rim may stay attached to what it is attached to.
+    /// Returns whether the rim may stay attached to what it is attached to.
     bool is_near(const paste_pose& pose) const
     {
         constexpr double turn = 0.25, scale = 0.2;

@@ -11,7 +11,7 @@
 namespace taut::view
 {
 
-/// What the program gives to browsers: a page of three files, the same for everybody.
+/// Page served to browsers: three files, the same for everybody.
 struct page
 {
     std::string_view html, script, style;
@@ -26,7 +26,7 @@ public:
     server(unsigned short port, page what, std::string model_message);
     ~server();
 
-    /// Where the page is, with the token.
+    /// Address of the page, with the token.
     std::string url() const;
 
     /// wish: gets the messages of the page that writes; false: it is not taken now. goes_on is asked some times a

@@ -206,7 +206,7 @@ protected:
     const map& x() const { return session_->x(); }
     const taut::constraints<Element>& asked() const { return asked_; }
 
-    /// What is pinned, and the vertices outside of the focus where they are.
+    /// Pins, and the vertices outside of the focus at their positions.
     taut::constraints<Element> all_held() const
     {
         auto all = asked_;
@@ -255,7 +255,7 @@ private:
         return x()[static_cast<std::size_t>(v)];
     }
 
-    /// Where it is, but for coordinates that are pinned.
+    /// Fixes a vertex at its position, except coordinates that are pinned.
     void hold(taut::constraints<Element>& c, idx v) const
     {
         for (int k = 0; k < D; ++k)
@@ -286,7 +286,7 @@ private:
     std::function<bool()> goes_on_; ///< asked by the session
     std::unique_ptr<session<Element>> session_;
     taut::constraints<Element> asked_; ///< by the person at the page
-    std::vector<char> outside_;        ///< of the focus, one a vertex; empty: there is none
+    std::vector<char> outside_;        ///< of the focus, one per vertex; empty: there is none
     session_report report_;
     double distance_ = 0, energy_ = 0;
     int idle_ = 0; ///< calls in a row that gained nothing

@@ -15,7 +15,7 @@
 namespace taut::view
 {
 
-/// What a page works on: a map of a surface, or a shape. Called from one thread.
+/// Subject of a page: a map of a surface, or a shape. Called from one thread.
 class subject
 {
 public:

@@ -57,7 +57,7 @@ taut::constraints<Element> pinned(const mesh<Element>& m, const std::vector<io::
     return c;
 }
 
-/// What a surface file has, cut open along its seams where it must be. At one place: a session refers to it.
+/// Opened surface file, cut open along its seams where needed. Not movable: a session refers to it.
 struct opened_surface
 {
     explicit opened_surface(const source& from)
@@ -134,7 +134,7 @@ private:
     std::vector<corners> faces_;
 };
 
-/// What a volume file has, at one place.
+/// Opened volume file, not movable.
 template <class Element>
 struct opened_volume
 {
@@ -244,7 +244,7 @@ private:
     std::vector<corners> faces_;
 };
 
-/// What a surface file has as a shell, at one place.
+/// Opened surface file as a shell, not movable.
 struct opened_shell
 {
     explicit opened_shell(const source& from) : file(io::read_surface_file(from.path, from.format)), shell(file.surface)

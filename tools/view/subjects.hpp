@@ -21,7 +21,7 @@ struct pasted
     double scale = 1;
 };
 
-/// What is to be seen.
+/// Source of a subject: files and options.
 struct source
 {
     std::string path;

@@ -33,7 +33,7 @@ struct view_options
     bool no_browser = false;
 };
 
-/// Where that fails, there is the address that was printed.
+/// Opens a browser; if that fails, the address was printed.
 void open_browser(std::optional<view::browser>& browser, const std::string& url)
 {
     try
@@ -84,33 +84,34 @@ command add_view(CLI::App& program)
 {
     const auto options = std::make_shared<view_options>();
     auto& app =
-        *program.add_subcommand("view", "Work on a map or shape with a mouse, on a page that only this machine sees");
+        *program.add_subcommand("view", "Edit a map or shape interactively in a browser, on a page that only this "
+                                        "machine can open");
     add_input(app, "IN", options->from.path, "the input", "Surface, volume or planar mesh")->required();
     add_format(app, options->from.format);
     add_input(app, "--pins", options->from.pins, "the pins", "First pins and springs, as for unwrap and deform")
         ->type_name("FILE.csv");
     auto& feature = options->from.feature;
     auto* source = add_input(app, "--source", feature.source, "the source",
-                             "Surface whose feature is pasted on IN, as by `taut paste`");
-    app.add_option("--at", feature.at, "Its vertex in the middle of the feature, from 0")
+                             "Source surface of a feature to be pasted on IN, as by `taut paste`");
+    app.add_option("--at", feature.at, "Vertex of the source at the centre of the feature, from 0")
         ->type_name("V")
         ->needs(source);
-    app.add_option("--radius", feature.radius, "How far the feature reaches along the surface, in units of the source")
+    app.add_option("--radius", feature.radius, "Geodesic radius of the feature, in units of the source")
         ->type_name("R")
         ->needs(source);
-    app.add_option("--onto", feature.onto, "The vertex of IN where it is at first, from 0")
+    app.add_option("--onto", feature.onto, "Initial vertex of the feature on IN, from 0")
         ->type_name("V")
         ->needs(source);
-    app.add_option("--scale", feature.scale, "Lengths in the result by those in the source")
+    app.add_option("--scale", feature.scale, "Scale of the feature: lengths in the result by those in the source")
         ->type_name("S")
         ->needs(source);
-    app.add_flag("--holes", options->from.holes, "Take surfaces with holes");
+    app.add_flag("--holes", options->from.holes, "Accept surfaces with holes");
     app.add_flag("--shell", options->from.shell, "Deform the surface in space, as a thin shell");
     app.add_option("--port", options->port, "Port of 127.0.0.1; 0: a free one")
         ->type_name("N")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
-    app.add_option("--frame", options->frame, "Milliseconds of work between two pictures")
+    app.add_option("--frame", options->frame, "Milliseconds of work per frame")
         ->type_name("MS")
         ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
         ->capture_default_str();

@@ -96,7 +96,7 @@ void workbench::rehearse()
     }
 }
 
-/// Whether somebody waits, or it is over.
+/// Returns whether somebody waits, or it is over.
 bool workbench::is_asked()
 {
     const std::lock_guard lock(mutex_);
@@ -158,7 +158,7 @@ void workbench::grant(const message& m)
     }
 }
 
-/// What was before a gesture, as many of them as there is room for.
+/// Keeps the state before a gesture, as many of them as there is room for.
 void workbench::keep(moment before)
 {
     constexpr std::size_t most = 100, most_bytes = 256 << 20;

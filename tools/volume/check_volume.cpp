@@ -67,7 +67,7 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
                     true);
 }
 
-/// How the cells of a mesh of one kind meet.
+/// Reports the faces between cells of one kind.
 template <class Element>
 void report_facets(check_report& report, const mesh<Element>& m)
 {
@@ -104,7 +104,7 @@ void report_open_quads(check_report& report, const io::cell_faces& sides)
                    exit_code::valid);
 }
 
-/// How cells of several kinds meet.
+/// Reports the faces between cells of several kinds.
 void report_faces(check_report& report, const io::volume_file& file)
 {
     if (file.dimension == 3) report_open_quads(report, io::cell_faces_of(file));

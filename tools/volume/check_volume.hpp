@@ -7,10 +7,10 @@
 namespace taut::tools
 {
 
-/// What a volume file, or a planar one, says: kinds of cells, groups, vertices that no cell has.
+/// Reports the content of a volume or planar file: kinds of cells, groups, unreferenced vertices.
 void report_contents(check_report& report, const io::volume_file& file);
 
-/// What is wrong with its cells, and how well they are shaped.
+/// Reports the faults and shape qualities of its cells.
 template <class Element>
 void report_cells(check_report& report, const volume_case<Element>& input);
 

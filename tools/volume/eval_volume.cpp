@@ -27,7 +27,7 @@ namespace taut::tools
 namespace
 {
 
-/// How far cells are from isometric.
+/// Summary of the distortion of cells.
 struct distortion_summary
 {
     double median = 0, percentile99 = 0, most = 0;
@@ -50,7 +50,7 @@ struct distortion_summary
     }
 };
 
-/// What the map from rest does.
+/// Map from the rest shape.
 struct volume_map
 {
     taut::quality quality; ///< of all cells with a volume at rest

@@ -8,7 +8,7 @@
 namespace taut::tools
 {
 
-/// What the user asked `taut eval` for.
+/// Options of `taut eval`.
 struct eval_volume_options
 {
     std::string input, rest; ///< rest: empty, if there is none

@@ -11,7 +11,7 @@
 namespace taut::tools
 {
 
-/// Where the vertices of groups go, by vertex: each group by itself, and an error where two disagree by more than
+/// Targets of the vertices of groups, by vertex: each group by itself, and an error where two disagree by more than
 /// rounding.
 class group_targets
 {

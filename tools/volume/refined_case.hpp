@@ -17,7 +17,7 @@
 namespace taut::tools
 {
 
-/// What splits of elements have made of a mesh.
+/// Size of a refined mesh.
 struct refined_size
 {
     int rounds = 0;

@@ -19,7 +19,7 @@ namespace taut::tools
 namespace
 {
 
-/// What both commands have. usual: the tolerance without an option
+/// Options that both commands have. usual: the tolerance without an option
 void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
 {
     add_input(app, "MESH", o.input, "the input",
@@ -33,13 +33,13 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
         ->type_name("OUT");
     add_fix(app, o.fixed);
     add_zone(app, o.zone);
-    app.add_option(
-           "--tolerance", o.tolerance,
-           "Stop at this relative gradient, below 1, or where as good as nothing is left to gain; 0: never. Default: " +
-               usual)
+    app.add_option("--tolerance", o.tolerance,
+                   "Stop at this relative gradient, below 1, or at a negligible Newton decrement; "
+                   "0: never. Default: " +
+                       usual)
         ->type_name("T")
         ->check(number_that([](double x) { return x >= 0 && x < 1; }, "must be at least 0 and below 1"));
-    add_time_limit(app, o.time_limit, "Stop after S seconds, with the best mesh by then");
+    add_time_limit(app, o.time_limit, "Stop after S seconds, with the best mesh so far");
     add_device(app, o.device);
     add_stats(app, o.stats);
     add_drawing(app, o.picture, o.cut, "Draw the mesh before and after");
@@ -54,8 +54,7 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
 void declare_deform(CLI::App& app, shape_options& o)
 {
     declare_shared(app, o, "1e-6");
-    add_input(app, "--pins", o.pins, "the file of pins",
-              "Vertices to hold or draw: vertex,x,y,z[,weight], vertices from 0")
+    add_input(app, "--pins", o.pins, "the file of pins", "Pins and springs: vertex,x,y,z[,weight], vertices from 0")
         ->type_name("FILE.csv");
     auto* const moves =
         app.add_option(
@@ -71,14 +70,13 @@ void declare_deform(CLI::App& app, shape_options& o)
                                                  {"shape", shape_energy::shape},
                                                  {"volume", shape_energy::volume},
                                                  {"neo-hookean", shape_energy::neo_hookean}},
-               "What to keep: lengths, angles, volumes and lengths, or as rubber does");
+               "Energy, which preserves lengths, angles, volumes and lengths, or that of rubber");
     add_refine(app, o.refine, o.refined_map,
-               "Split elements where it is proved that there is no shape without that; what is written has more "
-               "vertices then, the given ones first");
-    app.add_option(
-           "--thickness", o.thickness,
-           "Of a surface in space (.obj .off .ply .stl), in its lengths: thick ones arch, thin ones crease. Default: "
-           "its mean edge")
+               "Split elements where it is proved that there is no valid shape otherwise; the "
+               "output then has more vertices, the given ones first");
+    app.add_option("--thickness", o.thickness,
+                   "Thickness of a surface in space (.obj .off .ply .stl), in its lengths: thick "
+                   "ones arch, thin ones crease. Default: its mean edge")
         ->type_name("H")
         ->check(number_that([](double x) { return x > 0; }, "must be positive"));
 }
@@ -91,12 +89,11 @@ void declare_smooth(CLI::App& app, shape_options& o)
                std::vector<choice<smooth_boundary>>{{"sliding", smooth_boundary::sliding},
                                                     {"fixed", smooth_boundary::fixed},
                                                     {"free", smooth_boundary::free}},
-               "What the boundary may do");
-    add_choice(
-        app, "--interfaces", o.free_interfaces, std::vector<choice<bool>>{{"kept", false}, {"free", true}},
-        "Faces inside between regions or with a label: kept, they slide in flat parts of their own, as do pieces "
-        "of the boundary");
-    app.add_option("--worst", o.worst_exponent, "Exponent of the energy: 1 the mean counts, more: the worst")
+               "Treatment of the boundary");
+    add_choice(app, "--interfaces", o.free_interfaces, std::vector<choice<bool>>{{"kept", false}, {"free", true}},
+               "Treatment of inner faces between regions or with a label: kept ones slide "
+               "within their flat parts, as do pieces of the boundary");
+    app.add_option("--worst", o.worst_exponent, "Exponent of the energy: 1 improves the mean, more the worst elements")
         ->type_name("1..8")
         ->check(CLI::Range(1, 8));
 }

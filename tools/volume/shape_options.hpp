@@ -13,7 +13,7 @@
 namespace taut::tools
 {
 
-/// What to minimise while a mesh deforms.
+/// Energies of a deformation.
 enum class shape_energy
 {
     isometric,
@@ -22,7 +22,7 @@ enum class shape_energy
     neo_hookean
 };
 
-/// What the user asked `taut deform` or `taut smooth` for.
+/// Options of `taut deform` and `taut smooth`.
 struct shape_options
 {
     std::string input, output, stats, picture, cut, device, progress;
@@ -47,7 +47,8 @@ struct shape_options
 
 /// A note of a mesh that nothing deforms.
 inline constexpr const char* nothing_held =
-    "nothing is held or moved, so the mesh takes its shape at rest; --pins, --fix and --move say what is";
+    "nothing is fixed or moved, so the mesh takes its rest shape; use --pins, --fix "
+    "or --move";
 
 /// Declare the options of either command; they are filled when the program's arguments are parsed.
 void declare_deform(CLI::App& app, shape_options& options);

@@ -111,7 +111,7 @@ private:
         report_.springs = pins_.springs().size();
     }
 
-    /// Of a file that has regions, or labelled faces.
+    /// Keeps the interfaces of a file with regions or labelled faces.
     void keep_interfaces()
     {
         if (options_.free_interfaces) return;
@@ -211,13 +211,13 @@ private:
         }
         if (!options_.smoothing && report_.pins + report_.springs == 0) add_note(nothing_held);
         if (options_.smoothing && options_.boundary == smooth_boundary::free && fixed_.empty())
-            add_note("nothing is held, and the boundary is free: the mesh may come to lie elsewhere; --fix says what "
-                     "stays");
+            add_note("nothing is fixed, and the boundary is free: the mesh may move as a whole; --fix "
+                     "prevents that");
         take(std::move(x));
         report_.run.notes.insert(report_.run.notes.end(), notes_.begin(), notes_.end());
     }
 
-    /// Whether writing may round a coordinate: it is none that the user, or a boundary that slides, holds.
+    /// Returns whether writing may round a coordinate: it is none that the user, or a boundary that slides, holds.
     auto movable(const map& x) const
     {
         std::vector<char> still(x.size(), 0);
@@ -254,7 +254,7 @@ private:
         report_.after = std::move(written.state);
     }
 
-    /// How far pins are from their places in what is written; whether all are there.
+    /// Measures the distances of pins from their targets in the output; returns whether all are met.
     bool measure_pins(const map& x)
     {
         session_report& run = report_.run;

@@ -58,7 +58,8 @@ std::vector<cell> cells_of(const io::volume_file& file)
     return cells;
 }
 
-/// Whether two cells are the same one but for the order of corners, and one is turned over; none: they are others.
+/// Returns whether two cells are the same one but for the order of corners, and one is turned over; none: they are
+/// others.
 std::optional<bool> turned_over(const cell& a, cell b)
 {
     if (a == b) return false;

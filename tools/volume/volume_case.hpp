@@ -18,7 +18,7 @@
 namespace taut::tools
 {
 
-/// Whether a name is that of a volume file, problems aside.
+/// Returns whether a name is that of a volume file, problems aside.
 bool names_volume(const std::string& path);
 
 /// Throws usage_error for "-": a mesh is one file or two.
@@ -35,7 +35,7 @@ io::volume_file read_volume_at_rest(const std::string& path, const std::string& 
 /// "32 tetrahedra", "12 hexahedra, 3 wedges": the cells of a dimension by kind.
 std::string count_cells(const io::volume_file& file, int dimension);
 
-/// What is wrong with cells, and their shapes; ids as io::impl::for_each_cell() counts.
+/// Faults of cells, and their shapes; ids as io::impl::for_each_cell() counts.
 struct volume_state
 {
     certificate simplices;                       ///< of the corners of all cells, or of these themselves
@@ -44,7 +44,7 @@ struct volume_state
     shape_quality shapes;
 };
 
-/// Fills in negative_inside and undecided, by validity_of_cell(). x: one a point.
+/// Fills in negative_inside and undecided, by validity_of_cell(). x: one per point.
 void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_state& state);
 
 /// The cells of a volume file, or of a planar one, as simplices.
@@ -70,7 +70,7 @@ public:
     /// As untangle_problem and others want them.
     std::vector<idx> owners() const { return parts_.overlapping ? parts_.cells : std::vector<idx>(); }
 
-    /// Where the file has its vertices.
+    /// Positions of the vertices in the file.
     map points() const { return {file_.points.begin(), file_.points.end()}; }
 
     /// All coordinates of the file with those of a map.
@@ -89,8 +89,8 @@ public:
         return {kept.begin(), kept.end()};
     }
 
-    /// What is true of a map whether readers of the file have its digits as doubles, or as the single precision that it
-    /// declares: of the two, the one with defects.
+    /// State of a map for readers that take its digits as doubles, or as the single precision that the file declares:
+    /// of the two, the one with defects.
     volume_state look_as_read(std::span<const vec<D>> x) const
     {
         auto state = look(x);
@@ -115,8 +115,8 @@ public:
         return state;
     }
 
-    /// Of each cell the largest max(s1, 1 / sD) of its corners, s the singular values of the map from rest; infinite
-    /// where one is flat, NaN where it was at rest.
+    /// Distortion of each cell: the largest max(s1, 1 / sD) of its corners, s the singular values of the map from rest;
+    /// infinite where one is flat, NaN where it was at rest.
     std::vector<double> distortion(std::span<const vec<D>> x) const
     {
         const double unit = impl::unit_scale(simplices());
@@ -131,7 +131,7 @@ public:
             });
     }
 
-    /// Of each cell the largest 1 / mean ratio of its corners; infinite where one is not positive.
+    /// Shape distortion of each cell: the largest 1 / mean ratio of its corners; infinite where one is not positive.
     std::vector<double> shape_distortion(std::span<const vec<D>> x) const
     {
         return worst_of_cells(

@@ -13,12 +13,12 @@ namespace taut::tools
 struct drawn_state
 {
     std::string title;
-    std::vector<vec3> points; ///< one a point of the file
+    std::vector<vec3> points; ///< one per point of the file
     std::vector<double> distortion;
     std::vector<idx> inverted; ///< cells
 };
 
-/// How a picture of states of one mesh is drawn.
+/// Options of pictures of a mesh.
 struct drawing_options
 {
     std::string path;      ///< whose extension says what it is

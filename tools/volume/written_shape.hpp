@@ -47,7 +47,7 @@ struct written_shape
         points = input.in_file(x);
     }
 
-    /// What is wrong, and what helps; empty: nothing.
+    /// Describes the defects, with the remedy; empty: none.
     std::string defects(const volume_case<Element>& input) const
     {
         if (state.simplices) return {};
@@ -124,7 +124,7 @@ public:
     {
         if (vertices_.empty()) return {};
         return impl::list_ids("pin", "pins", vertices_) + (vertices_.size() == 1 ? " is" : " are") +
-               " rounded to the single precision of the file, by " + number(largest_) + " at most, and held there";
+               " rounded to the single precision of the file, by " + number(largest_) + " at most, and fixed there";
     }
 
 private:

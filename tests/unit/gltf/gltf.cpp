@@ -174,7 +174,7 @@ TEST_CASE("gltf: the program of the document")
     folder.write(in, test::textured_model().glb());
     // [model]
     const auto model = io::read_gltf(in);
-    std::vector<std::array<vec2, 3>> uv(model.triangles.size()); // v downwards, one a corner
+    std::vector<std::array<vec2, 3>> uv(model.triangles.size()); // v downwards, one per corner
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
         {

@@ -12,9 +12,9 @@
 namespace taut::impl
 {
 
-/// A surface as polygons glued along arcs: at first its triangles, and a polygon in each hole, so that it is closed;
-/// then what becomes of them as arcs are removed. Every polygon is a disk at all times, since an arc goes only if
-/// different polygons are beside it, which become one, or if it ends freely inside its polygon.
+/// Surface as polygons glued along arcs: at first its triangles, and a polygon in each hole, so that it is closed; then
+/// their unions as arcs are removed. Every polygon is a disk at all times, since an arc is removed only between
+/// different polygons, which are united, or if it has a free end inside its polygon.
 ///
 /// A half arc h runs along a chain of edges with its polygon to the left, and twin(h) is the same chain the other way.
 /// Half arcs are numbered as the sides of the triangles, those of the holes behind them. All operations take constant
@@ -82,17 +82,17 @@ public:
     bool alive(idx h) const { return next_[u(h)] >= 0; }
     idx arc(idx h) const { return std::min(h, twin_[u(h)]); } ///< one number for both directions
 
-    /// Whether h ends freely inside its polygon, and is not all that bounds it.
+    /// Returns whether h has a free end inside its polygon, and is not its whole boundary.
     bool dangles(idx h) const { return next_[u(h)] == twin_[u(h)] && prev_[u(h)] != twin_[u(h)]; }
 
-    /// Whether the polygons beside h differ and have further sides, so that they may become one.
+    /// Returns whether the polygons beside h differ and have further sides, so that they may be united.
     bool parts(idx h)
     {
         const idx t = twin_[u(h)];
         return polygon(h) != polygon(t) && !(next_[u(h)] == h && next_[u(t)] == t);
     }
 
-    /// The one arc that bounds a polygon when h is gone, or -1 if there are more of them.
+    /// Single arc that bounds a polygon after the removal of h, or -1 if there are more.
     idx last_without(idx h) const
     {
         const idx t = twin_[u(h)], g = next_[u(h)];
@@ -102,11 +102,11 @@ public:
         return slit && next_[u(x)] == twin_[u(x)] && next_[u(twin_[u(x)])] == (dangles(h) ? h : t) ? arc(x) : -1;
     }
 
-    /// Whether two arcs meet at the start of h, and nothing else.
+    /// Returns whether two arcs meet at the start of h, and nothing else.
     bool passes(idx h) const { return degree(start(h)) == 2 && arc(prev_[u(h)]) != arc(h); }
 
-    /// Removes an arc that parts two polygons, or that dangles. Returns the half arcs that now start where it started
-    /// and ended, or -1 where there is none.
+    /// Removes an arc that separates two polygons, or that dangles. Returns the half arcs that now start where it
+    /// started and ended, or -1 where there is none.
     std::array<idx, 2> remove(idx h)
     {
         const idx t = twin_[u(h)];
@@ -122,7 +122,7 @@ public:
         return {link(before, beyond_twin), link(before_twin, beyond)};
     }
 
-    /// Makes the two arcs at the start of h one, whose half arcs are prev(h) and its twin.
+    /// Joins the two arcs at the start of h, whose half arcs are prev(h) and its twin.
     void join_at_start(idx h)
     {
         const idx p = prev_[u(h)], t = twin_[u(h)], q = twin_[u(p)];

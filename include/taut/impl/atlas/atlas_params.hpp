@@ -15,7 +15,7 @@
 namespace taut
 {
 
-/// Where a run of make_atlas() is.
+/// Progress of a run of make_atlas().
 struct atlas_progress
 {
     std::string_view stage;                                  ///< "charts", "flatten", "pack" or "certify"
@@ -25,7 +25,7 @@ struct atlas_progress
     bool usable = false;                                     ///< a run that ends now has a result
 };
 
-/// What charts are made for.
+/// Purpose of the charts of an atlas.
 enum class chart_preference
 {
     seams,   ///< few charts along short seams
@@ -33,7 +33,7 @@ enum class chart_preference
     one      ///< one chart a component, where it can be
 };
 
-/// How an atlas is made. Every field has a sensible default.
+/// Parameters of make_atlas(). Every field has a sensible default.
 struct atlas_params
 {
     /// How far charts go, and seams that are given. 4.1 is a stretch (L2) of 1.017; for packing, 4.2 and 4.045, the
@@ -42,36 +42,37 @@ struct atlas_params
 
     chart_preference prefer = chart_preference::seams;
 
-    /// Charts are what `charts.seams` part, and stay: they are flattened, from `initial` if it is given, and packed.
+    /// True if the charts are those separated by `charts.seams`: they are flattened, from `initial` if it is given, and
+    /// packed.
     bool keep_charts = false;
 
-    /// Of kept and pinned charts: the map to start from, or to stay at, one coordinate a corner; or empty.
+    /// Initial map of kept and pinned charts, or their final one, one coordinate per corner; or empty.
     std::vector<std::array<vec2, 3>> initial = {};
 
-    /// Triangles that stay at `initial`, bit for bit: one flag each, or empty. They are charts by themselves, parted
-    /// where `initial` is; all others are laid around them. Theirs is a map without flips or overlaps in the tiles.
+    /// Triangles that are pinned at `initial`, bit for bit: one flag each, or empty. They are charts of their own,
+    /// separated along the seams of `initial`; all others are packed around them. Their map has no flips or overlaps,
+    /// and lies in the tiles.
     std::vector<char> pinned = {};
 
-    /// Charts are mirror images of each other, in a plane that is found (symmetry.hpp); none leads across it, but for
-    /// those of polygons that lie across. Not together with charts that are kept or pinned. make_atlas() throws
+    /// True if charts are mirror images of each other, in a plane that is detected (symmetry.hpp); none crosses it,
+    /// except those of polygons across it. Not together with charts that are kept or pinned. make_atlas() throws
     /// symmetry_error where there is no such plane.
     bool symmetric = false;
 
     flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
     pack_params packing = {};       ///< the same
 
-    /// The lower left corner of the first tile, whole numbers. {0, -1} is for files whose v runs downwards: their
-    /// coordinates are (u, -v), which is exact where 1 - v is not.
+    /// Lower left corner of the first tile, integers. {0, -1} is for files whose v runs downwards: their coordinates
+    /// are (u, -v), which is exact where 1 - v is not.
     vec2 origin = vec2(0.0);
 
-    /// What a file makes of a coordinate, as by rounding to floats: the certificate is of these. Null: nothing.
+    /// Rounding of coordinates by the file format, such as to floats: the certificate is of the results. Null: none.
     vec2 (*stored)(vec2) = nullptr;
 
-    /// Wall-clock limit of the whole call. What has no good map by then is laid in patches, as it is seen from one
-    /// side.
+    /// Wall-clock limit of the whole call. Parts without a valid map by then fall back to planar-projection charts.
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
-    /// Asked several times a second whether to go on.
+    /// Callback several times a second; returning false ends the run.
     std::function<bool(const atlas_progress&)> observer = {};
 };
 

@@ -14,12 +14,12 @@
 namespace taut
 {
 
-/// One chart of an atlas.
+/// Summary of one chart of an atlas.
 struct chart_summary
 {
     idx triangles = 0;
     idx tile = 0;
-    double area = 0;                                         ///< of its triangles in space
+    double area = 0;                                         ///< area of its triangles in space
     double energy = std::numeric_limits<double>::infinity(); ///< area mean of the isometric energy, 4 at least
 };
 
@@ -38,13 +38,13 @@ struct atlas_seconds
     double certify = 0;
 };
 
-/// The plane of a surface that is its own mirror image, and its charts.
+/// Plane of symmetry of a surface, and counts of its charts.
 struct atlas_symmetry
 {
     vec3 normal{0.0};
     double offset = 0; ///< the plane has the points x with dot(normal, x) = offset
-    idx pairs = 0;     ///< of charts that are mirror images
-    idx own = 0;       ///< charts that are their own
+    idx pairs = 0;     ///< pairs of charts that are mirror images
+    idx own = 0;       ///< charts that are their own mirror image
 };
 
 } // namespace taut::impl
@@ -52,24 +52,24 @@ struct atlas_symmetry
 namespace taut
 {
 
-/// What one run did and what its atlas is like.
+/// Report of one run of make_atlas(): its phases and the measures of the atlas.
 struct atlas_report
 {
     bool complete = true;              ///< false: the clock or the observer ended it; the atlas is valid all the same
     std::string reason;                ///< why there is no valid atlas; empty if there is one
-    std::vector<std::string> notes;    ///< what the library decided on its own
+    std::vector<std::string> notes;    ///< decisions of the library
     std::vector<chart_summary> charts; ///< in the order of chart_mesh
-    certificate flips;                 ///< of all triangles as they lie in the atlas, exact
+    certificate flips;                 ///< certificate of all triangles in the atlas, exact
     std::size_t overlaps = 0;  ///< pairs of edges of chart borders that meet, and of charts one in the other; exact
-    std::size_t polygons = 0;  ///< of more than three corners that are convex in space
-    std::size_t concave = 0;   ///< those that are not in the atlas; exact
+    std::size_t polygons = 0;  ///< polygons of more than three corners that are convex in space
+    std::size_t concave = 0;   ///< those of them that are not convex in the atlas; exact
     double distortion = 0;     ///< area mean of the isometric energy at one common scale; 4: none
-    double worst = 0;          ///< the largest of a chart
+    double worst = 0;          ///< maximum over the charts
     double utilization = 0;    ///< area of the triangles by the area of the tiles
-    double seam_length = 0;    ///< of edges inside the surface that were cut, in its units
-    double least_distance = 0; ///< in texels, of two charts, or a chart and the border of its tile
+    double seam_length = 0;    ///< length of the edges inside the surface that were cut, in its units
+    double least_distance = 0; ///< minimum distance of two charts, or of a chart and the border of its tile, in texels
     idx tiles = 1;
-    std::optional<impl::atlas_symmetry> symmetry; ///< of a run that was to have it
+    std::optional<impl::atlas_symmetry> symmetry; ///< with atlas_params::symmetric
     impl::atlas_seconds seconds;
 };
 

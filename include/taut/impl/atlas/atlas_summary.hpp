@@ -21,7 +21,7 @@
 namespace taut::impl
 {
 
-/// Area and energy of chart k at the best scale of its own; infinite where a triangle is turned over.
+/// Computes area and energy of chart k at its optimal scale; infinite where a triangle is flipped.
 inline std::pair<double, double> area_and_energy(const chart_mesh& charts, std::size_t k, std::span<const vec2> uv,
                                                  const ideal_elements<triangle>& ideal)
 {
@@ -38,14 +38,14 @@ inline std::pair<double, double> area_and_energy(const chart_mesh& charts, std::
     return {area, 2 * std::sqrt(stretch / area) * std::sqrt(shrink / area)};
 }
 
-/// Puts in a report what charts are like, each by itself and all of them at one common scale.
-/// uv: one a vertex of charts.surface, in the tiles; layout: without places where there is none
+/// Fills a report with the measures of charts, each separately and all at one common scale.
+/// uv: one per vertex of charts.surface, in the tiles; layout: without placements if there is none
 inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv, const packing& layout)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const auto& cells = charts.surface.cells();
     const ideal_elements<triangle> ideal(charts.surface);
-    std::vector<double> values(cells.size()); // one a triangle
+    std::vector<double> values(cells.size()); // one per triangle
     const auto for_each_cell = [&](const auto& value)
     {
         parallel_for(values.size(),

@@ -23,14 +23,14 @@
 namespace taut::impl
 {
 
-/// What the device gets of one chart: triangles, vertices in band order, profile of its Hessian, and its map.
+/// Data of one chart on the device: triangles, vertices in band order, profile of its Hessian, and its map.
 struct chart_problem
 {
     const ideal_elements<triangle>* ideal = nullptr;
     std::vector<std::array<idx, 3>> cells; ///< renumbered
-    std::vector<idx> order;                ///< the vertex of the chart, one a vertex here
+    std::vector<idx> order;                ///< the vertex of the chart, one per vertex here
     csr fans;                              ///< corners of each vertex
-    std::vector<idx> heights;              ///< of panels
+    std::vector<idx> heights;              ///< heights of panels
     std::vector<vec2> uv;                  ///< in this order
 
     /// ideal: of m, referred to.
@@ -53,7 +53,7 @@ struct chart_problem
     }
 };
 
-/// The kernel of kernels/charts.cl, in the precision and form of a device.
+/// Kernel of kernels/charts.cl, in the precision and form of a device.
 class chart_kernel
 {
 public:
@@ -89,11 +89,11 @@ private:
     kernel newton_;
 };
 
-/// Some charts on a device, and Newton's method on all of them at once.
+/// Batch of charts on a device, with Newton's method on all of them at once.
 class chart_batch
 {
 public:
-    /// Of a chart after a step, as the kernel says.
+    /// State of a chart after a step, as written by the kernel.
     enum state : idx
     {
         going,
@@ -113,7 +113,8 @@ public:
     {
     }
 
-    /// One step of every active chart; waits for it. Those that are done are active no longer. Returns how many are.
+    /// Makes one step of every active chart, and waits. Finished charts become inactive. Returns the number of active
+    /// ones.
     std::size_t step(double tolerance)
     {
         const auto group = static_cast<std::size_t>(program_.team);
@@ -148,10 +149,10 @@ public:
 
     state state_of(std::size_t k) const { return static_cast<state>(states_[k]); }
 
-    /// Before the last step, area mean.
+    /// Energies before the last step, area means.
     double energy(std::size_t k) const { return numbers_[4 * k]; }
 
-    /// The maps, one point a vertex in the order of the chart, in its units.
+    /// Maps, one point per vertex in the order of the chart, in its units.
     std::vector<std::vector<vec2>> maps() const
     {
         const std::vector<double> x = arrays_.x.download();
@@ -171,7 +172,7 @@ public:
 private:
     static constexpr std::size_t stride_of(std::size_t cells) { return padded(cells, 8) + 4; }
 
-    /// Arrays as kernels/charts.cl wants them.
+    /// Makes arrays in the layout of kernels/charts.cl.
     struct host_lists
     {
         std::vector<idx> layout, corners, fan_starts, fans, offsets, heights, dealt;
@@ -231,8 +232,8 @@ private:
             }
         }
 
-        /// Drivers hand a CPU's threads long pieces of the range, so that large charts are spread over it; on GPUs they
-        /// come first.
+        /// Order of charts: drivers give a CPU's threads long pieces of the range, so large charts are spread over it;
+        /// on GPUs they come first.
         void deal(std::span<const chart_problem> problems, int team)
         {
             std::vector<idx> by_work(problems.size());

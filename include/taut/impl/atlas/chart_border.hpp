@@ -45,7 +45,7 @@ void for_each_border_side(const chart_mesh& charts, idx k, Side&& side)
             if (!leads(w, v)) side(first + v, first + w);
 }
 
-/// The boundary loops of chart k as boundary_loops() has those of all charts. A vertex has one fan of triangles.
+/// Boundary loops of chart k, as boundary_loops() of all charts. A vertex has one fan of triangles.
 inline std::vector<std::vector<idx>> border_loops(const chart_mesh& charts, idx k)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };

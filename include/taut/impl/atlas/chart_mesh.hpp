@@ -17,15 +17,15 @@
 namespace taut
 {
 
-/// A surface cut apart into charts: one mesh, with the triangles and the vertices of a chart in one piece, charts in
-/// the order of their first triangles, triangles and vertices of a chart in the order of the surface.
+/// Surface cut apart into charts: one mesh, with the triangles and the vertices of a chart in one piece, charts in the
+/// order of their first triangles, triangles and vertices of a chart in the order of the surface.
 struct chart_mesh
 {
     mesh<triangle> surface;
     std::vector<idx> first_cell;     ///< #charts + 1
     std::vector<idx> first_vertex;   ///< #charts + 1
-    std::vector<idx> cell_origins;   ///< the triangle of the surface, one a triangle; corners keep their places
-    std::vector<idx> vertex_origins; ///< the vertex of the surface, one a vertex
+    std::vector<idx> cell_origins;   ///< the triangle of the surface, one per triangle; corners keep their places
+    std::vector<idx> vertex_origins; ///< the vertex of the surface, one per vertex
 
     idx charts() const noexcept { return static_cast<idx>(first_cell.size()) - 1; }
 };
@@ -36,8 +36,8 @@ namespace taut::impl
 {
 
 /// Marks the sides where charts meet.
-/// chart: one label a triangle
-/// Returns one flag a side of the surface, whose facets `f` are: 1 where the triangles of an edge differ in label.
+/// chart: one label per triangle
+/// Returns one flag per side of the surface, whose facets `f` are: 1 where the triangles of an edge differ in label.
 inline std::vector<char> seams_between(const facet_table& f, std::span<const idx> chart)
 {
     std::vector<char> seam(f.twin.size(), 0);
@@ -50,8 +50,8 @@ inline std::vector<char> seams_between(const facet_table& f, std::span<const idx
     return seam;
 }
 
-/// The polygon of each triangle, by the first of its triangles.
-/// together: one flag a side of the surface, 1 on the diagonals of polygons; or empty
+/// Polygon of each triangle, by the first of its triangles.
+/// together: one flag per side of the surface, 1 on the diagonals of polygons; or empty
 inline std::vector<idx> polygons_of(const facet_table& f, std::span<const char> together)
 {
     disjoint_sets polygons(static_cast<idx>(f.twin.size()) / 3);
@@ -67,9 +67,9 @@ inline std::vector<idx> polygons_of(const facet_table& f, std::span<const char> 
 namespace taut
 {
 
-/// Marks the sides along which a map by corners is torn: where two triangles have other places for a common vertex, or
-/// places that are no numbers.
-/// uv: a triple for each triangle of m, whose facets `f` are. Returns one flag a side.
+/// Marks the sides along which a map by corners is discontinuous: where two triangles have different texture
+/// coordinates for a common vertex, or non-finite ones.
+/// uv: a triple for each triangle of m, whose facets `f` are. Returns one flag per side.
 inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table& f,
                                       std::span<const std::array<vec2, 3>> uv)
 {
@@ -90,7 +90,7 @@ inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table
 namespace taut::impl
 {
 
-/// seam: one flag a side of a surface, whose facets are `f`
+/// seam: one flag per side of a surface, whose facets are `f`
 inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
 {
     double length = 0;
@@ -103,7 +103,7 @@ inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std
     return length;
 }
 
-/// The sides of a surface, whose facets are `f`, at which two triangles have no common edge in its charts.
+/// Sides of a surface, whose facets are `f`, at which two triangles have no common edge in its charts.
 inline std::vector<char> seams_of(const chart_mesh& charts, const facet_table& f)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
@@ -120,8 +120,8 @@ inline std::vector<char> seams_of(const chart_mesh& charts, const facet_table& f
     return seam;
 }
 
-/// The pieces of a surface that hang together across edges that are no seams: the number of its piece for each
-/// triangle, pieces in the order of their first triangles, and how many there are.
+/// Connected pieces of a surface cut along seams: the piece of each triangle, pieces in the order of their first
+/// triangles, and their number.
 inline std::pair<std::vector<idx>, idx> pieces_between(const facet_table& f, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
@@ -149,11 +149,11 @@ inline std::pair<std::vector<idx>, idx> pieces_between(const facet_table& f, std
     return {std::move(piece), pieces};
 }
 
-/// The fans that seams part the triangles around vertices into.
+/// Fans of triangles around vertices between seams.
 struct vertex_fans
 {
-    std::vector<idx> of_corner;    ///< one a corner
-    std::vector<idx> first_corner; ///< one a fan, ascending
+    std::vector<idx> of_corner;    ///< one per corner
+    std::vector<idx> first_corner; ///< one per fan, ascending
 };
 
 inline vertex_fans fans_between(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
@@ -187,10 +187,10 @@ inline vertex_fans fans_between(const mesh<triangle>& m, const facet_table& f, s
 namespace taut
 {
 
-/// Cuts a surface apart along seams. What hangs together across other edges is a chart, and a vertex becomes one vertex
-/// for each of the fans that seams part its triangles into.
-/// m:    without crowded facets (mesh/facets.hpp), which are `f`
-/// seam: one flag a side, the same on both sides of an edge; sides without a twin need none
+/// Cuts a surface apart along seams. Charts are the components connected across other edges, and a vertex becomes one
+/// vertex for each fan of its triangles between seams.
+/// m:    without non-manifold facets (mesh/facets.hpp), which are `f`
+/// seam: one flag per side, the same on both sides of an edge; sides without a twin need none
 inline chart_mesh cut_charts(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };

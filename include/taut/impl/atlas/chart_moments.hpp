@@ -12,15 +12,15 @@
 namespace taut::impl
 {
 
-/// What the union of pieces of a surface is judged by; all of it adds up.
+/// Additive moments of pieces of a surface, from which the distortion of a union is estimated.
 struct chart_moments
 {
     double area = 0;
     vec3 normal = vec3(0.0);           ///< unit normals, summed by area
     std::array<double, 6> spread = {}; ///< their products xx, yy, zz, xy, xz, yz, too
-    double perimeter = 0;              ///< of single pieces; less what lies between them
+    double perimeter = 0;              ///< perimeter of single pieces; less what lies between them
 
-    /// A triangle by twice its area times its normal.
+    /// Moments of a triangle, by twice its area times its normal.
     static chart_moments of_triangle(const vec3& doubled)
     {
         chart_moments m;
@@ -43,7 +43,7 @@ struct chart_moments
         return *this;
     }
 
-    /// An estimate of the isometric energy above its minimum, times area, of the flattened piece.
+    /// Estimate of the isometric energy above its minimum, times area, of the flattened piece.
     double strain() const
     {
         // The least eigenvalue of the covariance of normals is 0 where they keep an angle to an axis (planes,

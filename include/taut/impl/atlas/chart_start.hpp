@@ -46,7 +46,7 @@ struct single_chart
     }
 };
 
-/// The points seen along the mean normal; none where that is 0.
+/// Points projected along the mean normal; none where that is 0.
 inline std::vector<vec2> projected(const mesh<triangle>& m)
 {
     vec3 normal(0.0);
@@ -65,13 +65,13 @@ inline std::vector<vec2> projected(const mesh<triangle>& m)
     return uv;
 }
 
-/// A first map of a chart.
+/// Initial map of a chart.
 struct chart_start
 {
     std::vector<vec2> uv;
     double energy = std::numeric_limits<double>::infinity(); ///< area mean
 
-    /// Takes a map, or none, if it is valid and better.
+    /// Replaces the map by another one if that is valid and better.
     void consider(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::vector<vec2> other)
     {
         if (other.empty()) return;
@@ -83,8 +83,9 @@ struct chart_start
         uv = std::move(map.uv);
     }
 
-    /// The given map, if it is valid; else the chart as seen along its mean normal, or a barycentric map where that is
-    /// folded or bad. given: one point a vertex, or empty; in units of the chart.
+    /// Computes the initial map: the given one, if it is valid; else the chart projected along its mean normal, or a
+    /// barycentric map where that is folded or strongly distorted. given: one point per vertex, or empty; in units of
+    /// the chart.
     /// Throws mesh_error where the chart is closed or has handles, `error` where no map without flips was found.
     static chart_start of(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::vector<vec2> given)
     {

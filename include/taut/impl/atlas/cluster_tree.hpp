@@ -21,27 +21,27 @@
 namespace taut::impl
 {
 
-/// How triangles were united, pair by pair, to ever larger pieces of a surface. Every piece is a disk, or one with
+/// Binary tree of the pairwise unions of triangles to larger pieces of a surface. Every piece is a disk, or one with
 /// holes of the surface in it, and can be flattened. Any antichain of nodes that covers the surface is a set of charts.
 ///
 /// Nodes 0 .. leaves - 1 are the triangles, then the holes; those behind are pieces in the order in which they were
-/// made. A piece of one child is the child with a slit sewn up.
+/// made. A piece of one child is the child with a slit stitched.
 struct cluster_tree
 {
     static constexpr idx none = -1;
     static constexpr idx never = std::numeric_limits<idx>::max();
 
-    idx triangles = 0;                        ///< of the surface
+    idx triangles = 0;                        ///< triangles of the surface
     idx leaves = 0;                           ///< and its holes
-    std::vector<std::array<idx, 2>> children; ///< one a piece; the second may be none
-    std::vector<idx> parents;                 ///< one a node; none for roots
-    std::vector<idx> sewn;                    ///< one a side: the node that sewed its edge, or never
-    std::vector<double> area;                 ///< one a node
-    std::vector<double> strain;               ///< one a node: estimated distortion above the least possible, times area
+    std::vector<std::array<idx, 2>> children; ///< one per piece; the second may be none
+    std::vector<idx> parents;                 ///< one per node; none for roots
+    std::vector<idx> sewn;                    ///< one per side: the node that stitched its edge, or never
+    std::vector<double> area;                 ///< one per node
+    std::vector<double> strain;               ///< one per node: estimated distortion above the minimum, times area
 
     idx nodes() const { return leaves + static_cast<idx>(children.size()); }
 
-    /// The charts of an antichain: for each triangle the node among `chosen` (one flag a node) that it is in.
+    /// Charts of an antichain: for each triangle the node among `chosen` (one flag per node) that it is in.
     std::vector<idx> labels(std::span<const char> chosen) const
     {
         std::vector<idx> label(static_cast<std::size_t>(nodes()), none);
@@ -57,7 +57,7 @@ struct cluster_tree
         return label;
     }
 
-    /// The seams of charts as labels() gives them, one flag a side: edges between charts, and slits in a chart.
+    /// Seams of charts as given by labels(), one flag per side: edges between charts, and slits in a chart.
     std::vector<char> seams(const facet_table& f, std::span<const idx> label) const
     {
         std::vector<char> seam = seams_between(f, label);
@@ -71,12 +71,12 @@ struct cluster_tree
     }
 };
 
-/// Unites neighbouring pieces, those first that save most length of seam for the distortion that it costs.
+/// Unites neighbouring pieces in the order of merge cost, added distortion per saved seam length.
 class clustering
 {
 public:
-    /// keep: one flag a side, edges that remain seams, or empty; together: those that go before all others, or empty
-    /// apart: pairs of triangles that no piece has both of
+    /// keep: one flag per side, edges that remain seams, or empty; together: edges removed before all others, or empty
+    /// apart: pairs of triangles that are kept in different pieces
     clustering(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep,
                std::span<const char> together, std::span<const std::array<idx, 2>> apart)
         : mesh_(m),
@@ -126,7 +126,7 @@ public:
             }
     }
 
-    /// limits: asked now and then; where it says no, pieces remain as they are by then
+    /// limits: asked periodically; once it refuses, the current pieces are returned
     cluster_tree run(budget* limits)
     {
         constexpr int often = 4096; // some milliseconds
@@ -189,9 +189,9 @@ private:
 
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// Tells corners and open holes by the Gaussian curvature of nodes. A hole is filled with a polygon of equal
-    /// angles; a hole that is then far from flat is open: a border that no chart closes around. A corner is curved
-    /// together with its neighbours, too: noise is not.
+    /// Detects corners and open holes by the Gaussian curvature of nodes. A hole is filled with a polygon of equal
+    /// angles; a hole that is then far from flat is open: no chart encloses it. A corner is curved together with its
+    /// neighbours, too, unlike noise.
     void measure_nodes()
     {
         constexpr double pi = std::numbers::pi;
@@ -227,7 +227,7 @@ private:
         }
     }
 
-    /// The piece that there is when an arc is gone.
+    /// Piece that results from the removal of an arc.
     chart_moments without(idx h)
     {
         chart_moments result = pieces_[u(graph_.polygon(h))].moments;
@@ -236,7 +236,7 @@ private:
         return result;
     }
 
-    /// Distortion that the removal of an arc costs, by what it is worth.
+    /// Merge cost: added distortion per saved seam length.
     double price_of(idx h)
     {
         const idx t = graph_.twin(h);
@@ -250,14 +250,14 @@ private:
         return (cost + without(h).strain()) / arcs_[u(h)].worth;
     }
 
-    /// Whether all that would bound the piece is a slit of one edge, which opens nothing.
+    /// Returns whether the boundary of the piece would be a slit of one edge.
     bool leaves_one_edge(idx h) const
     {
         const idx last = graph_.last_without(h);
         return last >= 0 && arcs_[u(last)].first == arcs_[u(last)].last;
     }
 
-    /// Whether two pieces, by their polygons, have triangles that are to be apart.
+    /// Returns whether two pieces, by their polygons, have triangles that must be separate.
     bool are_rivals(idx p, idx q)
     {
         if (rivals_.empty()) return false;
@@ -322,7 +322,7 @@ private:
         if (other >= 0) settle(graph_.alive(other) ? other : graph_.twin(before));
     }
 
-    /// Where h starts: joins the two arcs that meet there, or offers the one that ends there.
+    /// Settles the start of h: joins the two arcs that meet there, or queues the one that ends there.
     void settle(idx h)
     {
         const auto node = u(graph_.start(h));
@@ -344,23 +344,23 @@ private:
     std::span<const char> together_;
     arc_graph graph_;
     idx sides_;
-    std::vector<piece> pieces_;            // one a polygon
-    std::vector<arc> arcs_;                // one an arc, by its number
+    std::vector<piece> pieces_;            // one per polygon
+    std::vector<arc> arcs_;                // one per arc, by its number
     std::vector<int> stamp_;               // of the offer that counts
     std::vector<idx> after_;               // next side of an arc
-    std::vector<double> corner_;           // one a node that stays the end of arcs: distortion if it is inside; 0: none
+    std::vector<double> corner_;           // one per node that remains an end of arcs: distortion if inside; 0: none
     std::vector<char> open_;               // holes
-    std::vector<std::vector<idx>> rivals_; // one a polygon: triangles that its piece is to be without; or empty
+    std::vector<std::vector<idx>> rivals_; // one per polygon: triangles that its piece is to be without; or empty
     std::priority_queue<offered> queue_;
     cluster_tree tree_;
 };
 
 /// Clusters a surface. Deterministic; time O(n log n).
-/// m:    an oriented manifold; several components, handles and holes are welcome; f: its facets
-/// keep: one flag a side, edges that are to remain seams, the same on both sides; or empty
+/// m:    an oriented manifold; with any components, handles and holes; f: its facets
+/// keep: one flag per side, edges that are to remain seams, the same on both sides; or empty
 /// together: edges whose triangles are united before all others, in the same way
-/// apart: pairs of triangles that no piece is to have both of
-/// limits: asked now and then, or null; where it says no, what is united by then is the tree
+/// apart: pairs of triangles that are kept in different pieces
+/// limits: asked periodically, or null; once it refuses, the current tree is returned
 inline cluster_tree make_cluster_tree(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep = {},
                                       std::span<const char> together = {},
                                       std::span<const std::array<idx, 2>> apart = {}, budget* limits = nullptr)

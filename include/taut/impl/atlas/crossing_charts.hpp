@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// Whether the image of a loop that does not meet itself has its inside to its left; exact.
+/// Returns whether the image of a simple loop is counter-clockwise; exact.
 inline bool turns_left(std::span<const idx> loop, std::span<const vec2> uv)
 {
     const auto at = [&](std::size_t k) { return uv[static_cast<std::size_t>(loop[k % loop.size()])]; };
@@ -25,8 +25,8 @@ inline bool turns_left(std::span<const idx> loop, std::span<const vec2> uv)
     return orient2d(at(first + loop.size() - 1), at(first), at(first + 1)) > 0;
 }
 
-/// Whether the borders of a chart show that its map, free of flips, covers something twice. How often a point is
-/// covered is the sum of how often the borders wind around it: at most once if they are simple, apart from each other,
+/// Returns whether the borders of a chart show that its map, free of flips, overlaps. The number of times that a point
+/// is covered is the sum of the winding numbers of the borders: at most once if they are simple, apart from each other,
 /// and all but one run around holes.
 inline bool overlaps_itself(std::span<const std::vector<idx>> loops, std::span<const vec2> uv)
 {
@@ -35,15 +35,15 @@ inline bool overlaps_itself(std::span<const std::vector<idx>> loops, std::span<c
            std::count_if(loops.begin(), loops.end(), left) != 1;
 }
 
-/// Whether chart k has so many triangles that it can overlap itself without flips: two lie on either side of their
-/// edge.
+/// Returns whether chart k has so many triangles that it can overlap itself without flips: two lie on either side of
+/// their edge.
 inline bool may_overlap(const chart_mesh& charts, std::size_t k)
 {
     return charts.first_cell[k + 1] - charts.first_cell[k] > 2;
 }
 
-/// Whether a chart, without flips, of genus 0, overlaps itself.
-/// uv: one a vertex of charts.surface, finite
+/// Returns whether a chart, without flips, of genus 0, overlaps itself.
+/// uv: one per vertex of charts.surface, finite
 inline bool overlaps_itself(const chart_mesh& charts, std::size_t k, std::span<const vec2> uv)
 {
     if (!may_overlap(charts, k)) return false;
@@ -59,7 +59,7 @@ inline bool overlaps_itself(const chart_mesh& charts, std::size_t k, std::span<c
     return overlaps_itself(border_loops(charts, static_cast<idx>(k)), uv);
 }
 
-/// One flag a chart, of such charts: 1 where it overlaps itself.
+/// One flag per chart, of such charts: 1 where it overlaps itself.
 inline std::vector<char> crossing_charts(const chart_mesh& charts, std::span<const vec2> uv)
 {
     std::vector<char> crossing(static_cast<std::size_t>(charts.charts()), 0);

@@ -16,12 +16,12 @@
 namespace taut::impl
 {
 
-/// Shortest ways along the edges of a surface from a set of vertices.
+/// Shortest paths along the edges of a surface from a set of vertices.
 class edge_ways
 {
 public:
-    std::vector<double> distance; ///< one a vertex
-    std::vector<idx> came;        ///< the last side of the way, one a vertex; -1 at starts
+    std::vector<double> distance; ///< one per vertex
+    std::vector<idx> came;        ///< the last side of the way, one per vertex; -1 at starts
 
     edge_ways(const mesh<triangle>& m, const facet_table& f, const csr& sides, const std::vector<double>& weight)
         : distance(m.points().size(), std::numeric_limits<double>::infinity()),
@@ -33,7 +33,7 @@ public:
     {
     }
 
-    /// Adds a start; ways to it have no length.
+    /// Adds a source, at distance 0.
     void add(idx v)
     {
         distance[static_cast<std::size_t>(v)] = 0;
@@ -41,7 +41,7 @@ public:
         queue_.emplace(0.0, v);
     }
 
-    /// Dijkstra's algorithm, from the starts that are new.
+    /// Runs Dijkstra's algorithm from the new sources.
     void run()
     {
         const auto u = [](idx i) { return static_cast<std::size_t>(i); };
@@ -139,7 +139,7 @@ private:
     idx end(idx s) const { return start(facets_.twin[u(s)]); }
     void mark(idx s, char value) { seam_[u(s)] = seam_[u(facets_.twin[u(s)])] = value; }
 
-    /// The vertex of each component, at its first vertex, that is farthest away.
+    /// Farthest vertex of each component, stored at its first vertex.
     std::vector<idx> farthest(const std::vector<double>& distance) const
     {
         std::vector<idx> best(component_.size(), -1);
@@ -149,7 +149,7 @@ private:
         return best;
     }
 
-    /// A point at an end of each component.
+    /// Extremal point of each component.
     std::vector<idx> far_points() const
     {
         edge_ways from_first = ways();
@@ -159,9 +159,9 @@ private:
         return farthest(from_first.distance);
     }
 
-    /// Triangles are united across edges, those first whose ways to the boundary, or to the root of a closed
-    /// component, are the longest loop; ways themselves are never crossed. What is left when all are united is a
-    /// shortest set of loops and of ways between boundaries (Erickson, Whittlesey 2005), and branches.
+    /// Unites triangles across edges, in the order of the longest loop of shortest paths to the boundary, or to the
+    /// root of a closed component; these paths are never crossed. The remaining edges are a shortest set of loops and
+    /// of paths between boundaries (Erickson, Whittlesey 2005), and branches.
     void cut_handles(const std::vector<idx>& roots)
     {
         edge_ways back = ways();
@@ -185,7 +185,7 @@ private:
             if (united.join(edge.second / 3, facets_.twin[u(edge.second)] / 3)) mark(edge.second, 0);
     }
 
-    /// Takes away seams that end freely.
+    /// Removes seams with free ends.
     void prune()
     {
         std::vector<idx> degree(component_.size(), 0);
@@ -208,7 +208,7 @@ private:
         }
     }
 
-    /// Cuts along the way to the farthest point, then to what is still far from the seams, so that limbs open.
+    /// Cuts along the path to the farthest point, then to points that are still far from the seams, so that limbs open.
     void cut_spheres(const std::vector<idx>& roots)
     {
         constexpr int limbs = 6;       // at most
@@ -246,8 +246,8 @@ private:
     csr sides_;
     std::vector<double> weight_;
     std::vector<char> seam_;
-    std::vector<idx> component_; // one a vertex: the first vertex of it
-    std::vector<char> on_rim_;   // one a vertex
+    std::vector<idx> component_; // one per vertex: the first vertex of it
+    std::vector<char> on_rim_;   // one per vertex
     std::vector<kind> kind_;     // of components, at their first vertex
 };
 
@@ -256,11 +256,11 @@ private:
 namespace taut
 {
 
-/// Seams that make every component of a surface one disk: handles are cut along short loops, boundaries joined by short
-/// ways, and a closed component without handles is cut along ways between points that lie far apart, such as the tips
-/// of limbs. Seams prefer creases. For cut_charts().
+/// Computes seams that cut every component of a surface to one disk: handles are cut along short loops, boundaries are
+/// joined by short paths, and a closed component without handles is cut along paths between distant points, such as the
+/// tips of limbs. Seams prefer creases. For cut_charts().
 ///
-/// m: an oriented manifold; f: its facets. Returns one flag a side. Time O(n log n).
+/// m: an oriented manifold; f: its facets. Returns one flag per side. Time O(n log n).
 inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const facet_table& f)
 {
     return impl::disk_cutting(m, f).run();

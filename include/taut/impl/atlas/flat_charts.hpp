@@ -31,7 +31,7 @@
 namespace taut::impl
 {
 
-/// The charts of a surface with their maps, each where it was flattened: the first phases of make_atlas().
+/// Charts of a surface with their maps, each as flattened: the first phases of make_atlas().
 class flat_charts
 {
 public:
@@ -56,14 +56,14 @@ public:
 protected:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// The triangles of the surface in the plane, in its units, each as it lies in its chart.
+    /// Triangles of the surface in the plane, in its units, as in their charts.
     struct laid_triangles
     {
-        std::vector<vec2> uv;       // one a corner
-        std::vector<double> energy; // one a triangle: of its chart
+        std::vector<vec2> uv;       // one per corner
+        std::vector<double> energy; // one per triangle: of its chart
     };
 
-    /// Asks whether to go on, in a stage.
+    /// Checks the limits, in a stage.
     observer asking(std::string_view stage)
     {
         return [this, stage](const progress& p)
@@ -79,7 +79,7 @@ protected:
         };
     }
 
-    /// All charts at once. steps: of each, at most
+    /// Flattens all charts at once. steps: maximum for each
     flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps)
     {
         auto params = params_.flattening;
@@ -360,8 +360,8 @@ protected:
         std::vector<char> wanted(laid.energy.size());
         for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
         if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)
-            report_.notes.push_back("what had no map by then became " + std::to_string(lay_patches(laid, wanted)) +
-                                    " charts, laid as they are seen");
+            report_.notes.push_back("parts without a map by then became " + std::to_string(lay_patches(laid, wanted)) +
+                                    " planar-projection charts");
         cut(laid);
     }
 
@@ -392,7 +392,7 @@ protected:
         mend(turned());
     }
 
-    /// One flag a chart: 1 where a triangle is turned over, as it may be where polygons that are mirror images are cut
+    /// One flag per chart: 1 where a triangle is flipped, as may happen where polygons that are mirror images are cut
     /// along other diagonals.
     std::vector<char> turned() const
     {
@@ -428,7 +428,7 @@ protected:
             for (std::size_t k = 0; k < 3; ++k) f(u(charts_->cell_origins[i]), k, u(charts_->surface.cells()[i][k]));
     }
 
-    /// One flag a chart: 1 where it has no map, or overlaps itself.
+    /// One flag per chart: 1 where it has no map, or overlaps itself.
     std::vector<char> unfit() const
     {
         auto bad = crossing_charts(*charts_, flat_);
@@ -437,7 +437,7 @@ protected:
         return bad;
     }
 
-    /// Keeps the borders of these charts apart, and takes those apart for which that does not succeed.
+    /// Removes the crossings of the borders of these charts, and divides those for which that fails.
     void mend(std::vector<char> bad)
     {
         keep_apart(bad);
@@ -487,8 +487,8 @@ protected:
         report_.seconds.flatten += budget_.total() - begin;
     }
 
-    /// These charts become patches that lie as they are seen; charts that are to be kept cannot.
-    /// largest: triangles of a patch at most
+    /// Divides these charts into planar-projection patches, unless they are to be kept. largest: maximum number of
+    /// triangles of a patch
     void take_apart(const std::vector<char>& bad, std::size_t largest = 1024)
     {
         if (!report_.reason.empty()) return;
@@ -512,7 +512,7 @@ protected:
                                 std::to_string(patches) + ", laid as they are seen");
     }
 
-    /// These triangles, one flag each, become patches of so many at most. Returns how many patches there are.
+    /// Divides these triangles, one flag each, into patches of a maximum size. Returns the number of patches.
     std::size_t lay_patches(laid_triangles& laid, std::vector<char> wanted, std::size_t largest = 1024)
     {
         constexpr std::ptrdiff_t many = 50'000; // worth more threads, where what comes of it is for want of time
@@ -529,7 +529,7 @@ protected:
         return seen.energy.size();
     }
 
-    /// The triangles of the surface as they lie in the charts.
+    /// Triangles of the surface as mapped in the charts.
     laid_triangles triangles_as_laid() const
     {
         laid_triangles laid{std::vector<vec2>(facets_.twin.size()), std::vector<double>(mesh_.cells().size())};
@@ -541,7 +541,7 @@ protected:
         return laid;
     }
 
-    /// Lays some triangles in other places, and has seams there. label(triangle): of its chart, -1 where all stays;
+    /// Replaces the maps of some triangles, with seams around them. label(triangle): its new chart, -1 if unchanged;
     /// energy_of(label), uv_of(triangle, corner): of the new ones
     template <class Label, class Energy, class Map>
     void lay_anew(laid_triangles& laid, Label&& label, Energy&& energy_of, Map&& uv_of)
@@ -577,7 +577,7 @@ protected:
             energy_.push_back(laid.energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
     }
 
-    /// Polygons that several charts have parts of become charts by themselves.
+    /// Makes polygons that are divided by seams charts of their own.
     void join_polygons()
     {
         const auto& together = params_.charts.together;
@@ -632,10 +632,10 @@ protected:
     budget budget_;
     atlas_report report_;
     std::optional<mirror_symmetry> mirror_;
-    std::vector<char> seam_; // one a side of the surface
+    std::vector<char> seam_; // one per side of the surface
     std::optional<chart_mesh> charts_;
-    std::vector<vec2> flat_;     // one a vertex of the charts, in units of the surface
-    std::vector<double> energy_; // one a chart
+    std::vector<vec2> flat_;     // one per vertex of the charts, in units of the surface
+    std::vector<double> energy_; // one per chart
     bool usable_ = false;
 };
 

@@ -15,37 +15,37 @@
 namespace taut
 {
 
-/// How to flatten charts. Every field has a sensible default.
+/// Parameters of flatten_charts(). Every field has a sensible default.
 struct flatten_params
 {
-    /// A chart is done when the decrease that Newton's model still predicts is below this part of its energy; 1e-12 to
-    /// 1. The step that it was predicted for is taken nevertheless. With the default, energies end within 1e-4 of their
+    /// Stopping tolerance: a chart is done when the predicted decrease of Newton's model is below this fraction of its
+    /// energy; 1e-12 to 1. The predicted step is taken, too. With the default, energies end within 1e-4 of their
     /// minima, and mostly within 1e-6.
     double tolerance = 1e-5;
 
-    /// Newton steps of a chart at most; 0 leaves charts at their starts.
+    /// Maximum number of Newton steps of a chart; 0 returns the starts.
     int max_iterations = 100;
 
-    /// Millions of multiplications that the factorization of a chart may take; above, the chart goes to `parameterize`
-    /// by itself. The default stands for about 5,000 triangles, where both take as long.
+    /// Maximum cost of the factorization of a chart in millions of multiplications; above, the chart is solved by
+    /// `parameterize`. The default corresponds to about 5,000 triangles, where both take as long.
     double largest = 30;
 
-    /// A map to begin with, one point a vertex of the chart mesh in any place and in units of the surface, or nothing.
-    /// Charts where it is not valid begin with another one.
+    /// Initial map, one point per vertex of the chart mesh in any place and in units of the surface, or empty. Charts
+    /// for which it is not valid get another start.
     std::span<const vec2> initial = {};
 
     /// Wall-clock limit of the whole call.
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
-    /// Asked after each step of the charts at work: go on? progress::iteration counts charts that are done,
-    /// progress::value is the mean energy of the maps there are.
+    /// Callback after each step; returning false ends the run. progress::iteration counts finished charts,
+    /// progress::value is the mean energy of the current maps.
     taut::observer observer = {};
 
     /// Throws parameter_error that names the field.
     void validate() const;
 };
 
-/// What became of a chart.
+/// Outcome of flattening one chart.
 enum class chart_outcome
 {
     converged,  ///< the map is that of least energy, to the tolerance
@@ -64,7 +64,7 @@ struct chart_report
 {
     /// Area mean of energy::isometric, 4 at least; +infinity if the map is not valid.
     double energy = std::numeric_limits<double>::infinity();
-    double start_energy = std::numeric_limits<double>::infinity(); ///< of the map that it began with
+    double start_energy = std::numeric_limits<double>::infinity(); ///< energy of the initial map
     int iterations = 0;                                            ///< Newton steps
     bool valid = false;     ///< no triangle is flipped, and there is no branch point; in exact arithmetic
     bool multigrid = false; ///< it went to `parameterize`
@@ -90,21 +90,22 @@ struct flatten_seconds
 namespace taut
 {
 
+/// Result of flatten_charts(): one map for all charts, and a report for each.
 struct flattened_charts
 {
-    std::vector<vec2> uv; ///< one a vertex of charts.surface, in units of the surface; (0, 0) where there is no map
+    std::vector<vec2> uv; ///< one per vertex of charts.surface, in units of the surface; (0, 0) where there is no map
     std::vector<impl::chart_report> charts;
     impl::flatten_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes
 };
 
 /// Maps every chart to the plane with a free boundary and the least isometric distortion (energy::isometric by area),
-/// without flipping a triangle: all charts at once on the device. Each has its own steps, line search and end, and the
-/// number of launches does not depend on how many there are. Charts lie anywhere in the plane and may overlap.
+/// without flipping a triangle: all charts at once on the device. Each has its own steps, line search and stopping
+/// test, and the number of launches does not depend on the number of charts. Charts lie anywhere in the plane and may
+/// overlap.
 ///
-/// A chart is a disk or has holes; there is no map of one that is closed or has handles, and of none with a flat
-/// triangle. Its map does not depend on what other charts there are. Every map that is returned as valid is certified
-/// in exact arithmetic.
+/// A chart is a disk or has holes; closed charts, those with handles and those with a flat triangle have no map. Its
+/// map does not depend on other charts. Every map that is returned as valid is certified in exact arithmetic.
 /// Throws parameter_error, device_error, build_error.
 flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params = {});
 

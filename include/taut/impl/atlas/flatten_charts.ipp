@@ -58,7 +58,7 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// What is known of a chart on the way.
+    /// Working state of a chart.
     struct chart_work
     {
         std::optional<single_chart> chart;
@@ -96,7 +96,7 @@ private:
         return clock_.proceed({.iteration = done_, .value = mapped > 0 ? sum / mapped : 0.0, .usable = mapped > 0});
     }
 
-    /// Orders all charts and makes their first maps.
+    /// Orders all charts and computes their initial maps.
     void prepare()
     {
         for_each(work_.size(),
@@ -124,7 +124,7 @@ private:
         result_.seconds.start = clock_.lap();
     }
 
-    /// What the user gave of a chart, in its units.
+    /// Initial map of a chart as given by the user, in its units.
     std::vector<vec2> given(std::size_t k) const
     {
         if (params_.initial.empty()) return {};
@@ -135,7 +135,7 @@ private:
         return uv;
     }
 
-    /// Newton's method, in batches whose arrays fit the memory of a device well.
+    /// Runs Newton's method in batches that fit the memory of a device.
     void minimize()
     {
         std::vector<std::size_t> by_size;
@@ -198,7 +198,7 @@ private:
         result_.seconds.solve += clock_.lap();
     }
 
-    /// The large charts, one by one.
+    /// Solves the large charts, one by one.
     void map_large()
     {
         for (std::size_t k = 0; k < work_.size(); ++k)
@@ -238,7 +238,7 @@ private:
         ++done_;
     }
 
-    /// Brings the maps to the units of the surface and looks at what came out.
+    /// Converts the maps to the units of the surface and certifies them.
     void certify()
     {
         parallel_for(

@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// What a chart is like in the plane.
+/// Shape of a chart in the plane.
 struct laid_shape
 {
     bool crosses = false;                     ///< it overlaps itself
@@ -48,7 +48,7 @@ inline double hull_area(std::vector<vec2> points)
     return twice / 2;
 }
 
-/// The triangles at the sides of a chart's border that meet.
+/// Triangles at the sides of a chart's border that meet.
 inline std::vector<std::array<idx, 2>> meeting_triangles(const chart_mesh& charts, std::size_t chart,
                                                          std::span<const std::vector<idx>> loops,
                                                          std::span<const vec2> uv)
@@ -80,8 +80,8 @@ inline std::vector<std::array<idx, 2>> meeting_triangles(const chart_mesh& chart
     return meetings;
 }
 
-/// The shapes of charts, one each; of those without a map, whose energy is infinite, nothing is known.
-/// whole: false where all that is asked is which charts overlap themselves
+/// Shapes of charts, one each; undefined for those without a map, whose energy is infinite. whole: false to find only
+/// the charts that overlap themselves
 inline std::vector<laid_shape> laid_shapes(const chart_mesh& charts, std::span<const vec2> uv,
                                            std::span<const double> energy, bool whole)
 {

@@ -13,14 +13,14 @@
 namespace taut
 {
 
-/// A surface as a set of charts that lie side by side in squares.
+/// Texture atlas of a surface: charts packed side by side into unit squares.
 struct atlas
 {
     chart_mesh charts; ///< the surface cut apart
-    /// One a vertex of charts.surface; tile t is the unit square at atlas_params::origin + (t % 10, t / 10), as in
+    /// One per vertex of charts.surface; tile t is the unit square at atlas_params::origin + (t % 10, t / 10), as in
     /// UDIM.
     std::vector<vec2> uv;
-    packing layout; ///< how charts were turned, scaled and shifted
+    packing layout; ///< rotation, scale and translation of the charts
     atlas_report report;
 
     /// Texture coordinates by corner: numbers into uv, a triple for each triangle of the surface, in its order.
@@ -36,7 +36,7 @@ struct atlas
     explicit operator bool() const { return report.reason.empty(); }
 };
 
-/// What make_atlas() asks of a surface.
+/// Requirements of make_atlas() on a surface.
 inline constexpr mesh_requirements atlas_requirements{
     .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
 
@@ -44,9 +44,9 @@ inline constexpr mesh_requirements atlas_requirements{
 /// of them at once on the queue's device, packs them, and certifies the result in exact arithmetic.
 ///
 /// m: an oriented manifold without flat triangles; it may have several parts, be closed, have handles and holes.
-///    repair_surface() (repair/repair_surface.hpp) makes one of what is not.
-/// A run that the time limit or the observer ends returns charts as they are by then, packed and certified all the
-/// same; atlas_report::complete is false. Throws mesh_error, symmetry_error, parameter_error, device_error,
+///    repair_surface() (repair/repair_surface.hpp) makes one of other input. A run that the time limit or the observer
+///    ends returns the current charts, packed and certified all the same; atlas_report::complete is false. Throws
+///    mesh_error, symmetry_error, parameter_error, device_error,
 /// build_error.
 atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params = {});
 

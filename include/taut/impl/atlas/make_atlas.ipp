@@ -47,7 +47,7 @@ public:
         return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
     }
 
-    /// The pinned charts of this surface with an atlas of the rest, certified together.
+    /// Joins the pinned charts of this surface with an atlas of the rest, certified together.
     atlas with(const pinned_charts& pins, atlas made)
     {
         budget_.lap(); // what the rest took is in its report
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    /// Lays charts in the tiles, as a file holds them.
+    /// Packs charts into the tiles, rounded as in the file.
     void lay()
     {
         if (!report_.reason.empty())
@@ -102,8 +102,8 @@ private:
         report_.seconds.pack += budget_.lap();
     }
 
-    /// Charts that rounding spoils, and that cannot be mended where they lie, are laid anew: larger, if they are small
-    /// for the digits of the file, else in smaller patches.
+    /// Replaces charts that rounding makes invalid and that cannot be corrected in place: by larger ones, if they are
+    /// small for the digits of the file, else by smaller patches.
     void settle()
     {
         constexpr int most_rounds = 32; // places change for all charts, and so do the digits of those that were good
@@ -125,8 +125,8 @@ private:
         }
     }
 
-    /// Has a chart laid larger if its triangles are not much larger than the steps of the file's numbers. Returns
-    /// whether they are not.
+    /// Scales a chart up if its triangles are not much larger than the units of the file's numbers. Returns whether it
+    /// did.
     bool enlarge(std::size_t k)
     {
         const std::span own(uv_.data() + charts_->first_vertex[k], uv_.data() + charts_->first_vertex[k + 1]);
@@ -152,11 +152,11 @@ private:
         const auto count = std::count_if(densities.begin(), densities.end(), [](double x) { return x > 1; });
         if (count > 0)
             report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart is" : " charts are") +
-                                    " laid larger than others, as the numbers of the file are too coarse for " +
+                                    " scaled up, as the numbers of the file are too coarse for " +
                                     (count == 1 ? "it" : "them"));
     }
 
-    /// How much larger than others each chart is laid; empty if none is.
+    /// Texel density of each chart relative to the others; empty if all are equal.
     std::vector<double> densities_of(const chart_mesh& charts) const
     {
         std::vector<double> densities;
@@ -198,7 +198,7 @@ private:
         report_.seconds.certify += budget_.lap();
         if (!report_.flips)
             report_.reason = std::to_string(report_.flips.flipped) + " triangles" + turned_ids() +
-                             " are turned over by the digits of the file; " + remedy;
+                             " are flipped by the digits of the file; " + remedy;
         else if (const auto bad = std::find(crossing.begin(), crossing.end(), char(1)); bad != crossing.end())
             report_.reason = "the border of chart " + std::to_string(bad - crossing.begin()) + ", that of triangle " +
                              std::to_string(first_triangle(static_cast<std::size_t>(bad - crossing.begin()))) +
@@ -217,8 +217,7 @@ private:
                                     "of them turn over");
     }
 
-    static constexpr const char* remedy =
-        "a file with more digits (.obj) may hold them, or --upright lay them where they are right";
+    static constexpr const char* remedy = "a file with more digits (.obj) may keep them, or --upright";
 
     idx first_triangle(std::size_t chart) const { return charts_->cell_origins[u(charts_->first_cell[chart])]; }
 
@@ -231,10 +230,10 @@ private:
         return text.empty() ? text : text + (report_.flips.flipped > report_.flips.ids.size() ? ", ...)" : ")");
     }
 
-    std::vector<char> bad_;     // one a chart: whether it is not valid as it is laid
+    std::vector<char> bad_;     // one per chart: whether it is not valid as it is laid
     convex_polygons polygons_;  // of the charts
-    std::vector<double> grown_; // one a triangle of the surface: how much larger its chart is laid; empty if none is
-    std::vector<vec2> uv_;      // one a vertex of the charts, in the tiles
+    std::vector<double> grown_; // one per triangle of the surface: how much larger its chart is laid; empty if none is
+    std::vector<vec2> uv_;      // one per vertex of the charts, in the tiles
     packing layout_;
     chart_outlines outlines_; // of the charts as they were laid; the same in the tiles, unless triangles turned over
 };
@@ -246,7 +245,7 @@ namespace taut
 
 atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
 {
-    // Beyond these sizes areas, or products of them, would be no numbers.
+    // Beyond these sizes areas, or products of them, would overflow.
     if (const double unit = impl::unit_scale(m); unit > 1e70 || unit < 1e-70)
     {
         atlas made = make_atlas(q, scaled(m, unit), params);

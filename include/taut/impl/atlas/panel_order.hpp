@@ -11,8 +11,8 @@
 namespace taut::impl
 {
 
-/// The vertices that a search in breadth reaches from one, level by level, those of a level by their number of
-/// neighbours. seen: marks; those reached are marked with `mark`, and marked ones are not looked at.
+/// Breadth-first search from a vertex, level by level, those of a level by their number of neighbours. seen: marks;
+/// visited vertices are marked with `mark`, and marked ones are skipped.
 inline void append_in_breadth(const csr& near, idx from, std::vector<int>& seen, int mark, std::vector<idx>& order)
 {
     const auto u = [](idx v) { return static_cast<std::size_t>(v); };
@@ -33,8 +33,8 @@ inline void append_in_breadth(const csr& near, idx from, std::vector<int>& seen,
     }
 }
 
-/// An order of the vertices with neighbours near each other (Cuthill, McKee 1969), from an end of each component: the
-/// last vertex of a search from the last vertex of a search.
+/// Bandwidth-reducing order of the vertices (Cuthill, McKee 1969), from an end of each component: the last vertex of a
+/// search from the last vertex of a search.
 inline std::vector<idx> band_order(const csr& near)
 {
     const auto n = static_cast<std::size_t>(near.rows());
@@ -55,7 +55,7 @@ inline std::vector<idx> band_order(const csr& near)
     return order;
 }
 
-/// A band matrix of two unknowns a vertex, stored by panels of two vertices (kernels/charts.cl).
+/// A band matrix of two unknowns per vertex, stored by panels of two vertices (kernels/charts.cl).
 struct panel_profile
 {
     permutation order;        ///< vertices in the order of the matrix

@@ -20,11 +20,11 @@
 namespace taut::impl
 {
 
-/// Charts that stay where they are, and the rest of their surface.
+/// Pinned charts, and the rest of their surface.
 class pinned_charts
 {
 public:
-    /// Refers to all; some triangles are pinned. Throws packing_error where charts cannot stay.
+    /// Refers to all; some triangles are pinned. Throws packing_error where pinned charts are invalid.
     pinned_charts(const mesh<triangle>& m, const facet_table& f, const atlas_params& params)
         : mesh_(m),
           params_(params),
@@ -48,7 +48,7 @@ public:
     /// The surface without them.
     const mesh<triangle>& rest() const { return rest_.charts.surface; }
 
-    /// What is asked of that. seams, together: for what they refer to
+    /// Parameters for that surface. seams, together: storage that they refer to
     atlas_params of_rest(std::vector<char>& seams, std::vector<char>& together) const
     {
         atlas_params params = params_;
@@ -112,7 +112,7 @@ public:
 
     idx charts() const { return pinned_.charts.charts(); }
 
-    /// The area of their triangles where they lie.
+    /// Area of their triangles in the atlas.
     double area() const
     {
         double sum = 0;
@@ -148,7 +148,7 @@ private:
             vec2 low(std::numeric_limits<double>::infinity()), high = -low;
             for (auto v = u(pinned_.charts.first_vertex[u(k)]); v < u(pinned_.charts.first_vertex[u(k) + 1]); ++v)
             {
-                if (!finite(uv_[v])) refuse(k, "has no place, or one that is no number");
+                if (!finite(uv_[v])) refuse(k, "has no texture coordinate, or a non-finite one");
                 low = glm::min(low, uv_[v]);
                 high = glm::max(high, uv_[v]);
             }
@@ -193,7 +193,7 @@ private:
     const mesh<triangle>& mesh_;
     const atlas_params& params_;
     const surface_part pinned_, rest_;
-    std::vector<vec2> uv_;   // one a vertex of the pinned charts
+    std::vector<vec2> uv_;   // one per vertex of the pinned charts
     std::vector<idx> tiles_; // of each
 };
 

@@ -14,9 +14,8 @@
 namespace taut::impl
 {
 
-/// Lays a chart whose triangles are those of one polygon on a circle, corner after corner by the lengths of its edges:
-/// whatever shape it has in space, all its triangles are positive then, and none is over another. A polygon with holes
-/// stays as it is.
+/// Maps a chart of a single polygon to a circle, corner after corner by the lengths of its edges: whatever its shape in
+/// space, all its triangles are then positive and disjoint. A polygon with holes is not changed.
 inline void lay_round(const chart_mesh& charts, std::size_t k, std::span<vec2> uv)
 {
     std::vector<idx> cells(static_cast<std::size_t>(charts.first_cell[k + 1] - charts.first_cell[k]));

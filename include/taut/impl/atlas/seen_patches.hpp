@@ -17,23 +17,22 @@
 namespace taut::impl
 {
 
-/// Disks that a surface is parted into, each as it is seen along the normal of one of its triangles, without flips and
-/// overlaps. They cost next to nothing and have a map whatever the surface is.
+/// Planar-projection charts: disks that a surface is divided into, each projected along the normal of one of its
+/// triangles, without flips and overlaps. They are cheap and exist for any surface.
 struct seen_patches
 {
-    std::vector<idx> patch;              ///< one a triangle, -1 where none was wanted
+    std::vector<idx> patch;              ///< one per triangle, -1 where none was wanted
     std::vector<std::array<vec2, 3>> uv; ///< by corner, in units of the surface
-    std::vector<double> energy;          ///< one a patch: area mean of the isometric energy
+    std::vector<double> energy;          ///< one per patch: area mean of the isometric energy
 
     static constexpr double most_energy = 6.25; ///< that of a triangle which is seen at 60 degrees
 };
 
-/// Grows patches in breadth, in one region of a surface.
+/// Grows patches breadth-first, in one region of a surface.
 class patch_growing
 {
 public:
-    /// patches: those of all regions; it reads and writes what there is of triangles of its own, which gets numbers
-    /// from 0
+    /// patches: those of all regions; it reads and writes the entries of its own triangles, which are numbered from 0
     patch_growing(const mesh<triangle>& m, const facet_table& f, std::span<const char> regions, char own,
                   std::span<const char> keep, seen_patches& patches)
         : mesh_(m),
@@ -110,7 +109,7 @@ private:
         energy_.push_back(sum / area);
     }
 
-    /// Whether the border of the last patch, which is a disk, meets itself.
+    /// Returns whether the border of the last patch, which is a disk, meets itself.
     bool overlaps()
     {
         const auto id = static_cast<idx>(energy_.size()) - 1;
@@ -122,7 +121,7 @@ private:
         return !for_each_meeting(border_, seen_, [](std::size_t, std::size_t) { return false; });
     }
 
-    /// Forgets the last patch.
+    /// Discards the last patch.
     void undo()
     {
         for (const idx c : front_)
@@ -139,8 +138,8 @@ private:
         return t >= 0 && regions_[u(t) / 3] == own_ && (keep_.empty() || !keep_[u(side)]);
     }
 
-    /// Whether the patch remains a disk with the triangle behind a side: it meets it in that edge and nothing else, or
-    /// in edges that meet.
+    /// Returns whether the patch remains a disk with the triangle behind a side: it meets it in that edge and nothing
+    /// else, or in edges that meet.
     bool stays_disk(idx side, idx id) const
     {
         const idx c = side / 3;
@@ -150,13 +149,13 @@ private:
         return false;
     }
 
-    /// How a triangle is seen: twice its area, and the cosine of its angle to the axis; 0 at a slant.
+    /// View of a triangle from the axis: twice its area, and the cosine of its angle to the axis; 0 at a slant.
     struct sight
     {
         double area, cosine;
     };
 
-    /// Lays a triangle as it is seen.
+    /// Projects a triangle.
     sight see(idx c)
     {
         constexpr double least = 0.5;
@@ -176,18 +175,18 @@ private:
     std::span<const char> regions_;
     char own_;
     std::span<const char> keep_;
-    std::vector<idx> touched_;               // one a vertex: the last patch that has it
-    std::vector<vec2> seen_;                 // one a vertex: where it was seen last
+    std::vector<idx> touched_;               // one per vertex: the last patch that has it
+    std::vector<vec2> seen_;                 // one per vertex: where it was seen last
     std::vector<idx> front_;                 // the triangles of the last patch
     std::vector<std::array<idx, 2>> border_; // its border
     vec3 origin_{0.0}, normal_{0.0}, across_{0.0}, up_{0.0};
     seen_patches& patches_;
-    std::vector<double> energy_; // one a patch
+    std::vector<double> energy_; // one per patch
 };
 
-/// regions: one a triangle, from 1; 0: no patch is wanted there. None leads from one into another, so that they are
-/// parted at the same time.
-/// keep: one flag a side, borders that no patch leads over, or empty; largest: triangles of a patch at most
+/// regions: one per triangle, from 1; 0: no patch there. Patches stay within a region, so that regions are processed in
+/// parallel. keep: one flag per side, borders that no patch crosses, or empty; largest: maximum number of triangles of
+/// a patch
 inline seen_patches lay_as_seen(const mesh<triangle>& m, const facet_table& f, std::span<const char> regions,
                                 std::span<const char> keep, std::size_t largest)
 {
@@ -213,7 +212,7 @@ inline seen_patches lay_as_seen(const mesh<triangle>& m, const facet_table& f, s
     return patches;
 }
 
-/// The octant that each triangle is in, of those about the mean of the vertices: 1 to 8.
+/// Octant of each triangle about the mean of the vertices: 1 to 8.
 inline std::vector<char> octants(const mesh<triangle>& m)
 {
     vec3 sum(0.0);

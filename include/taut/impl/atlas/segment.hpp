@@ -16,37 +16,37 @@
 namespace taut
 {
 
-/// How to make charts of a surface. Distortions are area means of energy::isometric, 4 at least.
+/// Parameters of segment(). Distortions are area means of energy::isometric, 4 at least.
 struct segment_params
 {
     /// Bound of a chart, above 4. Charts above it are cut further.
     double max_distortion = 4.2;
 
-    /// Bound of the whole surface, above 4, at one common scale: there are as few charts as it allows.
+    /// Bound of the mean over the whole surface, above 4, at one common scale, under which charts are united.
     double mean_distortion = 4.045;
 
-    /// Edges that are to be seams in any case: one flag a side, the same on both sides of an edge; or empty.
+    /// Edges that are to be seams in any case: one flag per side, the same on both sides of an edge; or empty.
     std::span<const char> seams = {};
 
-    /// Edges that are to be none, as the diagonals of a polygon: one flag a side as above; or empty. A seam leads
-    /// through one where nothing else keeps a bound.
+    /// Edges that are no seams, as the diagonals of a polygon: one flag per side as above; or empty. Seams use them
+    /// only where a bound cannot be met otherwise.
     std::span<const char> together = {};
 
-    /// Charts of more than a 200th of the area that take less of their convex hull in the plane are cut, 0 to 1: limbs
-    /// go their own ways, for the sake of packing.
+    /// Minimum fill of the convex hull in the plane, 0 to 1: charts of more than a 200th of the area below it are cut,
+    /// as branching charts pack badly.
     double least_fill = 0.82;
 
-    /// At most so many times charts are cut further, 0 to 100. Each time those that were cut are flattened.
+    /// Maximum number of rounds of cuts, 0 to 100. In each, the new charts are flattened.
     int cut_rounds = 8;
 
-    /// At most so many times neighbours are united, 0 to 100. Each time, most of the surface is flattened anew. Small
-    /// ones are tried once more, unless it is 0.
+    /// Maximum number of rounds of unions of neighbours, 0 to 100. In each, most of the surface is flattened again.
+    /// Small charts are tried once more, unless it is 0.
     int unite_rounds = 1;
 
-    /// Time limit of the whole call: charts are then what they are, or pieces without maps.
+    /// Time limit of the whole call, after which the current charts are returned, or pieces without maps.
     impl::budget::seconds time_limit = impl::budget::unlimited;
 
-    /// Asked before each round and within it: go on?
+    /// Callback before each round and within it; returning false ends the run.
     taut::observer observer = {};
 
     /// Throws parameter_error with the name of a field outside its domain.
@@ -65,11 +65,11 @@ struct segment_params
 namespace taut::impl
 {
 
-/// What was done, and how long it took in seconds.
+/// Report of a segmentation, with its seconds.
 struct segment_report
 {
-    double distortion = 4;         ///< of the whole surface, charts without a map left out
-    double largest_distortion = 4; ///< of a chart that has a map
+    double distortion = 4;         ///< distortion of the whole surface, charts without a map left out
+    double largest_distortion = 4; ///< maximum distortion of a chart that has a map
     idx unmapped = 0;              ///< charts without a valid map
     idx above = 0;                 ///< charts above max_distortion: of single triangles, or for want of rounds or time
     idx crossing = 0;              ///< charts whose boundary meets itself in the plane
@@ -86,13 +86,13 @@ struct segment_report
 namespace taut
 {
 
-/// Charts of a surface, and their maps.
+/// Segmentation of a surface into charts, with their maps.
 struct segmentation
 {
-    std::vector<char> seam; ///< one flag a side of the surface; some have one chart on both sides
+    std::vector<char> seam; ///< one flag per side of the surface; some have one chart on both sides
     chart_mesh charts;
-    std::vector<vec2> uv;       ///< one a vertex of charts.surface: as it was flattened
-    std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
+    std::vector<vec2> uv;       ///< one per vertex of charts.surface: as it was flattened
+    std::vector<double> energy; ///< one per chart; +infinity where there is no valid map
     impl::segment_report report;
 };
 
@@ -101,24 +101,24 @@ struct segmentation
 namespace taut::impl
 {
 
-/// Maps of charts, as they come from flatten_charts().
+/// Maps of charts, as returned by flatten_charts().
 struct chart_maps
 {
-    std::vector<vec2> uv;       ///< one a vertex
-    std::vector<double> energy; ///< one a chart; +infinity where there is no valid map
-    std::vector<char> settled;  ///< one a chart; 0: the map could be better, for want of effort
+    std::vector<vec2> uv;       ///< one per vertex
+    std::vector<double> energy; ///< one per chart; +infinity where there is no valid map
+    std::vector<char> settled;  ///< one per chart; 0: the map could be better, for want of effort
 };
 
-/// Maps of charts; of those that are given a map to begin with, all that effort can do.
+/// Maps of charts; those with an initial map are minimised to convergence.
 using charts_to_maps = std::function<chart_maps(const chart_mesh&, std::span<const vec2>)>;
 
-/// A segmentation before the surface is cut apart.
+/// Segmentation before the surface is cut apart.
 struct uncut_segmentation
 {
-    std::vector<char> seam;     ///< one flag a side
-    std::vector<vec2> uv;       ///< one a corner
-    std::vector<double> energy; ///< one a triangle: of its chart
-    std::vector<char> crosses;  ///< one a triangle: whether its chart overlaps itself
+    std::vector<char> seam;     ///< one flag per side
+    std::vector<vec2> uv;       ///< one per corner
+    std::vector<double> energy; ///< one per triangle: of its chart
+    std::vector<char> crosses;  ///< one per triangle: whether its chart overlaps itself
     segment_report report;      ///< but for what it says of seams and counts of charts
 };
 
@@ -128,7 +128,7 @@ uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f
 segmentation cut_apart(const mesh<triangle>& m, const facet_table& f, uncut_segmentation made,
                        const segment_params& params);
 
-/// `flatten` of segment() in one form.
+/// Type-erased `flatten` of segment().
 template <class Flatten>
 charts_to_maps maps_by(Flatten& flatten)
 {
@@ -160,18 +160,19 @@ charts_to_maps maps_by(Flatten& flatten)
 namespace taut
 {
 
-/// Cuts a surface to charts that can be flattened within a bound of distortion, few of them, along short seams that
+/// Cuts a surface into charts that can be flattened within a bound of distortion, few of them, along short seams that
 /// follow creases. Every chart is a disk, or one with holes of the surface in it, whatever the surface is: closed, with
 /// handles, of several components.
 ///
 /// Pieces are united bottom-up by an estimate of their distortion; then charts are flattened, cut further where they
-/// are above the bound, and united where it allows (cluster_tree.hpp). Deterministic if `flatten` is. Time O(n log n)
-/// beside that of `flatten`.
+/// are above the bound, and united where that is possible (cluster_tree.hpp). Deterministic if `flatten` is. Time O(n
+/// log n) beside that of `flatten`.
 ///
 /// m: an oriented manifold without flat triangles; f: its facets
-/// flatten: callable with a chart_mesh, returns uv (one a vertex), and charts with `valid` and `energy` each. It may
-///    take a second argument, std::span<const vec2>, and say settled() of charts: then it need not make much effort for
-///    charts that most often are cut anyway. Those that stay and are not settled come again with the maps so far.
+/// flatten: callable with a chart_mesh, returns uv (one per vertex), and charts with `valid` and `energy` each. It may
+///    take a second argument, std::span<const vec2>, the initial map, and report settled() of charts: then it may
+///    return unfinished maps, as many charts are cut anyway. Remaining charts that are not settled are passed again
+///    with their maps.
 /// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).
 template <class Flatten>
 segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& flatten,

@@ -23,7 +23,7 @@
 namespace taut::impl
 {
 
-/// The charts of a surface while they are cut and united.
+/// Charts of a surface during cuts and unions.
 class segmenting : surface_charts
 {
 public:
@@ -54,8 +54,8 @@ public:
     }
 
 private:
-    /// The seams of a first set of charts. The estimate is about twice the distortion of maps on smooth surfaces; on
-    /// others some charts say what it is.
+    /// Computes the seams of an initial set of charts. The estimate is about twice the distortion of maps on smooth
+    /// surfaces; on others it is calibrated by some charts.
     void cut_by_estimate()
     {
         budget_.lap();
@@ -94,7 +94,7 @@ private:
         report_.straighten_seconds += budget_.lap();
     }
 
-    /// The distortion of charts to its estimate, where there are so many that a small share of them says it; else 0.
+    /// Ratio of the distortion of charts to its estimate, if there are enough for a small sample; else 0.
     double found_ratio(const cluster_tree& tree, const std::vector<char>& chosen)
     {
         constexpr double share = 0.05;         // of the triangles
@@ -124,10 +124,9 @@ private:
         return estimate > 0 ? distortion / estimate : 0;
     }
 
-    /// Large charts cost most where no map is any good. The distortion of a map is no less than the one that its parts
-    /// have by themselves, so some of these are flattened first, and charts of which too many are above the bound, or
-    /// overlap themselves, become their parts.
-    /// chosen: nodes of the tree of a surface, changed
+    /// Divides large charts that would fail: the distortion of a map is no less than that of its parts, so some of
+    /// these are flattened first, and charts with too many parts above the bound, or overlapping themselves, are
+    /// divided. chosen: nodes of the tree of a surface, changed
     void part_hopeless(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
                        std::vector<char>& chosen)
     {
@@ -170,7 +169,7 @@ private:
         }
     }
 
-    /// Cuts the charts that are above the bound, and the worst ones where the whole is. False if there are none.
+    /// Cuts the charts above the bound, and the worst ones if the whole surface is. Returns false if there are none.
     bool cut_round()
     {
         std::vector<idx> order;
@@ -198,8 +197,8 @@ private:
         return true;
     }
 
-    /// Cuts each of these charts so that what overlaps is apart, and that the estimated distortion of strained ones is
-    /// halved.
+    /// Cuts each of these charts so that overlapping parts are separate, and the estimated distortion of strained ones
+    /// is halved.
     void cut(std::span<const idx> charts)
     {
         report_.cut += static_cast<idx>(charts.size());
@@ -279,7 +278,7 @@ private:
         renew(triangles);
     }
 
-    /// What is tried as one chart.
+    /// Candidates for unions of charts.
     enum class unions
     {
         all,   ///< pairs of neighbours
@@ -287,7 +286,8 @@ private:
         slits  ///< charts that cross themselves, without a slit that may be why
     };
 
-    /// Flattens pairs of neighbouring charts as one, and keeps those that the bounds allow. False if no pair is left.
+    /// Flattens pairs of neighbouring charts as one, and keeps those within the bounds. Returns false if no pair is
+    /// left.
     bool unite_round(unions what)
     {
         constexpr double little = 0.01; // of all area
@@ -353,7 +353,7 @@ private:
         return !tried.empty() && try_pairs(arcs, tried, room, what);
     }
 
-    /// Whether a chart is a disk, or one with holes: by Euler, V - E + F = 2 - loops.
+    /// Returns whether a chart is a disk, or one with holes: by Euler, V - E + F = 2 - loops.
     static std::vector<char> planar(const chart_mesh& charts)
     {
         std::vector<idx> twice(u(charts.charts()), 0), loops(twice.size(), 0); // twice V - E + F
@@ -445,7 +445,7 @@ private:
         return report_.united > united;
     }
 
-    /// Makes two charts one, which is chart k of a part.
+    /// Replaces two charts by their union, which is chart k of a part.
     void accept(std::span<const idx> arc, const std::array<idx, 2>& charts, const surface_part& part,
                 const chart_maps& maps, const laid_shape& shape, idx k)
     {

@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// The triangle of a chart that is turned over, -1 if none is; exact.
+/// The triangle of a chart that is flipped, -1 if none is; exact.
 inline idx turned_triangle(const chart_mesh& charts, std::size_t k, std::span<const vec2> uv)
 {
     const auto at = [uv](idx v) { return uv[static_cast<std::size_t>(v)]; };
@@ -27,9 +27,9 @@ inline idx turned_triangle(const chart_mesh& charts, std::size_t k, std::span<co
     return -1;
 }
 
-/// Rounds charts to what a file holds, each so that it is valid there, if its vertices need not leave their reach.
-/// polygons: that are to be convex; uv: where vertices are, one a vertex of the charts, and then as the file holds them
-/// Returns one flag a chart: 1 where triangles are turned over still, or the border meets itself.
+/// Rounds charts to the precision of a file so that each is valid, if its vertices need not leave their reach.
+/// polygons: to be convex; uv: positions, one per vertex of the charts, then the rounded ones
+/// Returns one flag per chart: 1 where triangles are still flipped, or the border meets itself.
 inline std::vector<char> settle_charts(const chart_mesh& charts, const convex_polygons& polygons, std::span<vec2> uv,
                                        const settling& how)
 {

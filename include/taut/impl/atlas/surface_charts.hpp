@@ -19,7 +19,7 @@
 namespace taut::impl
 {
 
-/// The charts of a surface with their maps, and how they are made anew: what cutting and uniting them have in common.
+/// Charts of a surface with their maps, and their replacement in cuts and unions.
 class surface_charts
 {
 public:
@@ -65,7 +65,7 @@ protected:
 
     double allowed() const { return (params_.mean_distortion - 4) * total_area_; }
 
-    /// Of the charts that have a map.
+    /// Total excess of distortion over the charts that have a map.
     double total_excess() const
     {
         double sum = 0;
@@ -74,13 +74,13 @@ protected:
         return sum;
     }
 
-    /// What a chart takes of what is allowed to all. The pieces of one above the bound will be below it.
+    /// Share of a chart in the total distortion that is allowed. Pieces of a chart above the bound will be below it.
     double to_share(const record& r) const
     {
         return r.energy < infinite ? std::min(r.excess(), (params_.max_distortion - 4) * r.area) : 0;
     }
 
-    /// Of each node of a tree.
+    /// Number of triangles below each node of a tree.
     static std::vector<idx> triangles_below(const cluster_tree& tree)
     {
         std::vector<idx> triangles(u(tree.nodes()), 0);
@@ -93,7 +93,7 @@ protected:
         return triangles;
     }
 
-    /// Flattens some of the pieces that the nodes of an antichain are, and calls told(node, energy, overlaps itself).
+    /// Flattens some of the pieces of an antichain, and calls told(node, energy, overlaps itself).
     template <class Told>
     void flatten_some(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
                       const std::vector<char>& antichain, const std::vector<char>& some, Told&& told)
@@ -109,7 +109,7 @@ protected:
             told(label[u(part.triangles[u(part.charts.first_cell[u(k)])])], maps.energy[u(k)], shapes[u(k)].crosses);
     }
 
-    /// Makes the charts of these triangles anew, from the seams, and their maps.
+    /// Rebuilds the charts of these triangles from the seams, with their maps.
     void renew(std::span<const idx> triangles)
     {
         for (const idx c : triangles)
@@ -128,7 +128,7 @@ protected:
         return {std::move(maps), std::move(shapes)};
     }
 
-    /// Takes over chart k of a part, with its map.
+    /// Takes chart k of a part, with its map.
     void take(const surface_part& part, const chart_maps& maps, const laid_shape& shape, idx k)
     {
         record r{
@@ -156,7 +156,7 @@ protected:
         return triangles;
     }
 
-    /// Charts that stay although their maps were not finished get maps that are.
+    /// Finishes the maps of the remaining charts.
     void settle()
     {
         std::vector<idx> some;
@@ -179,7 +179,7 @@ protected:
         }
     }
 
-    /// Two charts, or one that is named twice, as they are.
+    /// Joins two charts, or one given twice, as they are.
     record before(const std::array<idx, 2>& charts) const
     {
         const record &a = charts_[u(charts[0])], &b = charts_[u(charts[1])];
@@ -229,9 +229,9 @@ protected:
     const segment_params& params_;
     budget budget_;
     segment_report report_;
-    std::vector<char> seam_;  // one a side
-    std::vector<vec2> uv_;    // one a corner
-    std::vector<idx> chart_;  // one a triangle: its record
+    std::vector<char> seam_;  // one per side
+    std::vector<vec2> uv_;    // one per corner
+    std::vector<idx> chart_;  // one per triangle: its record
     std::vector<idx> number_; // for part_of()
     csr sides_;               // that start at each vertex, once they are asked for
     std::vector<idx> place_;  // of triangles in the part that is cut

@@ -16,15 +16,15 @@ namespace taut::impl
 struct surface_part
 {
     chart_mesh charts;
-    std::vector<idx> triangles; ///< of the whole surface, one a triangle of the charts
+    std::vector<idx> triangles; ///< triangles of the whole surface, one per triangle of the charts
 
     /// The side or corner of the whole surface.
     std::size_t origin(std::size_t side) const { return 3 * static_cast<std::size_t>(triangles[side / 3]) + side % 3; }
 };
 
 /// Cuts whole charts out of a surface.
-/// triangles: all those of the charts, ascending; seam: one flag a side of the surface
-/// number:    one a vertex of the surface, all -1, and so again afterwards
+/// triangles: all those of the charts, ascending; seam: one flag per side of the surface
+/// number:    one per vertex of the surface, all -1, and so again afterwards
 inline surface_part part_of(const mesh<triangle>& m, std::span<const idx> triangles, std::span<const char> seam,
                             std::vector<idx>& number)
 {

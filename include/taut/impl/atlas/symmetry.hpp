@@ -14,11 +14,11 @@
 namespace taut
 {
 
-/// A surface that is not its own mirror image. what() says which vertices have none in the best plane.
+/// Error of a surface that is not its own mirror image. what() says which vertices have none in the best plane.
 class symmetry_error : public error
 {
 public:
-    /// edges: all vertices have images, but these have edges that have none
+    /// edges: true if all vertices have images, but edges of these have none
     symmetry_error(const vec3& normal, double offset, std::vector<idx> vertices, bool edges)
         : error(message(normal, offset, vertices, edges)),
           normal_(normal),
@@ -42,17 +42,17 @@ private:
     bool edges_;
 };
 
-/// A plane in which a surface is its own mirror image, vertex by vertex and polygon by polygon.
+/// Plane of symmetry of a surface, vertex by vertex and polygon by polygon.
 struct mirror_symmetry
 {
-    vec3 normal{0.0};  ///< of length 1
+    vec3 normal{0.0};  ///< unit normal of the plane
     double offset = 0; ///< the plane has the points x with dot(normal, x) = offset
 
     std::vector<idx> vertex;  ///< the image of each vertex; itself on the plane
     std::vector<idx> side;    ///< the image of each side, which runs the other way; -1 within polygons
-    std::vector<idx> polygon; ///< that each triangle is of, by the first of its triangles
-    impl::csr triangles;      ///< of each polygon
-    std::vector<idx> image;   ///< of each polygon: itself where it lies across the plane
+    std::vector<idx> polygon; ///< polygon of each triangle, by the first of its triangles
+    impl::csr triangles;      ///< triangles of each polygon
+    std::vector<idx> image;   ///< image of each polygon: itself where it lies across the plane
 
     /// The corner at the image of the vertex of corner k of triangle c, in the image of its polygon. Triangles need not
     /// have images, as a polygon and its image may be cut along other diagonals.
@@ -69,7 +69,7 @@ struct mirror_symmetry
 
 /// Finds a plane in which a surface is its own mirror image.
 /// together:  diagonals of polygons, as in segment_params: they need no images
-/// tolerance: how far a vertex may be from where it has to be, of the diagonal of the box
+/// tolerance: maximum distance of a vertex from the image of another one, relative to the diagonal of the box
 /// Throws symmetry_error if there is none.
 mirror_symmetry find_symmetry(const mesh<triangle>& m, const facet_table& f, std::span<const char> together = {},
                               double tolerance = 1e-4);

@@ -17,8 +17,8 @@
 namespace taut
 {
 
-/// n numbers in the memory of a device. Move-only; n = 0 is legal. Transfers are explicit and block the host; nothing
-/// is written back by a destructor. Fresh memory is uninitialised.
+/// Array of n numbers in the memory of a device. Move-only; n = 0 is legal. Transfers are explicit and block the host;
+/// nothing is written back by a destructor. Fresh memory is uninitialised.
 template <class T>
 class buffer
 {
@@ -29,14 +29,14 @@ class buffer
 public:
     using value_type = T;
 
-    /// An empty buffer of no queue; assign another to it.
+    /// Makes an empty buffer without a queue, to be assigned.
     buffer() = default;
 
-    /// Throws device_error where n elements exceed the largest allocation or what is left of the device's memory:
-    /// drivers that allocate lazily would crash later instead.
+    /// Allocates n elements. Throws device_error where they exceed the largest allocation or the free memory of the
+    /// device: drivers that allocate lazily would crash later instead.
     buffer(queue& q, std::size_t n) : buffer(q, n, nullptr) {}
 
-    /// Filled with values, which is cheaper than an upload: no command waits for others.
+    /// Allocates and fills with values, which is cheaper than an upload: no command waits for others.
     buffer(queue& q, std::span<const T> values) : buffer(q, values.size(), values.data())
     {
         state_->counters.bytes_written += values.size_bytes();
@@ -87,8 +87,8 @@ public:
         state_->counters.bytes_read += values.size_bytes();
     }
 
-    /// Elements 0, 1, ... without the wait: values are there, and must live, until the next command of this queue that
-    /// waits: a download, an upload, finish().
+    /// Downloads elements 0, 1, ... without a wait: values are there, and must live, until the next command of this
+    /// queue that waits: a download, an upload, finish().
     void begin_download(std::span<T> values) const
     {
         check("download from a buffer", 0, values.size());

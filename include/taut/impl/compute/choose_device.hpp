@@ -11,7 +11,7 @@
 namespace taut
 {
 
-/// What a device must offer.
+/// Requirements on a device.
 struct device_requirements
 {
     bool fp64 = false;        ///< double precision is a must; without it fp64 is only preferred

@@ -9,15 +9,17 @@
 namespace taut
 {
 
-/// No OpenCL device fits. The text lists every platform and device seen, why each was refused, and the remedy.
+/// Error: no OpenCL device meets the requirements. The text lists every platform and device seen, why each was refused,
+/// and the remedy.
 class no_device : public error
 {
 public:
     using error::error;
 };
 
-/// An OpenCL call failed, or would fail silently later (an allocation beyond the device's limits, a double kernel on a
-/// device without fp64). code() is the OpenCL error number, 0 where the library refused before calling the driver.
+/// Error of an OpenCL call that failed, or would fail silently later (an allocation beyond the device's limits, a
+/// double kernel on a device without fp64). code() is the OpenCL error number, 0 where the library refused before
+/// calling the driver.
 class device_error : public error
 {
 public:
@@ -40,8 +42,8 @@ private:
     int code_;
 };
 
-/// A kernel that the device's compiler refused: its name, the compiler's log, and the numbered source around the lines
-/// that the log names.
+/// Error of a kernel that the device's compiler refused: its name, the compiler's log, and the numbered source around
+/// the lines that the log names.
 class build_error : public device_error
 {
 public:

@@ -16,10 +16,10 @@
 namespace taut::impl
 {
 
-/// Which corners of which cells meet at each vertex, and how their arrays lie on the device.
+/// Incidence of cell corners to vertices, and the layout of their arrays on the device.
 struct gather_layout
 {
-    int components = 2;            ///< D: numbers a corner contributes
+    int components = 2;            ///< D: numbers per corner contributes
     std::size_t cell_stride = 0;   ///< cells, padded: contributions[(corner * D + c) * cell_stride + cell]
     std::size_t vertex_stride = 0; ///< vertices, padded to a multiple of 64: out[c * vertex_stride + vertex]
 };
@@ -136,7 +136,7 @@ private:
     idx vertices_, cells_;
     std::size_t reach_ = 0; ///< contributions up to the last one that is read
     std::size_t sums_ = 0;
-    std::size_t lanes_ = 1; ///< vertices an item
+    std::size_t lanes_ = 1; ///< vertices per item
     buffer<idx> starts_, slots_;
     kernel gather_;
 };

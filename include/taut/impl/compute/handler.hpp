@@ -14,7 +14,7 @@
 namespace taut
 {
 
-/// One command group: which buffers it uses, how, and the kernel that runs over a range.
+/// Command group: the buffers it uses, their access, and the kernel that runs over a range.
 ///
 ///     q.submit([&](handler& h) {
 ///         auto x = bx.read(h);
@@ -47,7 +47,7 @@ public:
         return recording_.scalar<double>({}, type);
     }
 
-    /// Behind buffer::read, write and read_write.
+    /// Implements buffer::read, write and read_write.
     template <impl::traceable T>
     impl::in_array<T> reads(const buffer<T>& b)
     {
@@ -108,7 +108,7 @@ public:
         done_ = state_->launch(kernel, name, impl::items_for(text.form, r));
     }
 
-    /// Of the kernel, once it is enqueued.
+    /// Event of the kernel, once it is enqueued.
     const event& done() const noexcept { return done_; }
 
 private:

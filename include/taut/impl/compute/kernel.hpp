@@ -18,7 +18,7 @@
 namespace taut::impl
 {
 
-/// An argument of a launch by the name that the kernel has for it.
+/// Named argument of a launch.
 struct named_argument
 {
     const char* name;
@@ -30,8 +30,8 @@ struct named_argument
 namespace taut
 {
 
-/// A kernel of OpenCL C source. A launch sets the arguments and enqueues it; nothing waits. Arguments are bound by
-/// name, in any order, or by position:
+/// Kernel of OpenCL C source. A launch sets the arguments and enqueues it; nothing waits. Arguments are bound by name,
+/// in any order, or by position:
 ///
 ///     kernel scale(q, source, "scale");
 ///     scale(n, {{"x", x}, {"factor", 2.0}});
@@ -43,15 +43,15 @@ class kernel
 public:
     kernel() = default;
 
-    /// real: what the source's macro REAL stands for. Throws build_error, or device_error where the kernel takes double
-    /// and the device has none.
+    /// real: value of the source's macro REAL. Throws build_error, or device_error where the kernel takes double and
+    /// the device has none.
     kernel(queue& q, const std::string& source, const std::string& name, const std::string& options = {},
            scalar_type real = scalar_type::f32)
         : kernel(q, source, name, options, impl::signature_of(source, name, real))
     {
     }
 
-    /// With the names and types of its arguments.
+    /// Makes a kernel with the names and types of its arguments.
     kernel(queue& q, const std::string& source, std::string name, const std::string& options,
            std::vector<impl::parameter> signature)
         : state_(q.state()), name_(std::move(name)), signature_(std::move(signature))
@@ -135,7 +135,7 @@ private:
         return (is_memory ? "a buffer of " : "a number of type ") + std::string(type);
     }
 
-    /// Of the parameter; guess: where it is if the arguments come in their order.
+    /// Position of the parameter; guess: its position if the arguments come in order.
     std::size_t position(const char* name, std::size_t guess) const
     {
         for (std::size_t k = 0; k < signature_.size(); ++k, ++guess)

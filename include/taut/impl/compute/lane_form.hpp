@@ -10,13 +10,13 @@
 namespace taut::impl
 {
 
-/// How rows are dealt to the lanes of a device: `slice` rows lie together, an item does `lanes` of them (1 or 16).
+/// Distribution of rows over the lanes of a device: `slice` rows lie together, an item does `lanes` of them (1 or 16).
 struct lane_form
 {
     idx slice = 16;
     idx lanes = 16;
 
-    /// The most coarse rows that an item on a CPU sums together in a product P' A P, for K weights a row of P.
+    /// The most coarse rows that an item on a CPU sums together in a product P' A P, for K weights per row of P.
     static constexpr std::size_t product_rows(std::size_t K) { return K > 3 ? 32 : 64; }
 
     /// Explicit vectors of 16 on CPUs, a row an item and a slice a warp on GPUs.

@@ -51,13 +51,13 @@ public:
         found.part = elsewhere_(source, options, kernels);
     }
 
-    /// Says whether the program is being built elsewhere still.
+    /// Returns the build of the program by another thread or process, null if there is none.
     build_under_way under_way(const std::string& source, const std::string& options) const
     {
         const auto found = entries_.find(options + '\0' + source);
         return found == entries_.end() ? nullptr : found->second.whole;
     }
-    /// Whether that kernel of it is.
+    /// Returns the build of a kernel of the program, null if there is none.
     build_under_way under_way(const std::string& source, const std::string& options, const std::string& name) const
     {
         const auto found = entries_.find(options + '\0' + source);
@@ -143,7 +143,7 @@ private:
         }
     }
 
-    /// What the compiler said; a driver that failed earlier may have nothing to say.
+    /// Log of the compiler; empty if the driver failed earlier.
     static std::string log_of(const boost::compute::program& program)
     {
         try

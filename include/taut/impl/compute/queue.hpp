@@ -38,6 +38,7 @@ class typed_kernel;
 namespace taut
 {
 
+/// Options of a queue.
 struct queue_options
 {
     bool profiling = false; ///< event::seconds() works; costs a little at each launch
@@ -47,7 +48,7 @@ struct queue_options
     /// TAUT_BUILD=quick has the same effect on every queue.
     bool quick_builds = false;
 
-    /// Called for programs that are known to be needed some time before they are, and for kernels of one that is built.
+    /// Callback with programs that will be needed later, and with kernels of one that is built.
     impl::program_builder build_elsewhere = {};
 };
 
@@ -58,15 +59,15 @@ struct queue_options
 class queue
 {
 public:
-    /// On the best device, or the one that TAUT_DEVICE names. Throws no_device.
+    /// Opens a queue on the best device, or the one that TAUT_DEVICE names. Throws no_device.
     queue() : queue(choose_device()) {}
 
     explicit queue(const taut::device& device, queue_options options = {});
 
-    /// In the user's context, on its first device. The context is retained.
+    /// Opens a queue in the user's context, on its first device. The context is retained.
     explicit queue(cl_context context, queue_options options = {});
 
-    /// Through the user's command queue, which is retained and must be in-order.
+    /// Wraps the user's command queue, which is retained and must be in-order.
     explicit queue(cl_command_queue native);
 
     const taut::device& device() const noexcept;

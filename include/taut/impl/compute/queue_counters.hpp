@@ -6,8 +6,7 @@
 namespace taut
 {
 
-/// What a queue has done since it was made: the cost model of the library is waits first, launches
-/// second.
+/// Counts of what a queue has done since its construction: host waits dominate costs, then launches.
 struct queue_counters
 {
     std::uint64_t launches = 0;      ///< kernels enqueued
@@ -23,7 +22,7 @@ struct queue_counters
 namespace taut::impl
 {
 
-/// What a queue counted since `before`.
+/// Counts of a queue since `before`.
 inline queue_counters counted_since(const queue_counters& before, queue_counters now)
 {
     now.launches -= before.launches;

@@ -8,8 +8,9 @@
 namespace taut
 {
 
-/// How many work-items run, and in groups of how many. local = 0 lets the queue choose: 64 on a CPU and 128 on a GPU
-/// where that divides global, else the driver's choice, which is slow for odd sizes. Pad buffers and ranges instead.
+/// Launch range: the number of work-items, and of those in one work-group. local = 0 lets the queue choose: 64 on a CPU
+/// and 128 on a GPU where that divides global, else the driver's choice, which is slow for odd sizes. Pad buffers and
+/// ranges instead.
 struct range
 {
     std::size_t global = 0;

@@ -22,20 +22,22 @@
 namespace taut
 {
 
-/// What a traced kernel does with an argument: a buffer that it reads, writes, or reads and writes, or a number that
-/// may change from launch to launch.
+/// Tag of a traced kernel's argument: a buffer that it reads.
 template <impl::traceable T>
 struct in
 {
 };
+/// Tag of a traced kernel's argument: a buffer that it writes.
 template <impl::traceable T>
 struct out
 {
 };
+/// Tag of a traced kernel's argument: a buffer that it reads and writes.
 template <impl::traceable T>
 struct inout
 {
 };
+/// Tag of a traced kernel's argument: a number that may change from launch to launch.
 template <impl::traceable T>
 struct uniform
 {
@@ -113,8 +115,8 @@ inline void require_fp64(const queue_state& state, const kernel_text& text)
                    "it computes in double and the device has no double precision (fp64); trace it with float");
 }
 
-/// How recorded kernels are written for a device: long runs of indices for CPUs, an index an item for GPUs. Both take
-/// any count; see kernel_form.
+/// Form of recorded kernels on a device: long runs of indices for CPUs, one index per item for GPUs. Both take any
+/// count; see kernel_form.
 inline kernel_form form_for(const device& d)
 {
     return quirks::wants_serial_items(d) ? kernel_form::run : kernel_form::guarded;
@@ -157,10 +159,10 @@ public:
         std::move(common.begin(), common.end(), std::back_inserter(texts_));
     }
 
-    /// Of the program, without what is apart, in OpenCL C.
+    /// Source of the program in OpenCL C, without the parts kept apart.
     const std::string& source() const noexcept { return source_; }
 
-    /// Of the program that a kernel is in. Throws parameter_error for a name that is not there.
+    /// Source of the program that contains a kernel. Throws parameter_error for an unknown name.
     const std::string& source_of(const std::string& name) const
     {
         return position(name) < common_begin_ ? source_ : common_source_;
@@ -292,7 +294,7 @@ private:
 namespace taut
 {
 
-/// The same with tags for its arguments. See trace().
+/// Kernel recorded from C++, with tags for its arguments. See trace().
 template <class... Tags>
 class traced_kernel
 {

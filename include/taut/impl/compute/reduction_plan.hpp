@@ -9,11 +9,11 @@
 namespace taut::impl
 {
 
-/// How a reduction of n elements is cut into blocks, one a work-group. It depends on n and on the form alone, so a sum
-/// is the same bit for bit on any number of cores; not with any driver, whose compiler may fuse multiply and add.
+/// Partition of a reduction of n elements into blocks, one per work-group. It depends on n and on the form alone, so a
+/// sum is the same bit for bit on any number of cores; not with any driver, whose compiler may fuse multiply and add.
 struct reduction_plan
 {
-    std::size_t local = 1;          ///< items a group: 1 (serial form) or a power of two, at least 4 (group form)
+    std::size_t local = 1;          ///< items per group: 1 (serial form) or a power of two, at least 4 (group form)
     std::size_t width = 8;          ///< elements a load: 8 (serial form) or 1 (group form)
     std::size_t least_block = 4096; ///< a block has at least this many elements where n allows
     std::size_t most_groups = 64;   ///< and there are at most this many blocks
@@ -32,7 +32,7 @@ struct reduction_plan
 
     struct blocks
     {
-        std::size_t length; ///< elements a block, a multiple of the width
+        std::size_t length; ///< elements per block, a multiple of the width
         std::size_t count;  ///< at least 1, also for n = 0
     };
 

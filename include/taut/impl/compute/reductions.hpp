@@ -42,8 +42,9 @@ namespace taut
 ///     r.fetch();                               // the only wait
 ///     double e = r.value(energy);
 ///
-/// float data is accumulated in double (in float on a device without fp64). The device leaves one partial a block; the
-/// host adds them in their order, in double. Enqueuing after a fetch() begins a new round and ends the old results.
+/// float data is accumulated in double (in float on a device without fp64). The device leaves one partial result per
+/// block; the host adds them in their order, in double. Enqueuing after a fetch() begins a new round and ends the old
+/// results.
 class reductions
 {
 public:

@@ -56,9 +56,8 @@ private:
 namespace taut
 {
 
-/// The space of n-vectors of one type on a device: what the solvers need, on their own terms (see
-/// solve/vector_space.hpp). dot and multi_dot wait once for the host; everything else is only enqueued. Copies share
-/// one workspace and one queue.
+/// Vector space of n-vectors of one type on a device, a model of the concept solve::vector_space. dot and multi_dot
+/// wait once for the host; everything else is only enqueued. Copies share one workspace and one queue.
 class device_vectors
 {
 public:
@@ -113,7 +112,7 @@ public:
         std::copy_n(r.values(products).begin(), products.count, out.begin());
     }
 
-    /// out = a[0] x[0] + a[1] x[1] + ..., up to eight vectors a launch. out may be x[0], and no other of them.
+    /// out = a[0] x[0] + a[1] x[1] + ..., up to eight vectors per launch. out may be x[0], and no other of them.
     void linear_combination(std::span<const double> a, std::span<const vector* const> x, vector& out) const
     {
         if (x.empty()) out.data().fill(0);

@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// Points of a closed polygon that divide it as `lengths` divide their sum: the first at its first corner, point k + 1
-/// lengths[k] further on. Corners between two points are passed over.
+/// Distributes points over a closed polygon in proportion to `lengths`: the first at its first corner, point k + 1 at
+/// lengths[k] further on. Corners between two points are cut off.
 /// Throws constraint_error (bad_polygon); parameter_error for lengths that are negative or sum to zero.
 inline std::vector<vec2> along_polygon(std::span<const vec2> polygon, std::span<const double> lengths)
 {

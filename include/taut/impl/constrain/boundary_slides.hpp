@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// How the vertices of a boundary may move without changing its shape.
+/// Sliding constraints of boundary vertices that keep the shape of the boundary.
 template <class Element>
 struct boundary_motion
 {
@@ -24,7 +24,7 @@ struct boundary_motion
     std::vector<slide<Element::dimension>> slides; ///< in other flat sides, and along straight creases between them
 };
 
-/// Directions that a few unit vectors span, one after the other as they come.
+/// Orthonormal basis of the span of a few unit vectors, built incrementally.
 template <int D>
 class span_of_normals
 {
@@ -45,7 +45,7 @@ private:
     int rank_ = 0;
 };
 
-/// The axis that a direction is exactly along, or -1.
+/// Axis that a direction is exactly parallel to, or -1.
 template <int D>
 int axis_of(const vec<D>& direction)
 {
@@ -55,8 +55,8 @@ int axis_of(const vec<D>& direction)
     return others == 1 ? axis : -1;
 }
 
-/// A facet that a mesh keeps, with the piece of a surface that it belongs to: in the plane an edge of a line. Where
-/// pieces meet or end, that keeps its shape, too.
+/// Facet of a surface that keeps its shape, with its piece: in the plane an edge of a line. Lines where pieces meet or
+/// end keep their shape, too.
 struct kept_facet
 {
     std::array<idx, 4> vertices{-1, -1, -1, -1}; ///< around; -1 behind the last
@@ -201,8 +201,9 @@ private:
     std::vector<span_of_normals<D>> normals_;
 };
 
-/// The motions that keep the boundary of a mesh: a vertex in a flat part of it moves in its plane, one on a straight
-/// crease (in the plane, a straight outline) along it, all others are pinned. Held coordinates hold bit for bit.
+/// Computes the motions that preserve the boundary of a mesh: a vertex in a flat part of it moves in its plane, one on
+/// a straight crease (in the plane, a straight outline) along it, all others are pinned. Fixed coordinates are met bit
+/// for bit.
 ///
 /// tolerance: sine of the angle up to which normals count as equal; owners: as for boundary_facets()
 template <class Element>

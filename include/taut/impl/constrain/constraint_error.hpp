@@ -11,7 +11,7 @@
 namespace taut
 {
 
-/// What can be wrong with constraints. The comment says what constraint_error::ids() holds.
+/// Faults of constraints. The comment says what constraint_error::ids() holds.
 enum class constraint_fault
 {
     out_of_range,  ///< numbers of vertices that the mesh does not have
@@ -21,13 +21,13 @@ enum class constraint_fault
     duplicate,     ///< vertices whose coordinate is pinned twice to one value, or that have a second spring
     idle_spring,   ///< vertices with a spring that are pinned altogether
     bad_weight,    ///< vertices with a spring of negative, infinite or NaN weight
-    wrong_count,   ///< no ids: not one position a vertex
+    wrong_count,   ///< no ids: not one position per vertex
     no_position,   ///< no ids: "where it is" has no meaning for a surface in space without a map
     unused_vertex, ///< vertices without a cell
     bad_polygon    ///< no ids: fewer than three corners, a corner that is not finite, or no length
 };
 
-/// A word for programs.
+/// Stable identifier of a fault, for programs.
 constexpr const char* to_string(constraint_fault fault)
 {
     switch (fault)
@@ -58,7 +58,8 @@ constexpr const char* to_string(constraint_fault fault)
     return "unknown";
 }
 
-/// Constraints that cannot hold, or that say the same twice. what() names the first ids and the remedy; ids() has all.
+/// Error of constraints that contradict each other or are given twice. what() names the first ids and the remedy; ids()
+/// has all.
 class constraint_error : public error
 {
 public:

@@ -21,7 +21,7 @@
 namespace taut
 {
 
-/// Coordinates of a vertex that hold exactly: bit k of `held` says that coordinate k is value[k].
+/// Hard pin: coordinates of a vertex that are fixed exactly: bit k of `held` says that coordinate k is value[k].
 template <int D>
 struct hard_pin
 {
@@ -29,7 +29,7 @@ struct hard_pin
     vec<D> value{0.0};
 };
 
-/// A wish: weight * |x - target|^2 is added to what is minimised.
+/// Spring (soft constraint): weight * |x - target|^2 is added to the objective.
 template <int D>
 struct spring
 {
@@ -38,19 +38,19 @@ struct spring
     double weight;
 };
 
-/// Where vertices of a map have to be (pins, which hold bit for bit), and where they should rather be (springs).
+/// Positional constraints of a map: pins, which are met bit for bit, and springs, which are penalties.
 ///
 ///     auto pins = taut::constraints(mesh).pin(12, {0, 0}).pin_u(5, 0.3).spring(40, {0.5, 0.5}, 10.0);
 ///
 /// Positions are in units of the map; vertices count from 0. The mesh has to live as long as constraints are added, not
 /// longer. A call that throws changes nothing. All of them throw constraint_error: out_of_range, not_finite;
-/// contradictory and duplicate where a coordinate is held already.
+/// contradictory and duplicate where a coordinate is fixed already.
 template <class Element = triangle>
 class constraints
 {
 public:
     static constexpr int D = Element::dimension;
-    static constexpr std::uint8_t all = impl::held_marks<D>::every; ///< of held: every coordinate
+    static constexpr std::uint8_t all = impl::held_marks<D>::every; ///< all bits of held: every coordinate
     using point = vec<D>;
 
     constraints() = default; ///< none, of no mesh
@@ -75,7 +75,7 @@ public:
     constraints& pin_u(idx v, double u) { return pin(v, 0, u); }
     constraints& pin_v(idx v, double value) { return pin(v, 1, value); }
 
-    /// Pins vertices to one position each, where some may be pinned already: what was said of them no longer holds.
+    /// Pins vertices to one position each, and replaces earlier pins of them.
     constraints& repin(std::span<const idx> vertices, std::span<const point> x)
     {
         require_count("a vertex", vertices.size(), x.size());
@@ -84,7 +84,7 @@ public:
     }
     constraints& repin(idx v, const point& x) { return repin(std::array{v}, std::array{x}); }
 
-    /// The same for coordinate k of vertex v alone; the others stay as they are held.
+    /// The same for coordinate k of vertex v alone; the others stay as they are.
     constraints& repin(idx v, int k, double value)
     {
         require_coordinate(v, k);
@@ -94,7 +94,7 @@ public:
             std::array{v}, static_cast<std::uint8_t>(1u << k), [&](std::size_t) { return x; }, true);
     }
 
-    /// As spring(), where v may have one already.
+    /// Adds or replaces the spring of v, as spring().
     constraints& respring(idx v, const point& x, double weight)
     {
         const auto old = springs_.extract(v);
@@ -109,7 +109,7 @@ public:
         }
     }
 
-    /// Takes back what pins and springs say of vertex v, if they say anything.
+    /// Removes pins and springs of vertex v, if there are any.
     constraints& release(idx v)
     {
         require_vertices(std::array{v});
@@ -118,9 +118,9 @@ public:
         return *this;
     }
 
-    /// Pins the whole boundary, one loop, to a closed polygon: the loop goes around it once, by arc length, as the
-    /// edges at rest are long. `first` is laid on the polygon's first corner; -1: the boundary vertex of the smallest
-    /// number. The surface is to the left of the loop, so a counter-clockwise polygon keeps it the right way up. Throws
+    /// Pins the whole boundary, one loop, to a closed polygon: the loop goes around it once, in proportion to the rest
+    /// lengths of the edges. `first` is pinned to the polygon's first corner; -1: the boundary vertex of the smallest
+    /// number. The surface is to the left of the loop, so a counter-clockwise polygon preserves its orientation. Throws
     /// constraint_error (bad_polygon, out_of_range if `first` is not on the boundary); mesh_error unless there is one
     /// boundary loop.
     constraints& pin_boundary(std::span<const vec2> polygon, idx first = -1) requires(D == 2)
@@ -142,7 +142,7 @@ public:
         return hold(loop, all, [&](std::size_t i) { return x[i]; });
     }
 
-    /// Pins the whole boundary, one loop, to one position a vertex, in the order of boundary_loops().
+    /// Pins the whole boundary, one loop, to one position per vertex, in the order of boundary_loops().
     /// Throws constraint_error (wrong_count); mesh_error unless there is one boundary loop.
     constraints& pin_boundary_at(std::span<const vec2> positions) requires(D == 2)
     {
@@ -151,19 +151,19 @@ public:
         return hold(loop, all, [&](std::size_t i) { return positions[i]; });
     }
 
-    /// Pins vertices where the map x (one position a vertex of the mesh) has them.
+    /// Pins vertices at their positions in the map x (one per vertex of the mesh).
     constraints& fix(std::span<const idx> vertices, std::span<const point> x)
     {
         return move(vertices, x, [](const point& p) { return p; });
     }
 
-    /// Pins vertices where they are at rest: volumes and planar surfaces (z = 0). Throws also for no_position.
+    /// Pins vertices at their rest positions: volumes and planar surfaces (z = 0). Throws also for no_position.
     constraints& fix(std::span<const idx> vertices)
     {
         return move(vertices, [](const point& p) { return p; });
     }
 
-    /// Pins vertices to transform(p), p being where the map x has them.
+    /// Pins vertices to transform(p), p their positions in the map x.
     template <class Transform>
     constraints& move(std::span<const idx> vertices, std::span<const point> x, const Transform& transform)
     {
@@ -171,7 +171,7 @@ public:
         return hold(vertices, all, [&](std::size_t i) { return transform(x[static_cast<std::size_t>(vertices[i])]); });
     }
 
-    /// Pins vertices to transform(p), p being where they are at rest. Throws also for no_position.
+    /// Pins vertices to transform(p), p their rest positions. Throws also for no_position.
     template <class Transform>
     constraints& move(std::span<const idx> vertices, const Transform& transform)
     {
@@ -179,7 +179,8 @@ public:
         return hold(vertices, all, [&](std::size_t i) { return transform(point(rest(vertices[i]))); });
     }
 
-    /// Draws vertex v towards x; a weight of 0 does nothing. Throws constraint_error also for bad_weight, idle_spring.
+    /// Adds a spring from vertex v to x; a weight of 0 does nothing. Throws constraint_error also for bad_weight,
+    /// idle_spring.
     constraints& spring(idx v, const point& x, double weight)
     {
         require_vertices(std::array{v});
@@ -195,7 +196,7 @@ public:
 
     bool empty() const { return pins_.empty() && springs_.empty(); }
 
-    /// Throws constraint_error (not_finite) where targets are too far away in lengths of `unit` times these.
+    /// Checks that targets are finite in lengths of `unit` times these. Throws constraint_error (not_finite).
     void require_near(double unit) const
     {
         std::vector<idx> far;
@@ -207,8 +208,8 @@ public:
                               "with a target that is too far away for the size of the mesh; give a nearer one");
     }
 
-    /// Throws constraint_error (unused_vertex) where anything is asked of one of these vertices, which ascend: those
-    /// that no cell names.
+    /// Checks that these unreferenced vertices, ascending, have no constraints. Throws constraint_error
+    /// (unused_vertex).
     void require_used(std::span<const idx> unused) const
     {
         if (unused.empty()) return;
@@ -224,7 +225,7 @@ public:
                                   " uses, so that nothing follows; pin others, or leave the pins out");
     }
 
-    /// The same for a copy of the mesh. Throws constraint_error where it is another mesh, with fewer vertices.
+    /// Copies the constraints to a copy of the mesh. Throws constraint_error for another mesh, with fewer vertices.
     constraints on(const mesh<Element>& copy) const
     {
         constraints c = *this;
@@ -234,10 +235,10 @@ public:
         return c;
     }
 
-    /// The pins by vertex, ascending.
+    /// Pins, ascending by vertex.
     const std::map<idx, hard_pin<D>>& pins() const { return pins_; }
 
-    /// The springs, ascending by vertex.
+    /// Springs, ascending by vertex.
     std::vector<taut::spring<D>> springs() const
     {
         std::vector<taut::spring<D>> list;
@@ -245,14 +246,14 @@ public:
         return list;
     }
 
-    /// Bit k: coordinate k of vertex v is held.
+    /// Fixed coordinates of vertex v: bit k for coordinate k.
     std::uint8_t held(idx v) const
     {
         const auto at = pins_.find(v);
         return at == pins_.end() ? std::uint8_t{0} : at->second.held;
     }
 
-    /// held(), one a vertex.
+    /// Fixed coordinates of all vertices, as held(), one per vertex.
     impl::held_marks<D> held() const
     {
         impl::held_marks<D> marks(count());
@@ -260,7 +261,7 @@ public:
         return marks;
     }
 
-    /// Gives the held coordinates of a map (one position a vertex) their values.
+    /// Sets the fixed coordinates of a map (one position per vertex) to their targets.
     void impose(std::span<point> x) const
     {
         require_count("a vertex", count(), x.size());
@@ -334,8 +335,8 @@ private:
         return std::move(loops.front());
     }
 
-    /// Holds `coordinates` of the vertices at where(i), i counting through them: all or, where it throws, none.
-    /// replace: whether what was held before is no fault.
+    /// Fixes `coordinates` of the vertices at where(i), i counting through them: all or, where it throws, none.
+    /// replace: true if earlier pins are replaced.
     template <class Where>
     constraints& hold(std::span<const idx> vertices, std::uint8_t coordinates, const Where& where, bool replace = false)
     {

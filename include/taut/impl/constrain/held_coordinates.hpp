@@ -18,12 +18,12 @@
 namespace taut::impl
 {
 
-/// What does not move while a map of a surface is made: a fixed boundary, and what the constraints hold. Maps are in
-/// lengths of `unit` times those of the constraints.
+/// Fixed coordinates of a map of a surface: those of a fixed boundary and of pins. Lengths of maps are `unit` times
+/// those of the constraints.
 class held_coordinates
 {
 public:
-    /// fixed: the vertices of a boundary that stays; none where it is free. Throws parameter_error for constraints of
+    /// fixed: the vertices of a fixed boundary; none where it is free. Throws parameter_error for constraints of
     /// another mesh; constraint_error (not_finite) for targets that are too far away in lengths of `unit`.
     held_coordinates(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
         : wanted_(std::move(wanted)), free_boundary_(fixed.empty()), unit_(unit)
@@ -37,11 +37,12 @@ public:
         for (const auto& [v, pin] : wanted_.pins()) marks_[static_cast<std::size_t>(v)] |= pin.held;
     }
 
-    /// Throws constraint_error (unused_vertex) where anything is asked of one of these, which ascend.
+    /// Checks that these unreferenced vertices, ascending, have no constraints. Throws constraint_error
+    /// (unused_vertex).
     void require_used(std::span<const idx> unused) const { wanted_.require_used(unused); }
 
-    /// One flag a vertex of which anything is asked: coarser surfaces should have it. Springs that are many are left
-    /// out; those whose vertices happen to be there will do.
+    /// Flags of vertices with constraints, one per vertex, which coarser surfaces should contain. Numerous springs are
+    /// left out; those whose vertices happen to be there suffice.
     std::vector<bool> touched(std::size_t vertices) const
     {
         std::vector<bool> any(vertices, false);
@@ -52,8 +53,8 @@ public:
         return any;
     }
 
-    /// Springs of stiffness 1 to where pinned vertices have to be, along the coordinates that are held; of the vertices
-    /// for which `left_out` has no flag.
+    /// Springs of stiffness 1 from pinned vertices to their targets, along the fixed coordinates; of the vertices for
+    /// which `left_out` has no flag.
     std::vector<directed_spring<2>> pull(const std::vector<bool>& left_out) const
     {
         std::vector<directed_spring<2>> springs;
@@ -63,7 +64,7 @@ public:
         return springs;
     }
 
-    /// The middle of the places of pinned vertices; the origin without any.
+    /// Centre of the targets of pinned vertices; the origin without any.
     vec2 centre() const
     {
         std::vector<vec2> places;
@@ -75,7 +76,7 @@ public:
     bool constrained() const { return !wanted_.empty(); }
     bool pinned() const { return !wanted_.pins().empty(); }
 
-    /// One a vertex; none if nothing is held.
+    /// One per vertex; none if nothing is fixed.
     const held_marks<2>& marks() const { return marks_; }
 
     /// True if the constraints pin every vertex of the boundary.
@@ -88,9 +89,9 @@ public:
         return true;
     }
 
-    /// Moves a map by the similarity that brings it closest to what the constraints ask, if its boundary is free: to
-    /// two or more pinned vertices; else to these and the springs. One vertex shifts the map, none leaves it. Targets
-    /// that no similarity explains, and which would shrink the map to nothing, only turn and shift it.
+    /// Moves a map by the similarity that fits the constraints best, if its boundary is free: two or more pinned
+    /// vertices; else these and the springs. One vertex translates the map, none leaves it. Targets far from any
+    /// similarity, which would shrink the map to nothing, only rotate and translate it.
     void bring_near(std::vector<vec2>& uv) const
     {
         if (!free_boundary_ || obeys(uv)) return;
@@ -115,8 +116,8 @@ public:
         for (vec2& p : uv) p = map(p);
     }
 
-    /// How far pinned vertices of a map are from their places, as a part of how far those are from their centre: root
-    /// mean squares.
+    /// Distance of pinned vertices of a map from their targets relative to the distance of the targets from their
+    /// centre: root mean squares.
     double misfit(const std::vector<vec2>& uv) const
     {
         const vec2 middle = centre();
@@ -131,7 +132,7 @@ public:
         return size > 0 ? std::sqrt(away / size) : 0.0;
     }
 
-    /// Puts held coordinates where the constraints want them, in lengths of `unit` times the user's.
+    /// Sets fixed coordinates to their targets, in lengths of `unit` times the user's.
     void impose(std::vector<vec2>& uv, double unit) const
     {
         for (const auto& [v, pin] : wanted_.pins())
@@ -147,7 +148,7 @@ public:
         return points;
     }
 
-    /// Gives held coordinates the values that they have in another map, bit for bit.
+    /// Copies fixed coordinates from another map, bit for bit.
     void restore(std::vector<vec2>& uv, const std::vector<vec2>& from) const
     {
         for (std::size_t v = 0; v < marks_.size(); ++v)
@@ -160,7 +161,7 @@ public:
         return {m, std::move(uv), marks_.empty() ? held_marks<2>(m.points().size()) : marks_};
     }
 
-    /// What is asked of vertices that are not pinned, for a map whose origin is `centre`.
+    /// Constraints other than pins, for a map whose origin is `centre`.
     point_constraints<2> beyond_pins(const vec2& centre) const
     {
         point_constraints<2> r;
@@ -172,7 +173,7 @@ public:
     }
 
 private:
-    /// True if there are pins and all are where they should be; a similarity could only add rounding.
+    /// True if there are pins and all are at their targets; a similarity could only add rounding.
     bool obeys(const std::vector<vec2>& uv) const
     {
         for (const auto& [v, pin] : wanted_.pins())

@@ -17,16 +17,16 @@
 namespace taut::impl
 {
 
-/// The ways that held vertices take to their places: those that hang together, by edges between pinned vertices, move
-/// as a rigid body, and what the best rigid motion leaves to be done in a straight line meanwhile. On straight lines
-/// alone a face that turns by half a turn would shrink to a point half way.
+/// Paths of fixed vertices to their targets: bodies, connected by edges between pinned vertices, move rigidly, and the
+/// remaining displacement is linear. On straight lines alone a face that rotates by half a turn would shrink to a point
+/// half way.
 template <int D>
 class held_paths
 {
 public:
     using map = std::vector<vec<D>>;
 
-    /// cells: their D + 1 vertices. from, to: one position a vertex, of `to` only held coordinates are read.
+    /// cells: their D + 1 vertices. from, to: one position per vertex, of `to` only fixed coordinates are read.
     held_paths(std::span<const std::array<idx, D + 1>> cells, const held_marks<D>& marks, const map& from,
                const map& to)
         : marks_(marks), from_(from), to_(to), body_(marks.size(), -1)
@@ -45,7 +45,7 @@ public:
         }
     }
 
-    /// In how many parts the way should be gone, so that none turns by more than `most` radians.
+    /// Number of parts of the path, so that none turns by more than `most` radians.
     int parts(double most = std::numbers::pi / 6) const
     {
         double largest = 0;
@@ -53,8 +53,8 @@ public:
         return std::max(1, static_cast<int>(std::ceil(largest / most - 1e-9)));
     }
 
-    /// The turn of the body that vertex v is a part of, axis times angle; none where it is of none, or of one of fewer
-    /// than D vertices, whose turn is open.
+    /// Rotation of the body of vertex v, axis times angle; none where it has none, or one of fewer than D vertices,
+    /// whose rotation is undetermined.
     std::optional<vec3> turn(std::size_t v) const
     {
         if (body_[v] < 0 || sizes_[static_cast<std::size_t>(body_[v])] < D) return std::nullopt;
@@ -62,7 +62,7 @@ public:
         return m.angle * m.axis;
     }
 
-    /// Held coordinates of x where they are when a share t of the way is done; to the last bit where it is 1.
+    /// Sets fixed coordinates of x to their positions at the fraction t of the path; to the last bit where t is 1.
     void place(double t, map& x) const
     {
         for (std::size_t v = 0; v < marks_.size(); ++v)
@@ -82,7 +82,7 @@ private:
         return m(from_[v], t) + t * m.turned(to_[v] - m(from_[v]), (t - 1) * m.angle);
     }
 
-    /// Pinned vertices that hang together.
+    /// Connected pinned vertices.
     std::vector<std::vector<std::size_t>> bodies(std::span<const std::array<idx, D + 1>> cells) const
     {
         std::vector<std::size_t> parent(marks_.size());
@@ -123,9 +123,9 @@ private:
 
     held_marks<D> marks_;
     map from_, to_;
-    std::vector<idx> body_; ///< of each vertex, or -1
+    std::vector<idx> body_; ///< body of each vertex, or -1
     std::vector<rigid_motion<D>> motions_;
-    std::vector<std::size_t> sizes_; ///< of the bodies, in vertices
+    std::vector<std::size_t> sizes_; ///< numbers of vertices of the bodies
 };
 
 } // namespace taut::impl

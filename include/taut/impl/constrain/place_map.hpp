@@ -17,8 +17,8 @@
 namespace taut::impl
 {
 
-/// How the axes x, y, z of space run in a map on the average: component k is the integral over the surface of the image
-/// of axis k, projected to the surface, as a complex number. It turns with the map, and changes as little as that.
+/// Mean directions of the axes x, y, z of space in a map: component k is the integral over the surface of the image of
+/// axis k, projected to the surface, as a complex number. It rotates with the map.
 inline std::array<std::complex<double>, 3> images_of_axes(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     std::array<std::complex<double>, 3> images;
@@ -40,7 +40,7 @@ inline std::array<std::complex<double>, 3> images_of_axes(const mesh<triangle>& 
     return images;
 }
 
-/// The direction of a map's longer principal axis, from the broad end to the thin one, as a complex number.
+/// Direction of a map's longer principal axis, from the broad end to the thin one, as a complex number.
 inline std::complex<double> principal_direction(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     struct lump
@@ -66,11 +66,10 @@ inline std::complex<double> principal_direction(const mesh<triangle>& m, std::sp
     return third < 0 ? -axis : axis;
 }
 
-/// The turn, as a complex number, that puts a map upright: the first of the axes y, x, z that is seen in it, at least
-/// half as well as the best seen one, comes to point up if it is y or z, and to the right if it is x, so that a view
-/// along y from above is that of a map. Where none is seen (a torus cut open), the longer principal axis comes to lie
-/// along u. It follows from the surface and the map alone, and changes continuously with them but where the choice of
-/// the axis is even.
+/// Rotation, as a complex number, that puts a map upright: the first of the axes y, x, z whose mean direction is at
+/// least half as long as the longest one points up if it is y or z, and to the right if it is x. Where none has a mean
+/// direction (a torus cut open), the longer principal axis is along u. It depends on the surface and the map alone, and
+/// continuously except where the choice of the axis changes.
 inline std::complex<double> upright_turn(const mesh<triangle>& m, std::span<const vec2> uv)
 {
     const auto images = images_of_axes(m, uv);
@@ -90,14 +89,14 @@ inline std::complex<double> upright_turn(const mesh<triangle>& m, std::span<cons
     return to(up, images[2]);
 }
 
-/// A map in its place.
+/// Placed map.
 struct placed_map
 {
     std::vector<vec2> uv;
     double scale = 1; ///< its lengths by those that it had
 };
 
-/// Shifts a map so that the lower left corner of its box is (0, 0), and scales it so that the longer side is `side`
+/// Translates a map so that the lower left corner of its box is (0, 0), and scales it so that the longer side is `side`
 /// unless that is 0. Of a square, whose sides differ by rounding alone, both are.
 inline placed_map in_corner(std::vector<vec2> uv, double side)
 {
@@ -115,7 +114,7 @@ inline placed_map in_corner(std::vector<vec2> uv, double side)
     return {std::move(uv), side > 0 ? side / longer : 1};
 }
 
-/// A map of m, put upright.
+/// Rotates a map of m upright.
 inline std::vector<vec2> turned_up(const mesh<triangle>& m, std::vector<vec2> uv)
 {
     const auto turn = upright_turn(m, uv);

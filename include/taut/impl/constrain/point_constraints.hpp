@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// A spring with a stiffness a coordinate: it adds the sum over k of stiffness[k] (x - target)[k]^2.
+/// Spring with a stiffness per coordinate: it adds the sum over k of stiffness[k] (x - target)[k]^2.
 template <int D>
 struct directed_spring
 {
@@ -30,18 +30,18 @@ std::vector<directed_spring<D>> directed(const std::vector<spring<D>>& springs)
     return all;
 }
 
-/// What is asked of single vertices besides being pinned, which is the matter of the layout: coordinates that are held
-/// alone, springs, and vertices that slide. Units are those of the map.
+/// Constraints of single vertices other than pins, which are eliminated by the layout: single fixed coordinates,
+/// springs, and sliding vertices. In units of the map.
 template <int D>
 struct point_constraints
 {
-    held_marks<D> held;                      ///< one a vertex, or none
-    std::vector<directed_spring<D>> springs; ///< what they add is added to the energy's mean
-    std::vector<slide<D>> slides{};          ///< at most one a vertex
+    held_marks<D> held;                      ///< one per vertex, or none
+    std::vector<directed_spring<D>> springs; ///< springs, whose energy is added to the mean energy
+    std::vector<slide<D>> slides{};          ///< at most one per vertex
 
     bool empty() const { return held.empty() && springs.empty() && slides.empty(); }
 
-    /// For vertices in other numbers.
+    /// Renumbers the vertices.
     point_constraints renumbered(const permutation& p) const
     {
         point_constraints r;
@@ -59,7 +59,7 @@ struct point_constraints
         return r;
     }
 
-    /// For a map whose lengths are `factor` times as long.
+    /// Scales the constraints to a map with lengths multiplied by `factor`.
     point_constraints scaled(double factor) const
     {
         point_constraints r = *this;
@@ -71,7 +71,7 @@ struct point_constraints
         return r;
     }
 
-    /// One flag a vertex: true if it has any.
+    /// One flag per vertex: true if it has any.
     std::vector<bool> touched(std::size_t vertices) const
     {
         std::vector<bool> any(vertices, false);

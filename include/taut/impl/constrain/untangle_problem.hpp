@@ -14,28 +14,26 @@
 namespace taut
 {
 
-/// A map to be made injective while some coordinates of some vertices stay exactly where they are.
+/// Untangling problem: a map to be made injective while some coordinates of some vertices are fixed exactly.
 template <class Element>
 struct untangle_problem
 {
     static constexpr int D = Element::dimension;
 
     mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
-    std::vector<vec<D>> initial; ///< one a vertex, in any state; a held coordinate is a hard constraint
-    impl::held_marks<D> held;    ///< one a vertex
-    /// A map near to the one that is sought, without a defect, that need not have held coordinates at their places;
-    /// empty: none is known.
+    std::vector<vec<D>> initial; ///< one per vertex, in any state; a fixed coordinate is a hard constraint
+    impl::held_marks<D> held;    ///< one per vertex
+    /// Initial guess: a valid map near the solution, whose fixed coordinates need not be at their targets; empty: none.
     std::vector<vec<D>> draft = {};
-    /// What elements are wanted to look like, if not as they are at rest: edge matrices, upper triangular with a
-    /// positive diagonal, one a cell; their measures are weights, too.
+    /// Target shapes of elements, if not those at rest: edge matrices, upper triangular with a positive diagonal, one
+    /// per cell; their measures are weights, too.
     std::vector<mat<D>> wanted = {};
-    /// The cell that each simplex is a corner of (mesh/cell_corners.hpp), where they are corners of others; else empty.
+    /// Owner of each simplex (mesh/cell_corners.hpp), where they are the corners of other cells; else empty.
     std::vector<idx> owners = {};
-    /// Vertices that stages hold where they are, though they may move along a line or in a plane: no proof may count
-    /// on their places.
+    /// Sliding vertices, which stages fix: proofs must not rely on their positions.
     std::vector<idx> sliding = {};
 
-    /// What proofs may count on.
+    /// Fixed coordinates that proofs may rely on.
     impl::held_marks<D> held_for_sure() const
     {
         auto marks = held;
@@ -54,7 +52,8 @@ struct untangle_problem
                            });
     }
 
-    /// Throws parameter_error: one initial position and one set of held coordinates a vertex, all of it finite.
+    /// Checks the problem: one initial position and one set of fixed coordinates per vertex, all finite. Throws
+    /// parameter_error.
     void validate() const
     {
         const std::size_t n = rest.points().size();
@@ -72,7 +71,7 @@ struct untangle_problem
             throw parameter_error("wanted", "one matrix a cell, or none at all: " + std::to_string(cells) + ", not " +
                                                 std::to_string(wanted.size()));
         if (!owners.empty() && owners.size() != cells)
-            throw parameter_error("owners", "one a cell, or none at all: " + std::to_string(cells) + ", not " +
+            throw parameter_error("owners", "one per cell, or none at all: " + std::to_string(cells) + ", not " +
                                                 std::to_string(owners.size()));
         for (std::size_t v = 0; v < n; ++v)
         {

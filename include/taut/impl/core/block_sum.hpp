@@ -11,7 +11,7 @@ namespace taut::impl
 {
 
 /// A sum over [0, n) on several threads, with a rounding that does not depend on their number: add(part, i) puts i into
-/// a part; there is one a block, begun as Part{}, and parts are added by += in their order.
+/// a part; there is one per block, begun as Part{}, and parts are added by += in their order.
 template <class Part, class Add>
 Part block_sum(std::size_t n, const Add& add, unsigned threads = 0)
 {

@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// The clock of a run, and what may end it: a time limit and an observer. Who has once said no is not asked again.
+/// Clock and limits of a run: a time limit and an observer. Once one has ended the run, none is asked again.
 class budget
 {
 public:
@@ -24,7 +24,7 @@ public:
 
     double total() const { return seconds(clock::now() - start_).count(); }
 
-    /// Since the last lap, for the phases of a report.
+    /// Seconds since the last lap, for the phases of a report.
     double lap()
     {
         const auto now = clock::now();
@@ -34,10 +34,10 @@ public:
     bool in_time() const { return total() < limit_.count(); }
     seconds left() const { return std::max(limit_ - seconds(total()), seconds(0)); }
 
-    /// Whether a run that ends from now on has a result, as it mostly has. The observer is told at the next question.
+    /// Sets whether a run that ends from now on has a result, as it mostly has. The observer is told at its next call.
     void has_result(bool usable) { usable_ = usable; }
 
-    /// Asks the observer alone, where others keep the time: go on?
+    /// Asks the observer alone, where others keep the time. Returns false to end the run.
     bool ask(progress p)
     {
         p.seconds = total();
@@ -46,14 +46,15 @@ public:
         return !refused_;
     }
 
-    /// Asks the clock, then the observer: go on? Without an argument in the middle of something, with nothing to show.
+    /// Asks the clock, then the observer. Returns false to end the run. Without an argument: inside of a step, without
+    /// a new iterate.
     bool proceed(const progress& p = {.iterate = false})
     {
         late_ = late_ || !in_time();
         return !late_ && ask(p);
     }
 
-    /// What they have answered so far.
+    /// Returns whether a limit is reached or the observer has refused so far.
     bool over() const { return late_ || refused_; }
     bool refused() const { return refused_; } ///< by the observer
 

@@ -13,7 +13,7 @@ namespace taut::impl
 
 /// Stable counting sort of 0 .. n-1 on several threads: calls place(i, position) for each i, with positions by
 /// bucket(i) in [0, buckets), then by i. Returns where each bucket starts, and n last. `place` is called from several
-/// threads, never twice for a position. threads: at most so many; 0: as many as the machine runs at once.
+/// threads, never twice for a position. threads: maximum number; 0: as many as the machine runs at once.
 template <class Bucket, class Place>
 std::vector<idx> counting_sort(std::size_t n, std::size_t buckets, Bucket bucket, Place place, unsigned threads = 0)
 {

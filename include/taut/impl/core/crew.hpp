@@ -12,23 +12,23 @@
 namespace taut::impl
 {
 
-/// As many as $TAUT_THREADS says, or as the machine runs at once.
+/// Number of threads: $TAUT_THREADS, or as many as the machine runs at once.
 unsigned threads_at_once();
 
-/// The threads that help callers of parallel_for, kept between calls: starting one costs as much as a small piece of
-/// work. They look for work for a moment before they sleep, and give way to whoever wants their core.
+/// Threads that help callers of parallel_for, kept between calls: starting one costs as much as a small piece of work.
+/// They look for work for a moment before they sleep, and yield to other threads.
 class crew
 {
 public:
-    /// That of the process. Never destroyed: helpers may be asleep in it when the program ends.
+    /// Crew of the process. Never destroyed: helpers may be asleep in it when the program ends.
     static crew& of_process()
     {
         static crew& one = *new crew;
         return one;
     }
 
-    /// Calls job() on this thread and, as they come, on up to `helpers` others; returns when all who came are done. Who
-    /// finds the crew at work, as a job that calls this does, works alone. The job must not throw.
+    /// Calls job() on this thread and, as they come, on up to `helpers` others; returns when all of these are done. A
+    /// caller that finds the crew busy, as a job that calls this, works alone. The job must not throw.
     template <class Job>
     void run(std::size_t helpers, Job& job)
     {

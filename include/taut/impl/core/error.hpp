@@ -16,7 +16,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A parameter outside its domain. field() names it as the user wrote it.
+/// Error of a parameter outside its domain. field() names it as the user wrote it.
 class parameter_error : public error
 {
 public:
@@ -31,7 +31,7 @@ private:
     std::string field_;
 };
 
-/// An input of more parts than 32-bit numbers can count.
+/// Error of an input with more parts than 32-bit indices can number.
 class size_error : public parameter_error
 {
 public:

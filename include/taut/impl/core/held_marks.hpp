@@ -10,16 +10,16 @@
 namespace taut::impl
 {
 
-/// Who is held, and in which coordinate: a byte a vertex, whose bit k says that coordinate k does not move.
+/// Flags of fixed coordinates: one byte per vertex, whose bit k says that coordinate k is fixed.
 template <int D>
 class held_marks
 {
 public:
     static constexpr std::uint8_t every = (1u << D) - 1; ///< all coordinates of a vertex
 
-    held_marks() = default; ///< of no vertex
+    held_marks() = default; ///< flags of no vertex
     explicit held_marks(std::size_t vertices) : bits_(vertices, 0) {}
-    explicit held_marks(std::vector<std::uint8_t> bits) : bits_(std::move(bits)) {} ///< one a vertex
+    explicit held_marks(std::vector<std::uint8_t> bits) : bits_(std::move(bits)) {} ///< one per vertex
 
     std::size_t size() const noexcept { return bits_.size(); } ///< vertices
     bool empty() const noexcept { return bits_.empty(); }
@@ -39,7 +39,7 @@ public:
     /// Pinned vertices.
     std::size_t count() const { return static_cast<std::size_t>(std::count(bits_.begin(), bits_.end(), every)); }
 
-    /// One flag a vertex: it is pinned.
+    /// One flag per vertex: it is pinned.
     std::vector<bool> pinned() const
     {
         std::vector<bool> flags(bits_.size());

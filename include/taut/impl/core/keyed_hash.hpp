@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// SipHash-1-3 of words (Aumasson, Bernstein: "SipHash: a fast short-input PRF"), with a key that this process draws:
-/// who writes a file cannot choose numbers that fall together in a hash table, which would make its time quadratic.
+/// SipHash-1-3 of words (Aumasson, Bernstein: "SipHash: a fast short-input PRF"), with a random key of the process, so
+/// that files cannot be made to collide in a hash table, which would make its time quadratic.
 template <std::size_t N>
 std::uint64_t keyed_hash(const std::array<std::uint64_t, N>& words)
 {

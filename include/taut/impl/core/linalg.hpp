@@ -6,7 +6,7 @@
 namespace taut
 {
 
-/// |M|_F^2, the sum of the squares of all entries. T may be a traced scalar.
+/// Squared Frobenius norm |M|_F^2, the sum of the squares of all entries. T may be a traced scalar.
 template <int D, class T>
 T norm2(const glm::mat<D, D, T>& m)
 {

@@ -33,14 +33,14 @@ public:
     made_ahead(const made_ahead&) = delete;
     made_ahead& operator=(const made_ahead&) = delete;
 
-    /// What is not begun is not made.
+    /// Drops results whose computation has not begun.
     ~made_ahead()
     {
         unwanted_ = true;
         if (thread_.joinable()) thread_.join();
     }
 
-    /// Value k, once, as soon as it is there; throws what making it threw.
+    /// Returns value k, once, as soon as it is made; throws the exception of make(k).
     T take(std::size_t k) { return values_[k].get_future().get(); }
 
 private:

@@ -12,7 +12,7 @@
 namespace taut
 {
 
-/// Where a run stands.
+/// Progress of a run.
 struct progress
 {
     int iteration = 0;   ///< accepted steps so far
@@ -21,20 +21,20 @@ struct progress
     double step = 0;     ///< the last accepted step
     int evaluations = 0; ///< values computed so far
     double seconds = 0;  ///< since the start
-    int level = 0;       ///< of a nested iteration; 0: the problem itself
+    int level = 0;       ///< level of a nested iteration; 0: the problem itself
     bool iterate =
         true; ///< a new iterate; false: in the middle of a line search, the other fields are the last iterate's
     bool usable = true; ///< a run that ends now has a result; false where one of several phases has none yet
-    /// The map as it is, one point a vertex in the user's order and lengths, for a live view: valid as what is
-    /// returned, but not certified. Empty where there is no map of the whole surface. It costs a download where it is
-    /// called, and nothing where it is not; to be called by the observer only.
+    /// Current map, one point per vertex in the user's order and lengths, for a live view: as valid as the result, but
+    /// not certified. Empty where there is no map of the whole surface. A call costs a download; to be called by the
+    /// observer only.
     std::function<std::vector<vec2>()> coordinates = {};
-    /// The same of a volume.
+    /// Current shape of a volume, in the same way.
     std::function<std::vector<vec3>()> positions = {};
 };
 
-/// Asked at every iterate and after every evaluation of a line search: go on? An answer of false ends the run with
-/// the best iterate so far (solve::stop::user). It runs on the thread of the solver; an exception passes through.
+/// Callback at every iterate and after every evaluation of a line search. Returning false ends the run with the best
+/// iterate so far (solve::stop::user). It runs on the thread of the solver; an exception passes through.
 using observer = std::function<bool(const progress&)>;
 
 /// Limits of a run, the same for all entry points. A run that reaches one ends with the best valid result so far, or

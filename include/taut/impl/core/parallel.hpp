@@ -15,7 +15,7 @@ void run_pieces(std::size_t n, void* body, void (*call)(void* body, std::size_t 
 /// Calls body(begin, end) for pieces that cover [0, n), on several threads, and returns when all are done. Pieces are
 /// handed out as threads become free, so the body must not depend on how the range is cut.
 ///
-/// threads: how many at most; 0: as many as $TAUT_THREADS says, or the machine runs at once
+/// threads: maximum number; 0: as many as $TAUT_THREADS says, or the machine runs at once
 /// grain:   smallest n that is worth another thread; below it the body runs once, on the calling thread
 ///
 /// The first exception of a body is rethrown here; pieces not yet begun are then left out. Programs that call it link

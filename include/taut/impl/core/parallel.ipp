@@ -36,7 +36,7 @@ void run_pieces(std::size_t n, void* body, void (*call)(void* body, std::size_t 
     const std::size_t team = std::min<std::size_t>(threads, n / std::max<std::size_t>(grain, 1));
     if (team <= 1) return call(body, 0, n);
 
-    // A few pieces a thread even out a core that others use too.
+    // A few pieces per thread even out a core that others use too.
     const std::size_t piece = std::max<std::size_t>(1, n / (8 * team));
     std::atomic<std::size_t> next{0};
     std::atomic<bool> failed{false};

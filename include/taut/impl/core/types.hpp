@@ -8,20 +8,27 @@
 namespace taut
 {
 
-/// Vertex, cell and edge numbers: 32 bits, signed, 0-based; the same type on the host and on the device.
+/// Index type of vertices, cells and edges: 32 bits, signed, 0-based; the same type on the host and on the device.
 using idx = std::int32_t;
 
-/// A column vector of D numbers.
+/// Column vector of D numbers.
 template <int D, class T = double>
 using vec = glm::vec<D, T>;
 
-/// A D by D matrix, column-major as in GLM: m[c][r].
+/// D by D matrix, column-major as in GLM: m[c][r].
 template <int D, class T = double>
 using mat = glm::mat<D, D, T>;
 
+/// Point or vector of the plane.
 using vec2 = vec<2>;
+
+/// Point or vector of space.
 using vec3 = vec<3>;
+
+/// 2 by 2 matrix.
 using mat2 = mat<2>;
+
+/// 3 by 3 matrix.
 using mat3 = mat<3>;
 
 } // namespace taut

@@ -12,14 +12,14 @@
 namespace taut
 {
 
-/// What is cut from one surface to be pasted on another: a region with its base. The base is the plane that the rim
-/// encloses best; what the region does above it is the detail.
+/// Feature cut from one surface to be pasted on another: a region with its base. The base is the plane fitted to the
+/// rim; the displacement of the region from it is the detail.
 struct feature
 {
     surface_region
         region;           ///< edges between vertices of the rim are halved: their middles are vertices -1 of the source
     vec3 centre{0.0};     ///< mean of the rim by length
-    vec3 normal{0, 0, 1}; ///< of the base, of length 1, to the outside
+    vec3 normal{0, 0, 1}; ///< unit normal of the base, to the outside
     double radius = 0;    ///< largest distance of the rim from the centre
 
     /// The axes of the base and its normal, as columns; right-handed.
@@ -31,7 +31,7 @@ struct feature
     }
 };
 
-/// Throws parameter_error for a region whose rim encloses no area: its base has no direction.
+/// Makes a feature of a region. Throws parameter_error for a region whose rim encloses no area: its base has no normal.
 inline feature make_feature(surface_region region)
 {
     feature f{.region = impl::split_chords(std::move(region))};

@@ -35,7 +35,7 @@ struct feature_map_params
 namespace taut
 {
 
-/// A feature as a picture of positions (not heights, so that overhangs are nothing special) over a map of it to the
+/// Geometry image of a feature: positions (not heights, so that overhangs are represented) over a map of it to the
 /// plane: paper, section 4.1. Positions are in the frame of the base: along its two axes and its normal, from its
 /// centre.
 struct feature_map
@@ -82,7 +82,7 @@ std::vector<vec3> sample(queue& q, const feature_map& map, std::span<const vec2>
 namespace taut
 {
 
-/// Draws a feature over a map of it, on the device. uv: one a vertex of the feature's region, injective. Throws
+/// Rasterizes a feature over a map of it, on the device. uv: one per vertex of the feature's region, injective. Throws
 /// parameter_error, device_error.
 feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv,
                              const impl::feature_map_params& params = {});

@@ -85,7 +85,7 @@ feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2
     const auto& surface = part.region.surface;
     if (uv.size() != surface.points().size())
         throw parameter_error("uv", std::to_string(uv.size()) + " places for " +
-                                        std::to_string(surface.points().size()) + " vertices; give one a vertex");
+                                        std::to_string(surface.points().size()) + " vertices; give one per vertex");
     vec2 low = uv[0], high = uv[0];
     for (const vec2& p : uv)
     {

@@ -38,10 +38,10 @@ inline double distance_across(const vec3& a, const vec3& b, const vec3& c, doubl
 namespace taut
 {
 
-/// Lengths of the shortest ways over the surface from the nearest of these vertices, one a vertex, in the units of the
-/// surface; infinity beyond `limit` and where no way leads. Fronts are carried across triangles as circles around an
-/// unfolded source (fast marching after Kimmel and Sethian 1998, with the update of Novotni and Klein 2002): exact in a
-/// plane as far as the source is seen, a percent or so too long on scans.
+/// Geodesic distances over the surface from the nearest of these vertices, one per vertex, in the units of the surface;
+/// infinity beyond `limit` and in other components. Fronts are carried across triangles as circles around an unfolded
+/// source (fast marching after Kimmel and Sethian 1998, with the update of Novotni and Klein 2002): exact in a plane
+/// where the source is visible, about a percent too long on scans.
 inline std::vector<double> geodesic_distances(const mesh<triangle>& m, const impl::csr& cells_of,
                                               std::span<const idx> from,
                                               double limit = std::numeric_limits<double>::infinity())

@@ -9,7 +9,7 @@
 namespace taut::impl
 {
 
-/// A vertex of a feature and where it shall be in the map of the target.
+/// Pin of a vertex of a feature in the map of the target.
 struct feature_pin
 {
     idx vertex; ///< of the feature's region
@@ -21,10 +21,11 @@ struct feature_pin
 namespace taut
 {
 
-/// The feature of a paste in the map of the target (paper, section 4.1): its rim is pinned to the correspondences of
-/// the paste, with any other vertices that are named, and the rest is mapped as isometrically as that allows, without
-/// flips. The rim is a simple polygon, so without other pins there is a map; where these contradict it, the outcome is
-/// infeasible, and report.ids names the triangles or vertices. Throws constraint_error, device_error.
+/// Maps the feature of a paste into the map of the target (paper, section 4.1): its rim is pinned to the
+/// correspondences of the paste, with any other vertices that are named, and the rest is mapped as isometrically as
+/// that allows, without flips. The rim is a simple polygon, so without other pins there is a map; where these
+/// contradict it, the outcome is infeasible, and report.ids names the triangles or vertices. Throws constraint_error,
+/// device_error.
 map_result parameterize_feature(queue& q, const paste& p, std::span<const impl::feature_pin> pins = {});
 
 } // namespace taut

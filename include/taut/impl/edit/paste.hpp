@@ -23,70 +23,70 @@ class pasted;
 namespace taut
 {
 
-/// A feature pasted on a surface. The constructor looks for the place of the rim, makes room for it, fills the gap and
-/// factors the systems of the fields that bend both sides of the seam. pose() then moves, turns and scales the feature
-/// while it stays attached, at the cost of back-substitutions and kernels.
+/// Paste of a feature on a surface. The constructor projects the rim, removes triangles of the target, fills the gap
+/// and factors the systems of the fields that bend both sides of the seam. pose() then translates, rotates and scales
+/// the attached feature, at the cost of back-substitutions and kernels.
 ///
 ///     taut::paste p(queue, target, taut::make_feature(taut::geodesic_disk(source, v, radius)), onto);
 ///     p.pose({.turn = 0.3, .softness = 0.5});
 ///     const auto result = p.surface();                // to be written, or the target of the next one
 ///
-/// The target is kept: surface() of none of its poses changes it, and target() undoes the paste. Triangles of the
-/// result: those of the target that are left, in their order; those of the gap; those of the feature. Vertices: those
-/// of the target that are left, in their order; those of the feature. Where the target was manifold, the result is, and
-/// no boundary is added. Not to be used from two threads at once. Objects may be moved, not copied.
+/// The original target is kept: target() undoes the paste. Triangles of the result: the remaining ones of the target,
+/// in their order; those of the gap; those of the feature. Vertices: the remaining ones of the target, in their order;
+/// those of the feature. The result is manifold if the target was, and no boundary is added. Not to be used from two
+/// threads at once. Objects may be moved, not copied.
 class paste
 {
 public:
     using cell = mesh<triangle>::cell;
 
-    /// Throws region_error where the surroundings of vertex `onto` are no disk, paste_error where the rim does not fit
-    /// there, parameter_error, mesh_error, device_error.
+    /// Pastes a feature at vertex `onto`. Throws region_error where its neighbourhood is no disk, paste_error where the
+    /// rim does not fit there, parameter_error, mesh_error, device_error.
     paste(queue& q, mesh<triangle> target, feature part, idx onto, const paste_params& params = {});
     paste(paste&&) noexcept;
     paste& operator=(paste&&) noexcept;
     ~paste();
 
-    /// Puts the feature elsewhere. What it is attached to stays: for a way across the surface that is longer than some
-    /// edges, and for a turn of more than some twenty degrees, paste anew. The first soft one maps the feature. Throws
-    /// paste_error where that fails.
+    /// Changes the pose of the feature. Its correspondences are kept: for a move of more than some edges, and for a
+    /// rotation of more than some twenty degrees, paste anew. The first soft pose maps the feature. Throws paste_error
+    /// where that fails.
     paste& pose(const paste_pose& to);
 
-    /// Puts another surface within the same rim, say a tessellation of the feature's map. Throws parameter_error for
-    /// another rim.
+    /// Replaces the feature by another surface with the same rim, say a tessellation of its map. Throws parameter_error
+    /// for another rim.
     paste& refill(feature part);
 
     const paste_pose& pose() const;
 
-    const std::vector<vec3>& points() const; ///< of the result; pose() changes them
-    const std::vector<cell>& cells() const;  ///< of the result; they stay
+    const std::vector<vec3>& points() const; ///< points of the result; pose() changes them
+    const std::vector<cell>& cells() const;  ///< triangles of the result; they stay
     mesh<triangle> surface() const;
 
     const mesh<triangle>& target() const; ///< as it was
 
-    /// The vertex of the target that vertex v of the result was, or -1: it is one of the feature.
+    /// Vertex of the target that vertex v of the result comes from, or -1 for those of the feature.
     const std::vector<idx>& origins() const;
     const std::vector<idx>& kept_faces() const; ///< of the target: triangle f was kept_faces()[f]
     const feature& part() const;
-    const std::vector<vec2>& rim_uv() const; ///< of its rim, in the map of the target
+    const std::vector<vec2>& rim_uv() const; ///< its rim in the map of the target
     idx first_gap() const;                   ///< triangle of the gap; those before are of the target
     idx first_feature() const;               ///< triangle of the feature; the rest is, too
 
-    /// Where the pose takes points of the source, but for the softness.
+    /// Similarity transform of the pose, without softness.
     similarity_transform transform() const;
 
     const paste_report& report() const;
 
-    /// Pairs of triangles of the result that meet elsewhere than in what they share, but for those that did so in the
-    /// target or in the feature; exact (see taut::self_intersections).
+    /// New self-intersections: pairs of triangles of the result that meet elsewhere than in what they share, and did
+    /// not in the target or in the feature; exact (see taut::self_intersections).
     std::vector<std::array<idx, 2>> self_intersections() const;
 
     /// Edges of gap and feature where triangles of the result turn back by more than 150 degrees, and not by nearly as
     /// much in the feature: the two triangles of each.
     std::vector<std::array<idx, 2>> folds() const;
 
-    /// Where the pose has folds(): takes the nearest softness without, of those below it in quarters, then of those
-    /// above. False where there are some at each: the pose is as before then.
+    /// Removes folds() of the pose: takes the nearest softness without, of those below it in quarters, then of those
+    /// above. Returns false, and keeps the pose, if each has folds.
     bool unfold();
 
 private:

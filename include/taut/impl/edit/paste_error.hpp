@@ -6,7 +6,7 @@
 namespace taut
 {
 
-/// A feature that finds no place on a surface. what() has the reason and the remedy.
+/// Error of a feature that cannot be placed on a surface. what() has the reason and the remedy.
 class paste_error : public error
 {
 public:

@@ -11,8 +11,8 @@
 namespace taut
 {
 
-/// How a feature is put on its place: at first as the smallest rotation takes the normal of its base to the normal of
-/// the target, half of its rim above the surface and half below.
+/// Pose of a feature on the target: by default, the smallest rotation takes the normal of its base to the normal of the
+/// target, half of its rim above the surface and half below.
 struct paste_pose
 {
     double turn = 0;     ///< about the target's normal, in radians, counter-clockwise as seen from outside
@@ -32,22 +32,23 @@ struct paste_pose
     }
 };
 
+/// Parameters of a paste. Every field has a sensible default.
 struct paste_params
 {
-    paste_pose pose = {}; ///< where the feature is at first
+    paste_pose pose = {}; ///< initial pose of the feature
 
-    /// Radius of the part of the target that makes room, by that of the rim at its scale: 1.2 or more. What the
-    /// rim covers is replaced, and what is around it bends.
+    /// Radius of the region of the target that may bend, relative to that of the scaled rim: 1.2 or more. Triangles
+    /// under the rim are replaced.
     double reach = 1.8;
 
-    /// Of the fields that bend target and feature. `linear` overshoots least.
+    /// Basis of the fields that bend target and feature. `linear` overshoots least.
     rbf_basis basis = rbf_basis::linear;
 
-    /// Of the map that lays the feature on the target, for the first soft pose: where the rim is hard to fit it takes
-    /// an untangling, which may never end.
+    /// Time limit of the map of the feature to the target, for the first soft pose: a rim that is hard to fit takes an
+    /// untangling, which may not end.
     std::chrono::duration<double> time_limit{20};
 
-    /// At most so many control points of each kind: along the rim, and where nothing moves.
+    /// Maximum number of control points of each kind: along the rim, and fixed ones.
     idx controls = 300;
 
     /// Throws parameter_error that names the field.

@@ -23,7 +23,7 @@ struct paste_seconds
     double map = 0;       ///< their parameterization
     double land = 0;      ///< correspondences of the rim
     double seam = 0;      ///< room and gap
-    double factor = 0;    ///< of the radial basis functions
+    double factor = 0;    ///< factorisation of the radial basis functions
     double transform = 0; ///< the last change of pose: back-substitutions, kernels, coordinates
 };
 
@@ -32,27 +32,27 @@ struct paste_seconds
 namespace taut
 {
 
-/// What a paste did.
+/// Report of a paste.
 struct paste_report
 {
-    std::string way;           ///< how the rim was brought to the target: projected, laid, smoothed or circle
-    idx removed_triangles = 0; ///< of the target
+    std::string way;           ///< projection of the rim to the target: projected, laid, smoothed or circle
+    idx removed_triangles = 0; ///< triangles removed from the target
     idx gap_triangles = 0;     ///< between target and rim
     idx feature_triangles = 0;
-    idx bent_vertices = 0;           ///< of the target, which the fields move
+    idx bent_vertices = 0;           ///< vertices of the target moved by the fields
     idx controls = 0;                ///< points of the field that bends the target
-    double reciprocal_condition = 0; ///< of its system
+    double reciprocal_condition = 0; ///< reciprocal condition of its system
     impl::paste_seconds seconds;
 };
 
-/// What a surface is like where a feature was pasted.
+/// Quality of a surface along the seam of a paste.
 struct seam_quality
 {
-    idx boundary_edges = 0;    ///< of the whole surface: 0 where it is watertight
+    idx boundary_edges = 0;    ///< boundary edges of the whole surface: 0 where it is watertight
     bool manifold = false;     ///< at edges and vertices, and neighbours oriented alike
     idx degenerate = 0;        ///< triangles of no area
     idx folded = 0;            ///< edges of gap and feature whose triangles turn back by more than 150 degrees
-    double smallest_angle = 0; ///< of the triangles of the gap, degrees
+    double smallest_angle = 0; ///< minimum angle of the triangles of the gap, degrees
     double median_angle = 0;   ///< between the normals across the rim, degrees
     double largest_angle = 0;
 };
@@ -97,7 +97,7 @@ inline std::vector<std::array<idx, 2>> folded_edges(const mesh<triangle>& m, idx
 namespace taut
 {
 
-/// Looks at the result of a paste: triangles from first_gap on are of the gap, from first_feature on of the feature.
+/// Measures the result of a paste: triangles from first_gap on are of the gap, from first_feature on of the feature.
 inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx first_feature)
 {
     seam_quality q;

@@ -22,7 +22,7 @@
 namespace taut::impl
 {
 
-/// What taut::paste does.
+/// Implementation of taut::paste.
 class pasted
 {
 public:
@@ -90,7 +90,7 @@ public:
     idx first_gap() const { return first_gap_; }         ///< triangle of the gap; those before are of the target
     idx first_feature() const { return first_feature_; } ///< triangle of the feature; the rest is, too
 
-    /// Where the pose takes points of the source, but for the softness.
+    /// Similarity transform of the pose, without softness.
     similarity_transform transform() const { return transform_of(params_.pose); }
 
     const paste_report& report() const { return report_; }
@@ -129,8 +129,8 @@ public:
         return pairs;
     }
 
-    /// Where the pose has folds(): takes the nearest softness without, of those below it in quarters, then of those
-    /// above. False where there are some at each: the pose is as before then.
+    /// Removes folds() of the pose: takes the nearest softness without, of those below it in quarters, then of those
+    /// above. Returns false, and keeps the pose, if each has folds.
     bool unfold()
     {
         const paste_pose wanted = params_.pose;

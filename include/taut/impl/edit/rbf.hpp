@@ -19,11 +19,11 @@ class rbf_system;
 namespace taut
 {
 
-/// How points are interpolated.
+/// Parameters of an rbf interpolation.
 struct rbf_params
 {
     rbf_basis basis = rbf_basis::cubic;
-    double radius = 0;       ///< of Wendland's functions, in the units of the points; 0: half of their extent
+    double radius = 0; ///< support radius of Wendland's functions, in the units of the points; 0: half of their extent
     idx sparse_above = 1000; ///< points from which on Wendland's functions get a sparse factorisation
 
     /// Throws parameter_error that names the field.
@@ -35,9 +35,9 @@ struct rbf_params
     }
 };
 
-/// Interpolation at points in space, factored once: solve() takes values and costs a back-substitution. Points in one
-/// place are merged. The polynomial is that on the affine hull of the points, so that points in a plane or on a line
-/// will do. Dense LU with pivots of the symmetric system
+/// Radial basis function interpolation at points in space, factored once: solve() takes values and costs a
+/// back-substitution. Coincident points are merged. The polynomial is that on the affine hull of the points, so that
+/// planar or collinear points are allowed. Dense LU with pivots of the symmetric system
 ///
 ///     | Phi  P | | w |   | values |
 ///     | P^T  0 | | c | = | 0      |      (paper, eq. 27, with P the polynomial at the points)
@@ -49,8 +49,8 @@ public:
     /// Throws parameter_error (no point, not finite), rbf_error where the system is singular in double precision.
     explicit rbf(std::span<const vec3> points, const rbf_params& params = {});
 
-    /// The field that has values[i] at point i. Throws parameter_error for another number of values or one that is not
-    /// finite, rbf_error where points in one place get different values.
+    /// Computes the field with values[i] at point i. Throws parameter_error for another number of values or one that is
+    /// not finite, rbf_error where coincident points get different values.
     impl::rbf_field solve(std::span<const vec3> values) const;
 
     idx size() const;                    ///< points but for duplicates

@@ -9,8 +9,8 @@
 namespace taut
 {
 
-/// Radial functions phi(r) of interpolation, r >= 0. Those of the first three see all points from everywhere and come
-/// with a polynomial; those of Wendland (1995) are 0 from a radius on.
+/// Radial functions phi(r) of interpolation, r >= 0. The first three have global support and a polynomial; those of
+/// Wendland (1995) have compact support.
 enum class rbf_basis
 {
     linear,      ///< -r: biharmonic in space; with constants
@@ -30,7 +30,7 @@ constexpr bool is_compact(rbf_basis basis)
     return basis == rbf_basis::wendland_c2 || basis == rbf_basis::wendland_c4;
 }
 
-/// The degree of the polynomial that goes with it, -1 for none: the smallest with which the interpolant is unique.
+/// Degree of the polynomial that goes with it, -1 for none: the smallest with which the interpolant is unique.
 constexpr int polynomial_degree(rbf_basis basis)
 {
     return is_compact(basis) ? -1 : basis == rbf_basis::linear ? 0 : 1;

@@ -11,7 +11,7 @@
 namespace taut
 {
 
-/// Points that nothing interpolates. ids() holds them in pairs, as they were given.
+/// Error of points at which the interpolation system is singular. ids() holds them in pairs, as they were given.
 class rbf_error : public error
 {
 public:

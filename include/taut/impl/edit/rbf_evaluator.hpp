@@ -16,14 +16,14 @@
 namespace taut::impl
 {
 
-/// Evaluates fields at many points on a device, one launch a field. The points stay on the device; the fields have one
-/// basis, origin and unit. In double where the device has it.
+/// Evaluates fields at many points on a device, one launch per field. The points are kept on the device; the fields
+/// have one basis, origin and unit. In double where the device has it.
 class rbf_evaluator
 {
 public:
     rbf_evaluator() = default; ///< at no point
 
-    /// field: any of those that will come, as rbf::solve() gives them.
+    /// field: any of those to be evaluated, as returned by rbf::solve().
     rbf_evaluator(queue& q, const rbf_field& field, std::span<const vec3> points)
         : count_(points.size()), radius_(field.radius)
     {

@@ -21,7 +21,7 @@ struct rbf_field
     vec3 origin{0.0};          ///< what coordinates are taken from
     double unit = 1;           ///< and what is one length of them
     std::vector<vec3> centres; ///< in normalised coordinates, without duplicates
-    std::vector<vec3> weights; ///< one a centre
+    std::vector<vec3> weights; ///< one per centre
     std::array<vec3, 4> polynomial{vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)}; ///< constant, then of y.x, y.y and y.z
 
     vec3 operator()(const vec3& x) const

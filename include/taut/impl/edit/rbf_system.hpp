@@ -48,7 +48,7 @@ public:
     {
         if (values.size() != merged_to_.size())
             throw parameter_error("values", std::to_string(values.size()) + " for " +
-                                                std::to_string(merged_to_.size()) + " points; give one a point");
+                                                std::to_string(merged_to_.size()) + " points; give one per point");
         const Eigen::Index n = size(), terms = polynomial_.cols();
         matrix right = matrix::Zero(n + terms, 3);
         std::vector<idx> first(field_.centres.size(), -1), torn;

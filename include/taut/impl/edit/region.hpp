@@ -17,11 +17,11 @@
 namespace taut
 {
 
-/// A disk cut out of a surface.
+/// Region of a surface with disk topology, as a mesh of its own.
 struct surface_region
 {
     mesh<triangle> surface;    ///< the region as a mesh of its own
-    std::vector<idx> vertices; ///< of the whole surface: vertex v of the region is vertices[v] there; increasing
+    std::vector<idx> vertices; ///< vertex v of the region is vertices[v] of the whole surface; increasing
     std::vector<idx> faces;    ///< the same for its triangles
     std::vector<idx> rim;      ///< the boundary loop, in numbers of the region, with the region to its left
 };
@@ -104,8 +104,8 @@ inline void require_in_range(std::span<const idx> ids, idx count, const char* th
 namespace taut
 {
 
-/// The region of these triangles, as they are. Throws region_error where it is no disk, mesh_error where the surface is
-/// not manifold and oriented.
+/// Makes a region of these triangles. Throws region_error where it is no disk, mesh_error where the surface is not
+/// manifold and oriented.
 inline surface_region region_of_faces(const mesh<triangle>& m, std::span<const idx> faces)
 {
     impl::require_in_range(faces, m.cell_count(), "triangle", "triangles");
@@ -115,9 +115,10 @@ inline surface_region region_of_faces(const mesh<triangle>& m, std::span<const i
     return impl::cut_out(m, set);
 }
 
-/// The triangles around a vertex whose corners are within a geodesic distance of it, in the units of the surface. What
-/// they enclose is taken, too, where it has fewer triangles than they; where they touch themselves at a vertex, the
-/// smaller side is left out; triangles with two sides on the rim come or go. Throws as region_of_faces.
+/// Geodesic disk: the triangles around a vertex whose corners are within a geodesic distance of it, in the units of the
+/// surface. Enclosed holes are filled where they have fewer triangles than the disk; where the disk touches itself at a
+/// vertex, the smaller side is left out; triangles with two sides on the rim are added or removed. Throws as
+/// region_of_faces.
 inline surface_region geodesic_disk(const mesh<triangle>& m, idx centre, double radius)
 {
     impl::require_in_range(std::array{centre}, m.vertex_count(), "vertex", "vertices");
@@ -151,8 +152,7 @@ inline surface_region geodesic_disk(const mesh<triangle>& m, idx centre, double 
     return impl::cut_out(m, set);
 }
 
-/// The part of the surface to the left of a closed loop of edges, named by its vertices in their order. Throws as
-/// region_of_faces.
+/// Region to the left of a closed loop of edges, named by its vertices in their order. Throws as region_of_faces.
 inline surface_region region_inside(const mesh<triangle>& m, std::span<const idx> loop)
 {
     impl::require_in_range(loop, m.vertex_count(), "vertex", "vertices");

@@ -11,7 +11,8 @@
 namespace taut
 {
 
-/// Why a part of a surface is no disk. The comment says what region_error::ids() holds, in numbers of the surface.
+/// Reasons why a part of a surface is no disk. The comment says what region_error::ids() holds, in numbers of the
+/// surface.
 enum class region_fault
 {
     empty,              ///< no triangle; the vertex that was asked for, if there is one
@@ -24,7 +25,7 @@ enum class region_fault
     handles             ///< no ids
 };
 
-/// A region that cannot be cut out as a disk. what() has the reason and the remedy.
+/// Error of a region that cannot be cut out as a disk. what() has the reason and the remedy.
 class region_error : public error
 {
 public:

@@ -8,7 +8,7 @@
 namespace taut
 {
 
-/// x -> to + scale * rotation * (x - from)
+/// Similarity transform x -> to + scale * rotation * (x - from).
 struct similarity_transform
 {
     vec3 from{0.0}, to{0.0};

@@ -42,8 +42,9 @@ private:
 namespace taut::io
 {
 
-/// A feature map as the bytes of an OpenEXR file: R, G, B are x, y, z in the frame of the base as 32-bit floats, A is 1
-/// where a triangle covers a texel and 0 elsewhere. Scan lines, not compressed, the first row of the map at the bottom.
+/// Encodes a feature map as an OpenEXR file, and returns its bytes: R, G, B are x, y, z in the frame of the base as
+/// 32-bit floats, A is 1 where a triangle covers a texel and 0 elsewhere. Scan lines, not compressed, the first row of
+/// the map at the bottom.
 inline std::string exr_of(const feature_map& map)
 {
     constexpr std::string_view channels = "ABGR"; // in the order of their names, as the format wants them

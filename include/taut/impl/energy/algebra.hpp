@@ -8,7 +8,7 @@
 namespace taut::energy
 {
 
-/// factor * e.
+/// Energy times a number, factor * e.
 template <class E>
 struct scaled
 {
@@ -23,7 +23,7 @@ struct scaled
     }
 };
 
-/// a + b. A barrier if either is one: a sum with +infinity is +infinity.
+/// Sum of energies a + b. A barrier if either is one: a sum with +infinity is +infinity.
 template <class A, class B>
 struct sum
 {
@@ -38,7 +38,7 @@ struct sum
     }
 };
 
-/// a * b, of positive energies.
+/// Product of positive energies, a * b.
 template <class A, class B>
 struct product
 {

@@ -16,8 +16,8 @@
 namespace taut
 {
 
-/// Any energy behind one type. An energy is traced once per problem, so the indirection costs nothing per element,
-/// and functions that take one need not be templates. Converts from every energy_function.
+/// Type-erased energy. An energy is traced once per problem, so the indirection costs nothing per element, and
+/// functions that take one need not be templates. Converts from every energy_function.
 ///
 /// An energy may exist for triangles, for tetrahedra or for both; calling it in a dimension that it does not have
 /// throws parameter_error. One for triangles alone takes element<T, 2>; one that takes element<T, D> is compiled for D
@@ -32,16 +32,15 @@ public:
     {
     }
 
-    /// The same energy with numbers that it reads as e.parameter(k). They are arguments of its kernels: other values
-    /// take no other kernel.
+    /// Returns the energy with parameters that it reads as e.parameter(k). They are arguments of its kernels: changing
+    /// them needs no new kernel.
     any_energy with_parameters(std::vector<double> parameters) const
     {
         any_energy e = *this;
         e.parameters_ = std::move(parameters);
         return e;
     }
-    /// With numbers that stand for e.attribute(k) where an element comes without its own, and whether elements come
-    /// with directions (cell_data).
+    /// Returns the energy with default values of e.attribute(k), and whether elements have directions (cell_data).
     any_energy with_data(std::vector<double> usual_attributes, bool directions) const
     {
         any_energy e = *this;
@@ -49,7 +48,7 @@ public:
         e.directions_ = directions;
         return e;
     }
-    /// With another stand-in for its Hessian where that is not positive semi-definite.
+    /// Returns the energy with another projection of its Hessian where that is not positive semi-definite.
     any_energy with_eigenvalues(impl::negative_eigenvalues treated) const
     {
         any_energy e = *this;
@@ -65,8 +64,8 @@ public:
     /// True if the energy is +infinity where det S <= 0.
     bool barrier() const { return model_->barrier(); }
 
-    /// The density at one element: a number for T = double, a node of the current tape for T = sym<double>, in
-    /// the precision of the recording.
+    /// Evaluates the density at one element: a number for T = double, a node of the current tape for T = sym<double>,
+    /// in the precision of the recording.
     template <class T, int D>
     T operator()(const element<T, D>& e) const
     {
@@ -80,12 +79,13 @@ public:
         return model_->at(full);
     }
 
-    /// Second derivatives by the entries of S, by columns, filtered, of an energy that says them itself, as
+    /// Second derivatives by the entries of S, by columns, filtered, of an energy that provides them, as
     ///
     ///     template <class T>
     ///     symmetric_matrix<T, D * D> hessian(const element<T, D>&, const eigenvalue_filter<T>&, scalar_type) const;
     ///
-    /// does, traced; nothing of others. Filtered they are to be positive semi-definite, and else what they are.
+    /// does, traced; nothing of others. With a filter the result must be positive semi-definite; without, it is the
+    /// exact Hessian.
     template <int D>
     std::optional<impl::symmetric_matrix<sym<double>, D * D>>
     hessian(const element<sym<double>, D>& e, const impl::eigenvalue_filter<sym<double>>& filter,
@@ -170,7 +170,7 @@ private:
 namespace taut::impl
 {
 
-/// What is minimised where nothing else is asked for: energy::isometric.
+/// Default energy: energy::isometric.
 any_energy default_energy();
 
 } // namespace taut::impl

@@ -6,7 +6,7 @@
 namespace taut::energy
 {
 
-/// Change of area or volume det S + 1/det S: 2 where the measure is kept, blind to shape (eq. 18).
+/// Area (volume) distortion det S + 1/det S: 2 where the measure is kept, blind to shape (eq. 18).
 struct area
 {
     static constexpr bool barrier = true;

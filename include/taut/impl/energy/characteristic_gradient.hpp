@@ -36,8 +36,8 @@ double largest_curvature(const any_energy& energy, double h)
     return most;
 }
 
-/// The largest eigenvalue of the energy's Hessian at rest, about; 1 at a kink, where the quotient grows as 1/h: such an
-/// energy has no stiffness, and 1 is as good as any.
+/// Approximate largest eigenvalue of the energy's Hessian at rest; 1 at a kink, where the quotient grows as 1/h, and
+/// the energy has no stiffness.
 template <int D>
 double stiffness(const any_energy& energy)
 {

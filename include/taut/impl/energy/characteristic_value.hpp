@@ -9,9 +9,9 @@
 namespace taut::impl
 {
 
-/// A rise of the energy above its value at rest that is typical: the largest at a stretch by 2 or by 1/2 along one
-/// axis, of the densities that are finite; 0 if none rises. It says what is much and what is little where the energy
-/// itself cannot, since it is 0 at rest: 2.25 of the isometric energy in the plane, which is 4 there.
+/// Typical increase of the energy above its value at rest: the largest at a stretch by 2 or by 1/2 along one axis, of
+/// the densities that are finite; 0 if none rises. It is the scale of the energy, which may be 0 at rest: 2.25 for the
+/// isometric energy in the plane, which is 4 at rest.
 template <int D>
 double characteristic_value(const any_energy& energy)
 {

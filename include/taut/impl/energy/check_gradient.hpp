@@ -20,7 +20,7 @@
 namespace taut
 {
 
-/// What check_gradient found.
+/// Result of check_gradient().
 struct gradient_check
 {
     double worst = 0;    ///< largest |derivative - finite difference| / max(1, |derivative|) over all trials
@@ -28,17 +28,17 @@ struct gradient_check
     int trials = 0;      ///< elements tried
     bool barrier = true; ///< if the energy says that it is a barrier: it grew without bound as det S fell to 0
 
-    /// The derivative that kernels use agrees with the function to what finite differences can tell.
+    /// True if the derivative of the kernels agrees with the function up to the error of finite differences.
     bool derivative() const { return worst < 1e-5; }
 
-    /// The energy does not see which corner of an element is named first. If it does, so does the map.
+    /// True if the energy does not depend on the first corner of an element. If it does, so does the map.
     bool isotropic() const { return turned < 1e-9; }
 
     /// True if nothing was found.
     explicit operator bool() const { return derivative() && isotropic() && barrier; }
 };
 
-/// What is wrong, in words.
+/// Prints the faults in words.
 inline std::ostream& operator<<(std::ostream& out, const gradient_check& c)
 {
     std::ostringstream text; // so that the user's stream keeps its format
@@ -78,8 +78,8 @@ mat<D> random_rotation(Random& random)
     return R;
 }
 
-/// Whether a function of t grows without bound as t falls to 0, as far as three numbers tell: a bounded one has gained
-/// nearly all there is by the second.
+/// Returns whether a function of t grows without bound as t tends to 0, judged by three values: a bounded one hardly
+/// grows after the second.
 template <class F>
 bool grows_without_bound(F&& f)
 {
@@ -92,11 +92,10 @@ bool grows_without_bound(F&& f)
 namespace taut
 {
 
-/// Holds the traced derivative of an energy against central differences of its host values on random elements of
-/// positive determinant; whether it is the same in turned frames of the rest shape; and whether a barrier is one. For
-/// energies of your own: a tape differentiates what was traced, so a disagreement means that
-/// the function takes other paths for numbers than for traced scalars (a cast, a table, a branch on T), or that it is
-/// not smooth.
+/// Checks an energy on random elements of positive determinant: its traced derivative against central differences of
+/// its host values, its invariance to rotations of the rest shape's frame, and that a barrier is one. For energies of
+/// your own: a tape differentiates what was traced, so a disagreement means that the function branches differently for
+/// numbers and for traced scalars (a cast, a table, a branch on T), or that it is not smooth.
 template <int D>
 gradient_check check_gradient(const any_energy& energy, int trials = 100, unsigned seed = 1)
 {

@@ -11,7 +11,7 @@ namespace taut::impl
 {
 
 /// Derivatives by the corners of a triangle or tetrahedron from those by S = A W^-1; `inverse` is W^-1, upper
-/// triangular. Moving all corners changes nothing, so corner 0 has minus the sum of the others.
+/// triangular. By translation invariance corner 0 has minus the sum of the others.
 template <int D>
 std::array<vec<D>, D + 1> corner_gradient(const mat<D>& by_shape, const mat<D>& inverse)
 {

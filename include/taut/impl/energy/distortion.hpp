@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// The map of element c as an energy sees it: S = A W^-1 (eq. 3), with A the edges of the image from corner 0.
+/// Arguments of an energy for element c of a map: S = A W^-1 (eq. 3), with A the edges of the image from corner 0.
 /// x: #V image points, in the units of `ideal`. The measure is the one of `ideal`.
 template <class Element>
 element<double, Element::dimension> mapped_element(const mesh<Element>& m, const ideal_elements<Element>& ideal,
@@ -30,14 +30,14 @@ element<double, Element::dimension> mapped_element(const mesh<Element>& m, const
 namespace taut
 {
 
-/// An energy's value at an element: +infinity beyond its barrier, where the element is flipped or flat.
+/// Value of an energy at an element: +infinity beyond its barrier, where the element is flipped or flat.
 template <class Energy, int D>
 double bounded(const Energy& energy, const element<double, D>& e)
 {
     return Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
 }
 
-/// An energy's value for every element, as bounded() has it.
+/// Value of an energy for every element; +infinity beyond its barrier.
 template <class Element, class Energy>
 std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Element>& ideal,
                                std::span<const vec<Element::dimension>> x, const Energy& energy)
@@ -52,20 +52,20 @@ std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Elem
     return result;
 }
 
-/// Isometric distortion of every element, for pictures: 4 (triangles) or 2 (tetrahedra) where nothing is distorted.
+/// Isometric distortion of every element: 4 (triangles) or 2 (tetrahedra) where nothing is distorted.
 template <class Element>
 std::vector<double> distortion(const mesh<Element>& m, std::span<const vec<Element::dimension>> x)
 {
     return distortion(m, ideal_elements<Element>(m), x, energy::isometric{});
 }
 
-/// The two means of a value per element.
+/// Means of a value over elements, unweighted and weighted by the rest measure.
 struct means
 {
     double uniform = 0; ///< every element counts 1, as in the paper
     double measure = 0; ///< every element counts its rest area or volume
 
-    /// Sums on the way to means: adds an element, or other sums; then divides them.
+    /// Accumulates sums: adds an element, or other sums; then divides them.
     void add(double value, double by)
     {
         uniform += value;
@@ -83,6 +83,7 @@ struct means
     }
 };
 
+/// Computes both means of values, one value and one measure per element.
 inline means mean(std::span<const double> value, std::span<const double> measure)
 {
     means sums;

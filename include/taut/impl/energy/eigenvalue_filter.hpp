@@ -12,12 +12,11 @@
 namespace taut::impl
 {
 
-/// What a comparison of two numbers is: bool, or sym_bool of traced ones.
+/// Result type of comparing two numbers: bool, or sym_bool of traced ones.
 template <class Real>
 using condition_of = decltype(std::declval<Real>() < std::declval<Real>());
 
-/// How a positive semi-definite matrix stands in for the Hessian of an element: by what becomes of its negative
-/// eigenvalues.
+/// Projection of the Hessian of an element to a positive semi-definite one: treatment of its negative eigenvalues.
 enum class negative_eigenvalues
 {
     clamped, ///< 0: the nearest matrix in the Frobenius norm

@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// What an energy sees of one simplex. T is double, or a traced scalar when the energy becomes a kernel.
+/// Arguments of an energy, for one element. T is double, or a traced scalar when the energy becomes a kernel.
 template <class T, int D>
 struct element
 {
@@ -47,8 +47,8 @@ private:
 namespace taut::energy
 {
 
-/// A density of distortion: a function of one element, smooth where det S > 0. `barrier` says that it tends to
-/// infinity as det S tends to 0 from above, and is +infinity (never clamped) from there on.
+/// Energy density: a function of one element, smooth where det S > 0. `barrier` says that it tends to infinity as det S
+/// tends to 0 from above, and is +infinity (never clamped) from there on.
 template <class E, int D = 2>
 concept energy_function = requires(const E& e, const element<double, D>& x)
 {
@@ -60,14 +60,14 @@ concept energy_function = requires(const E& e, const element<double, D>& x)
         } -> std::convertible_to<bool>;
 };
 
-/// How elements are summed. The paper sums with weight 1; the field has since weighted by the rest measure.
+/// Weights of the sum over elements. The paper sums with weight 1; the field has since weighted by the rest measure.
 enum class weighting
 {
     uniform, ///< every element counts 1
     measure  ///< an element counts its rest area or volume
 };
 
-/// The value of an energy at a rotation. For the energies of this library it is the minimum.
+/// Value of an energy at a rotation. For the energies of this library it is the minimum.
 template <int D, class E>
 double rest_value(const E& e)
 {

@@ -41,8 +41,8 @@ struct neo_hookean
     }
 };
 
-/// The same with mu = e.parameter(0) and lambda = e.parameter(1), as neo_hookean::of_poisson() has them: other values
-/// take no other kernels.
+/// Neo-Hookean energy with mu = e.parameter(0) and lambda = e.parameter(1), as neo_hookean::of_poisson() gives them:
+/// changing them needs no new kernel.
 struct neo_hookean_of_parameters
 {
     static constexpr bool barrier = true;

@@ -12,7 +12,7 @@
 namespace taut::energy
 {
 
-/// The regularised energy of Garanzha et al. 2021 ("Foldover-free maps in 50 lines of code") in dimension D,
+/// Regularised energy of Garanzha et al. 2021 ("Foldover-free maps in 50 lines of code") in dimension D,
 ///
 ///     |S|^2 / chi^(2/D) + area_weight (det S^2 + 1) / chi,   chi = (det S + sqrt(eps^2 + det S^2)) / 2,
 ///
@@ -75,8 +75,8 @@ private:
     }
 };
 
-/// The same for kernels: eps and area_weight are the parameters 0 and 1, so that other values take no other kernel. It
-/// is +infinity or not a number where it is no barrier's domain, for eps = 0.
+/// Regularised energy with eps and area_weight as parameters 0 and 1, so that changing them needs no new kernel. For
+/// eps = 0 it is +infinity or not a number outside the barrier's domain.
 struct regularized_element
 {
     static constexpr bool barrier = false;

@@ -6,7 +6,7 @@
 namespace taut::energy
 {
 
-/// The shape energy to a power: the larger it is, the more the worst elements count. 1 at similarities.
+/// Shape energy raised to a power: the larger it is, the more the worst elements count. 1 at similarities.
 struct shape_power
 {
     static constexpr bool barrier = true;

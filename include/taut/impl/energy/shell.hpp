@@ -17,7 +17,7 @@
 namespace taut::energy
 {
 
-/// A thin shell, as the sum over the hinges of a surface (mesh/hinge.hpp); 0 at rest and at its rigid motions.
+/// Thin shell energy, summed over the hinges of a surface (mesh/hinge.hpp); 0 at rest and at its rigid motions.
 ///
 ///     sum over both triangles of share (tr G (1 + 1/det G) - 4) + h^2 / 3 |e|^2 / (A + A') (2 tan(d/2))^2
 ///

@@ -52,7 +52,7 @@ public:
         return negative_ ? -result : result;
     }
 
-    /// Of its size: 2^(bits - 1) <= |x| < 2^bits.
+    /// Number of bits of its magnitude: 2^(bits - 1) <= |x| < 2^bits.
     int bits() const
     {
         return digits_.empty() ? 0 : static_cast<int>(32 * digits_.size()) - std::countl_zero(digits_.back());

@@ -63,14 +63,14 @@ private:
 namespace taut
 {
 
-/// Vertices inside a surface around which a map winds more than once: the triangles there agree in orientation, but
-/// overlap. A map of a disk onto a simple outline without flipped triangles has none.
+/// Finds branch points: inner vertices of a surface around which a map winds more than once: the triangles there agree
+/// in orientation, but overlap. A map of a disk onto a simple outline without flipped triangles has none.
 ///
 /// Exact: around a vertex v of positive triangles (v, a, b) the link runs counter-clockwise, so it winds once for each
 /// edge (a, b) that crosses the horizontal line through v upwards, and whether it does is a comparison of coordinates.
 /// Vertices on a boundary, or whose triangles differ in orientation, are not looked at.
 ///
-/// cells: #F by 3 vertex indices, in range; x: one image point a vertex. owners: where triangles are the corners of
+/// cells: #F by 3 vertex indices, in range; x: one image point per vertex. owners: where triangles are the corners of
 /// quads, the cell of each; a quad is an edge of the links of its own corners alone. Ascending.
 inline std::vector<idx> branch_points(std::span<const std::array<idx, 3>> cells, std::span<const vec2> x,
                                       std::span<const idx> owners = {})

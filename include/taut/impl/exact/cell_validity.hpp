@@ -16,7 +16,7 @@
 namespace taut
 {
 
-/// Whether the map of a reference cell to a cell of space has a positive Jacobian determinant everywhere.
+/// Validity of a cell: the sign of the Jacobian determinant of the map from its reference cell.
 enum class cell_validity
 {
     valid,    ///< it has: proved
@@ -80,7 +80,7 @@ inline std::pair<jacobian_polynomial, jacobian_polynomial> halves(const jacobian
     return result;
 }
 
-/// The axis along which the coefficients are farthest from linear, which halving mends.
+/// Axis along which the coefficients are farthest from linear, to be halved.
 inline std::size_t most_curved_axis(const jacobian_polynomial& p)
 {
     std::array<double, 3> most{};
@@ -92,7 +92,7 @@ inline std::size_t most_curved_axis(const jacobian_polynomial& p)
     return static_cast<std::size_t>(std::max_element(most.begin(), most.end()) - most.begin());
 }
 
-/// By bounds and halving; boxes: how many parts may be looked at.
+/// Decides by bounds and bisection; boxes: maximum number of parts.
 inline cell_validity validity_of(const jacobian_polynomial& whole, std::size_t boxes)
 {
     std::vector<jacobian_polynomial> open{whole};
@@ -162,7 +162,7 @@ inline jacobian_polynomial pyramid_jacobian(std::span<const vec3> x)
     return p;
 }
 
-/// Whether a simplex at a corner of the cell is not positive, by exact signs.
+/// Returns whether a simplex at a corner of the cell is not positive, by exact signs.
 inline bool has_bad_corner(std::span<const vec3> x)
 {
     const auto all = corner_tetrahedra(x.size());
@@ -175,8 +175,9 @@ inline bool has_bad_corner(std::span<const vec3> x)
 namespace taut
 {
 
-/// Whether a cell of four (tetrahedron), five (pyramid), six (wedge) or eight corners (hexahedron), in VTK's order, is
-/// valid. Its Jacobian determinant is bounded by its Bernstein coefficients, on ever smaller parts of the cell:
+/// Decides whether a cell of four (tetrahedron), five (pyramid), six (wedge) or eight corners (hexahedron), in VTK's
+/// order, is valid. Its Jacobian determinant is bounded by its Bernstein coefficients, on ever smaller parts of the
+/// cell:
 /// Johnen, Remacle and Geuzaine, "Geometrical validity of curvilinear finite elements", 2013. The verdict is rigorous:
 /// corners by exact signs, bounds with a bound of all rounding.
 ///
@@ -184,7 +185,7 @@ namespace taut
 /// determinant of a bilinear map is bilinear, det[x_u, x_v] with x_u linear in v and x_v linear in u, so that its
 /// Bernstein coefficients are its values at the four corners.
 ///
-/// boxes: how many parts may be looked at before it is left undecided
+/// boxes: maximum number of subdivisions before the cell is left undecided
 inline cell_validity validity_of_cell(std::span<const vec3> corners, std::size_t boxes = 2000)
 {
     if (!std::all_of(corners.begin(), corners.end(), [](const vec3& p) { return impl::finite(p); }))

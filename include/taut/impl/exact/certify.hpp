@@ -19,8 +19,8 @@
 namespace taut
 {
 
-/// Whether a piecewise linear map is locally injective: no element is flipped, and in the plane no inner vertex is a
-/// branch point, one that the map winds around more than once (branch_points.hpp); in space no inner edge is one
+/// Certificate of local injectivity of a piecewise linear map: no element is flipped, and in the plane no inner vertex
+/// is a branch point, one that the map winds around more than once (branch_points.hpp); in space no inner edge is one
 /// (branch_edges.hpp). With a simple boundary image the map is injective as a whole.
 struct certificate
 {
@@ -34,7 +34,7 @@ struct certificate
 
     std::size_t defects() const { return flipped + branched; }
 
-    /// Takes over what another one counted; the range of det stays.
+    /// Takes the counts of another certificate; the range of det is kept.
     void take_defects(const certificate& other)
     {
         elements = other.elements;
@@ -52,7 +52,7 @@ struct certificate
 namespace taut::impl
 {
 
-/// What is known of some elements.
+/// Flip counts of a range of elements.
 struct flip_count
 {
     std::size_t flipped = 0;
@@ -72,7 +72,7 @@ struct flip_count
         most = std::max(most, det);
     }
 
-    /// Takes in the count of the elements that follow.
+    /// Adds the counts of the following elements.
     void add(const flip_count& next, std::size_t max_ids)
     {
         flipped += next.flipped;
@@ -94,7 +94,7 @@ namespace taut
 /// cells:   #F by D + 1 vertex indices, in range; positive orientation means det[x1 - x0, ..., xD - x0] > 0
 /// x:       #V image points
 /// measure: #F rest areas or volumes, in the same units as x; empty: det is not divided by anything
-/// max_ids: how many flipped elements and how many branch points to list
+/// max_ids: maximum number of flipped elements, and of branch points, to list
 /// owners:  where elements are the corners of other cells, the cell of each (mesh/cell_corners.hpp)
 template <int D>
 certificate certify(std::span<const std::array<idx, D + 1>> cells, std::span<const vec<D>> x,

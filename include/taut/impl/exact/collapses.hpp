@@ -14,8 +14,8 @@
 namespace taut
 {
 
-/// Whether the corners of a triangle in space lie on a line, or are not finite: its projections on all three coordinate
-/// planes are flat. Exact.
+/// Returns whether the corners of a triangle in space are collinear or not finite: its projections on all three
+/// coordinate planes are flat. Exact.
 inline bool collapsed(const vec3& a, const vec3& b, const vec3& c)
 {
     for (const vec3& p : {a, b, c})
@@ -35,7 +35,7 @@ namespace taut::impl
 
 /// Counts the collapsed triangles of a surface in space as `flipped` in a certificate; det is mapped / rest area.
 ///
-/// cells: #F by 3 vertex indices, in range; rest, x: #V points; max_ids: how many collapsed triangles to list
+/// cells: #F by 3 vertex indices, in range; rest, x: #V points; max_ids: maximum number of collapsed triangles to list
 inline certificate certify_surface(std::span<const std::array<idx, 3>> cells, std::span<const vec3> rest,
                                    std::span<const vec3> x, std::size_t max_ids = 16)
 {

@@ -17,13 +17,13 @@
 namespace taut
 {
 
-/// The convex polygons among the faces of a surface, whichever way they are cut into triangles. Whoever reads a file
-/// may cut them another way: all triangles of all of these ways are positive in a map where every corner turns left.
+/// Convex polygons among the faces of a surface. A reader of a file may triangulate them another way: all triangles of
+/// all of these ways are positive in a map where every corner turns left.
 struct convex_polygons
 {
     std::vector<std::array<idx, 3>> corners; ///< each corner between those before and after it, polygon by polygon
-    std::vector<idx> first{0};               ///< of the corners of each polygon, and one more
-    std::vector<idx> numbers;                ///< of the polygons, as they were given
+    std::vector<idx> first{0};               ///< offset of the corners of each polygon, and one more
+    std::vector<idx> numbers;                ///< numbers of the polygons, as given
 
     idx size() const { return static_cast<idx>(first.size()) - 1; }
     std::span<const std::array<idx, 3>> corners_of(idx polygon) const
@@ -39,8 +39,8 @@ struct convex_polygons
 namespace taut::impl
 {
 
-/// The outline of triangles that make up a polygon, from one vertex to the next, until the next call on a thread; empty
-/// if it is none without holes.
+/// Outline of the triangles of a polygon, valid until the next call on the thread; empty unless it is a polygon without
+/// holes.
 inline std::span<const idx> outline_of(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon)
 {
     static thread_local std::vector<std::array<idx, 2>> sides, border;
@@ -66,7 +66,8 @@ inline std::span<const idx> outline_of(std::span<const std::array<idx, 3>> cells
     return loop;
 }
 
-/// Whether an outline in space is convex, as it is seen along its normal; almost straight corners do not count as that.
+/// Returns whether an outline in space is convex in projection along its normal; nearly straight corners do not count
+/// as convex.
 inline bool is_convex(std::span<const idx> loop, std::span<const vec3> points)
 {
     constexpr double straight = 1e-6; // sine of the angle
@@ -91,7 +92,7 @@ namespace taut
 {
 
 /// Finds the polygons of more than three corners that are convex in space.
-/// cells: triangles; polygon: a number for each, from 0, that of its polygon; points: one a vertex
+/// cells: triangles; polygon: a number for each, from 0, that of its polygon; points: one per vertex
 inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon,
                                             std::span<const vec3> points)
 {
@@ -118,7 +119,7 @@ inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> 
     return found;
 }
 
-/// The polygons that are not convex in a map, or have a straight corner there, ascending; exact.
+/// Finds the polygons that are not strictly convex in a map, ascending; exact.
 inline std::vector<idx> find_concave(const convex_polygons& polygons, std::span<const vec2> x)
 {
     const auto at = [x](idx v) { return x[static_cast<std::size_t>(v)]; };

@@ -382,15 +382,15 @@ inline std::size_t boundary_crossings(std::span<const std::vector<idx>> loops, s
 namespace taut::impl
 {
 
-/// Crossings that were counted as far as it took little time.
+/// Count of crossings up to a limit of work.
 struct crossing_count
 {
     std::size_t pairs = 0;
     bool all = true; ///< false: there are at least so many
 };
 
-/// boundary_crossings() that ends at `most` crossings, or where there is too much to look at: charts that lie on each
-/// other have as many crossings as pairs of edges.
+/// boundary_crossings() that ends at `most` crossings, or at a limit of work: overlapping charts have as many crossings
+/// as pairs of edges.
 inline crossing_count count_boundary_crossings(std::span<const std::vector<idx>> loops, std::span<const vec2> x,
                                                std::size_t most = 100'000)
 {

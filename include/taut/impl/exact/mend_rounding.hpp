@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// How good the simplices around a vertex are: fewer that are not positive first, then the smallest determinant.
+/// Rank of the simplices around a vertex: fewer that are not positive first, then the smallest determinant.
 struct star_rank
 {
     std::size_t defects = 0;
@@ -37,8 +37,8 @@ public:
             for (const idx v : cells[c]) stars_[static_cast<std::size_t>(v)].push_back(c);
     }
 
-    /// Moves the vertices of simplices that are not positive, and where that does not help those around them, too, to
-    /// make room, until none is left or nothing changes.
+    /// Moves the vertices of simplices that are not positive, and if that fails those around them, too, until none is
+    /// left or nothing changes.
     template <class Movable>
     void run(const Movable& movable)
     {
@@ -67,7 +67,7 @@ private:
     }
     orientation judge(std::size_t c) const { return judge(c, std::make_index_sequence<D + 1>{}); }
 
-    /// The vertices of some simplices, and of so many rings around these.
+    /// Vertices of some simplices, and of some rings around these.
     std::vector<std::size_t> around(std::vector<std::size_t> simplices, std::size_t rings) const
     {
         std::vector<char> seen(x_.size(), 0);
@@ -98,7 +98,7 @@ private:
         return r;
     }
 
-    /// Puts a vertex to the best place within a few units of its last digits.
+    /// Moves a vertex to the best position within a few units of its last digits.
     template <class Movable>
     bool improve(std::size_t v, const Movable& movable)
     {
@@ -129,7 +129,7 @@ private:
         return best != from;
     }
 
-    /// So many numbers of single precision further.
+    /// Adds a number of units in the last place of single precision.
     static double moved(double x, int steps)
     {
         auto y = static_cast<float>(x);
@@ -144,9 +144,9 @@ private:
 };
 
 /// Moves vertices whose coordinates are numbers of single precision by a few units of their last digit, where that
-/// makes more simplices positive around them: rounding has flattened some, or turned them over.
+/// makes more simplices positive around them: rounding has flattened some, or inverted them.
 ///
-/// cells: #F by D + 1 vertex indices, in range; x: one point a vertex; movable(v, k): coordinate k of v may change
+/// cells: #F by D + 1 vertex indices, in range; x: one point per vertex; movable(v, k): coordinate k of v may change
 template <int D, class Movable>
 void mend_rounding(std::span<const std::array<idx, D + 1>> cells, std::span<vec<D>> x, const Movable& movable)
 {

@@ -20,8 +20,8 @@
 namespace taut::impl
 {
 
-/// True if d is inside of the circle through a, b, c, a positive triangle, and floating point is sure of that: an exact
-/// filter, so that flips by it end. False where it cannot tell (Shewchuk 1997 has the bound, taken with room to spare).
+/// True if d is inside of the circle through a, b, c, a positive triangle, certainly: an exact filter, so that flips by
+/// it terminate. False where it is uncertain (Shewchuk 1997 has the bound, used with a margin).
 inline bool surely_in_circle(const vec2& a, const vec2& b, const vec2& c, const vec2& d)
 {
     const vec2 p = a - d, q = b - d, r = c - d;
@@ -37,9 +37,8 @@ inline bool surely_in_circle(const vec2& a, const vec2& b, const vec2& c, const 
            16 * std::numeric_limits<double>::epsilon() * (ps + qs + rs) + std::numeric_limits<double>::min();
 }
 
-/// A triangulation of a rectangle to which points are added, and then edges between them that stay: constrained
-/// Delaunay, where floating point can tell. In exact arithmetic all triangles are positive, they cover the rectangle
-/// and no two of them overlap.
+/// Incremental triangulation of a rectangle with points, and then fixed edges between them: constrained Delaunay, up to
+/// floating point. In exact arithmetic all triangles are positive, they cover the rectangle and no two of them overlap.
 ///
 /// Points one by one, found by walking, edges by flips (Sloan 1993): O(n^1.5) and mostly less.
 /// Side s = 3 triangle + k is the edge opposite corner k, with the triangle to its left, as in mesh/facets.hpp.
@@ -66,7 +65,7 @@ public:
     idx twin(idx side) const { return twin_[u(side)]; } ///< the side beyond; none: an edge of the rectangle
     bool is_fixed(idx side) const { return fixed_[u(side)] != 0; }
 
-    /// Adds a point; returns its number, or that of the vertex that is there. near: a vertex to begin the search at.
+    /// Adds a point; returns its number, or that of the vertex that is there. near: initial vertex of the search.
     /// Throws parameter_error unless it is inside of the rectangle.
     idx add(const vec2& p, idx near)
     {
@@ -154,8 +153,8 @@ private:
         for (std::size_t k = 0; k < 3; ++k) corner_[u(corners[k])] = 3 * t + static_cast<idx>(k);
     }
 
-    /// The triangle that has p; none where the way there is barred. Which of two sides to leave by is left to lots:
-    /// walks among fixed edges could go round in circles.
+    /// Triangle that contains p; none where fixed edges block the walk. Of two sides to leave by one is chosen at
+    /// random, as walks among fixed edges could cycle.
     idx find(const vec2& p, idx t, bool barred)
     {
         for (idx from = none;;)
@@ -172,7 +171,7 @@ private:
         }
     }
 
-    /// Adds p, which triangle t has.
+    /// Inserts p into triangle t.
     idx insert(const vec2& p, idx t)
     {
         idx edge = none; // that p lies on
@@ -232,7 +231,7 @@ private:
         join(3 * t + 1, 3 * r + 1, 0);
     }
 
-    /// Flips what is surely not Delaunay, of the suspects and what that leads to.
+    /// Flips edges that are certainly not Delaunay, from the suspects on.
     void make_delaunay()
     {
         while (!suspects_.empty())
@@ -318,9 +317,9 @@ private:
 
     std::vector<vec2> points_;
     std::vector<triangle_corners> cells_;
-    std::vector<idx> twin_;     // one a side
-    std::vector<char> fixed_;   // one a side
-    std::vector<idx> corner_;   // one a vertex: a corner there
+    std::vector<idx> twin_;     // one per side
+    std::vector<char> fixed_;   // one per side
+    std::vector<idx> corner_;   // one per vertex: a corner there
     std::vector<idx> suspects_; // sides to be looked at
     std::uint32_t lots_ = 1;
 };

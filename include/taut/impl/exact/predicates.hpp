@@ -62,7 +62,8 @@ inline orientation exact_orient(const vec3& a, const vec3& b, const vec3& c, con
     return {sign, sign * sum.magnitude()};
 }
 
-/// What is safe to decide in floating point, whether products are fused or not; the exact sum decides the rest.
+/// Floating-point filter: returns whether the sign is certain, with fused products or without; else the exact sum
+/// decides.
 /// `terms` is the sum of the magnitudes of the terms, `ulps` bounds the relative error, `underflow` the absolute one.
 inline bool decided(double det, double terms, double ulps, double underflow)
 {
@@ -70,7 +71,7 @@ inline bool decided(double det, double terms, double ulps, double underflow)
     return std::abs(det) > ulps * u * terms + underflow && terms < std::numeric_limits<double>::max();
 }
 
-/// By the bits: compilers may be told that every number is finite.
+/// Tests finiteness by bits, as compilers may assume that every number is finite.
 inline bool finite(double x)
 {
     return (std::bit_cast<std::uint64_t>(x) >> 52U & 0x7ffU) != 0x7ffU;
@@ -91,7 +92,7 @@ namespace taut
 
 /// Orientation of triangle (a, b, c): det[b - a, c - a], twice its area, positive if counter-clockwise.
 /// The sign is exact for every finite input. A floating-point filter first (Shewchuk 1997 has the error bounds,
-/// taken here with room to spare), the exact sum where the filter cannot tell.
+/// used here with a margin), the exact sum where the filter cannot tell.
 inline orientation orient(const vec2& a, const vec2& b, const vec2& c)
 {
     const double left = (b.x - a.x) * (c.y - a.y);

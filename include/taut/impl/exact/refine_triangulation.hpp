@@ -14,8 +14,8 @@
 namespace taut::impl
 {
 
-/// The point that would give a triangle with a small angle a better neighbour on its shortest edge: its circumcentre,
-/// or one nearer to that edge that sees it at the least angle (Uengoer 2004). None for triangles without small angles.
+/// Off-centre of a triangle with a small angle: its circumcentre, or a point nearer to its shortest edge that sees it
+/// at the minimum angle (Uengoer 2004). None for triangles without small angles.
 inline std::optional<vec2> off_centre(const std::array<vec2, 3>& x)
 {
     constexpr double longest_radius = 1.4142135623730951; // by the shortest edge: angles of at least 20.7 degrees
@@ -34,9 +34,9 @@ inline std::optional<vec2> off_centre(const std::array<vec2, 3>& x)
 }
 
 /// Adds points to chosen triangles of a triangulation until those have no small angles (Delaunay refinement), as far as
-/// that is possible without a point on an edge that is fixed. Triangles that are chosen and others are parted by fixed
-/// edges. Graded: triangles become as large as their distance from small edges allows.
-/// chosen: one flag a triangle; triangles that are added are chosen ones. most: so many points at most.
+/// that is possible without a point on an edge that is fixed. Triangles that are chosen and others are separated by
+/// fixed edges. Graded: triangles become as large as their distance from small edges allows.
+/// chosen: one flag per triangle; new triangles are chosen, too. most: maximum number of points.
 inline void refine(planar_triangulation& t, std::span<const char> chosen, std::size_t most)
 {
     std::deque<idx> bad;

@@ -19,16 +19,16 @@
 namespace taut::impl
 {
 
-/// What a map of the plane is settled to.
+/// Parameters of settling a map of the plane.
 struct settling
 {
-    vec2 (*stored)(vec2) = nullptr;                         ///< what a file makes of a coordinate; null: nothing
+    vec2 (*stored)(vec2) = nullptr;                         ///< rounding of coordinates by the file format; null: none
     double reach = std::numeric_limits<double>::infinity(); ///< farthest that a vertex may be from where it was
     std::span<const char> held = {};                        ///< vertices that stay where they are; or empty
     bool apart = true;                                      ///< borders that meet already are to be parted
 };
 
-/// What is wrong with a map.
+/// Faults of a map.
 struct map_faults
 {
     std::size_t flipped = 0;  ///< triangles that are not positive
@@ -39,7 +39,7 @@ struct map_faults
     explicit operator bool() const { return valid() && concave == 0; }
 };
 
-/// A step from one number that a file holds to the next, about, near a point.
+/// Approximate spacing of a file's numbers near a point.
 inline double spacing_at(const vec2& p, vec2 (*stored)(vec2))
 {
     const double size = std::max({std::abs(p.x), std::abs(p.y), std::numeric_limits<double>::min()});
@@ -152,8 +152,8 @@ private:
 
     int turn(const std::array<idx, 3>& t) const { return orient2d(x_[u(t[0])], x_[u(t[1])], x_[u(t[2])]); }
 
-    /// Pushes the vertices of triangles apart that are thinner than two steps and may not survive rounding: a stack of
-    /// needles gets room from one end to the other.
+    /// Widens triangles that are thinner than two units and may be flattened by rounding: a stack of needles gets room
+    /// from one end to the other.
     void spread()
     {
         constexpr int most_sweeps = 256;
@@ -204,7 +204,7 @@ private:
         return length > 0 ? orient(x_[u(p)], x_[u(q)], x_[u(r)]).det / length : 0;
     }
 
-    /// Moves a vertex by so much, but no farther than that from where it was.
+    /// Moves a vertex, within a maximum distance from its origin.
     void push(idx v, const vec2& by, double most)
     {
         if (is_held(v)) return;
@@ -213,7 +213,7 @@ private:
         x_[u(v)] = origin_[local(v)] + (length > most ? most / length : 1.0) * way;
     }
 
-    /// Counts what is wrong, and finds the vertices where it is.
+    /// Counts the faults, and finds their vertices.
     map_faults look()
     {
         map_faults faults;
@@ -252,8 +252,8 @@ private:
         return count;
     }
 
-    /// How wrong the triangles at v are: how far they are from the other side, in steps, and how many; and edges that
-    /// are shorter than a step, which make triangles flat.
+    /// Penalty of the triangles at v: how far they are from the other side, in steps, and how many; and edges that are
+    /// shorter than a step, which make triangles flat.
     double flips_at(idx v) const
     {
         double sum = 0;
@@ -279,7 +279,7 @@ private:
 
     bool is_held(idx v) const { return !how_.held.empty() && how_.held[u(v)] != 0; }
 
-    /// Moves a vertex there, as a file holds it, if it is within reach.
+    /// Moves a vertex to a rounded position, if it is within reach.
     bool place(idx v, const vec2& at)
     {
         const vec2 p = how_.stored == nullptr ? at : how_.stored(at);
@@ -288,7 +288,7 @@ private:
         return true;
     }
 
-    /// Moves a vertex to the nearest place, of those in eight directions, at which less is wrong.
+    /// Moves a vertex to the nearest position, in eight directions, with fewer faults.
     bool mend(idx v)
     {
         if (is_held(v)) return false;
@@ -318,8 +318,8 @@ private:
         return fewest < least;
     }
 
-    /// Moves one of the vertices of a corner so that it turns left, and no triangle is turned over, no border is met
-    /// and fewer corners are wrong than before.
+    /// Moves one of the vertices of a corner so that it turns left, without flipped triangles or crossings, and with
+    /// fewer faults.
     bool make_convex(const std::array<idx, 3>& corner)
     {
         for (const std::size_t k : {1U, 0U, 2U})
@@ -359,13 +359,13 @@ private:
     std::vector<idx> bad_;
 };
 
-/// Moves vertices of a map of one piece, as a chart is, by no more than it takes, so that triangles which are turned
-/// over, as by rounding, borders that meet, and corners of polygons that should be convex come right: vertex by vertex,
-/// in exact arithmetic. What was right stays so.
+/// Corrects a map of one piece, as a chart, by minimal motions of vertices: triangles flipped by rounding, borders that
+/// meet, and concave corners of polygons that should be convex; vertex by vertex, in exact arithmetic. Valid parts
+/// remain valid.
 /// cells:   of the piece, whose vertices are numbered from `first`
 /// corners: triples of them that are to turn left, as those of convex_polygons
-/// x:       of the whole map: where vertices are, and then as a file holds them
-/// Returns what is wrong still.
+/// x: of the whole map: positions, then the rounded ones
+/// Returns the remaining faults.
 inline map_faults settle_piece(std::span<const std::array<idx, 3>> cells, std::span<const std::array<idx, 3>> corners,
                                idx first, idx end, std::span<vec2> x, const settling& how = {})
 {

@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// What a simplex is of its cell, in meshes of cells that are no simplices (mesh/cell_corners.hpp). `owners` has the
+/// Role of a simplex in its cell, in meshes of cells that are no simplices (mesh/cell_corners.hpp). `owners` has the
 /// cell of each simplex, those of a cell one after the other.
 enum class simplex_role : unsigned char
 {
@@ -20,8 +20,8 @@ enum class simplex_role : unsigned char
     edge            ///< a further one, at an edge of a hexahedron or wedge
 };
 
-/// Of n simplices of a cell, those at its corners, which come first: 8 of a hexahedron also where the 24 at its edges
-/// follow, 6 of a wedge where 6 do.
+/// Number of corner simplices among the n simplices of a cell, which come first: 8 of a hexahedron also where the 24 at
+/// its edges follow, 6 of a wedge where 6 do.
 constexpr std::size_t corner_simplex_count(std::size_t n)
 {
     return n == 32 ? 8 : n == 12 ? 6 : n;

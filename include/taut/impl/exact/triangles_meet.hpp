@@ -11,8 +11,8 @@
 namespace taut::impl
 {
 
-/// Whether a segment meets a triangle in space, its edges and corners included. Exact; false for a triangle without
-/// area.
+/// Returns whether a segment meets a triangle in space, its edges and corners included. Exact; false for a triangle
+/// without area.
 inline bool segment_meets(const vec3& p, const vec3& q, const std::array<vec3, 3>& t)
 {
     const auto& [a, b, c] = t;
@@ -36,8 +36,8 @@ inline bool segment_meets(const vec3& p, const vec3& q, const std::array<vec3, 3
     return false;
 }
 
-/// Whether two triangles of a surface in space meet elsewhere than in the corner or the edge that they share: they
-/// touch, cross or overlap. Exact; of a triangle without area, its edges.
+/// Returns whether two triangles of a surface in space meet elsewhere than in the corner or the edge that they share:
+/// they touch, cross or overlap. Exact; of a triangle without area, its edges.
 ///
 /// x: points; s, t: indices of corners, in range
 inline bool triangles_meet(std::span<const vec3> x, const std::array<idx, 3>& s, const std::array<idx, 3>& t)

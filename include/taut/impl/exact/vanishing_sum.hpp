@@ -11,8 +11,8 @@
 
 #include <taut/impl/exact/big_integer.hpp>
 
-/// Whether a sum of vectors with weights that are not negative vanishes: what proves that inequalities contradict each
-/// other (Farkas).
+/// Search for a vanishing sum of vectors with nonnegative weights, which proves that inequalities contradict each other
+/// (Farkas' lemma).
 namespace taut::impl
 {
 

@@ -116,8 +116,7 @@ inline std::string join_glb(std::string json, std::string_view bin, const std::v
     return bytes;
 }
 
-/// The file of a buffer, which must lie in the folder of the document: a stranger's model must not lay open others.
-/// Throws io_error.
+/// Path of the file of a buffer, which must be in the folder of the document, as models are untrusted. Throws io_error.
 inline std::filesystem::path file_of_buffer(const gltf_source& source, const gltf_object& buffer,
                                             const std::string& uri)
 {
@@ -213,7 +212,7 @@ inline gltf_source gltf_source_of(std::string_view bytes, const std::string& pat
     return source;
 }
 
-/// Where the buffers of a document lie.
+/// Locations of the buffers of a document.
 struct buffer_places
 {
     std::set<std::filesystem::path> files; ///< beside it

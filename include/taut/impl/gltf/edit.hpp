@@ -15,7 +15,7 @@
 namespace taut::io::impl
 {
 
-/// Calls f with each "bufferView" of a value that is one; what extras hold is nobody's business.
+/// Calls f with each "bufferView" of a value that is one; extras are ignored.
 template <class Json, class F>
 void for_each_view_reference(Json& value, F f)
 {
@@ -30,7 +30,7 @@ void for_each_view_reference(Json& value, F f)
     }
 }
 
-/// How often each accessor is named by what is no primitive: animations, skins, instances.
+/// Number of references to each accessor from other than primitives: animations, skins, instances.
 inline std::vector<std::size_t> other_uses(const gltf_source& source)
 {
     std::vector<std::size_t> uses(root_of(source).items("accessors").size());
@@ -200,7 +200,7 @@ private:
         return bytes;
     }
 
-    /// What of a buffer lies in unused ones of its views and in no other, in multiples of 8 bytes.
+    /// Ranges of a buffer that only unused views cover, in multiples of 8 bytes.
     std::vector<range> unused_ranges(const std::vector<std::size_t>& views, const std::vector<char>& unused) const
     {
         struct step

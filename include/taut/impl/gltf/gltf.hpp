@@ -19,34 +19,34 @@
 namespace taut::io
 {
 
-/// The triangles of all meshes of a glTF file, in its order, and the file itself.
+/// Model of a glTF file: the triangles of all its meshes, in its order, and the file itself.
 ///
-/// Corners of a mesh with equal coordinates are one point, whatever glTF has split vertices for: normals, texture
-/// coordinates, materials. Points of different meshes are not joined. Coordinates are those of meshes: a mesh that is
-/// drawn by several nodes is there once, and what nodes do to its size is not regarded. Strips and fans are triangles;
-/// points and lines are left out, and so are primitives that draw the same triangles as an earlier one.
+/// Corners of a mesh with equal coordinates are one point, although glTF splits vertices for normals, texture
+/// coordinates and materials. Points of different meshes are not welded. Coordinates are those of meshes: a mesh drawn
+/// by several nodes appears once, and the scale of nodes is ignored. Strips and fans are triangles; points and lines
+/// are left out, and so are primitives that draw the same triangles as an earlier one.
 struct gltf_model
 {
     std::vector<vec3> points; ///< those that triangles name, in the order of first appearance; may be not finite
-    std::vector<std::array<idx, 3>> triangles; ///< of points; may name one twice, or have none of area
+    std::vector<std::array<idx, 3>> triangles; ///< vertex indices into points; may name one twice, or have no area
     std::vector<std::array<idx, 3>> vertices;  ///< the vertex of glTF at each corner: those that share attributes are
                                                ///< numbered one after the other
-    std::vector<idx> meshes;                   ///< of each triangle
-    std::vector<idx> materials;                ///< of each triangle; -1: none
-    std::vector<vec2> texcoords;               ///< of the set that was asked for, as in the file: v runs downwards
-    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: none
-    std::vector<std::string> notes;                 ///< what was changed in reading or making it, in sentences
+    std::vector<idx> meshes;                   ///< mesh of each triangle
+    std::vector<idx> materials;                ///< material of each triangle; -1: none
+    std::vector<vec2> texcoords; ///< texture coordinates of the requested set, as in the file: v runs downwards
+    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple per triangle, into texcoords; -1: none
+    std::vector<std::string> notes;                 ///< changes in reading or making it, in sentences
     impl::gltf_source source;                       ///< the file
 };
 
-/// Whether a name ends in .gltf or .glb, in either case.
+/// Returns whether a file name ends in .gltf or .glb, in either case.
 bool is_gltf(const std::filesystem::path& path);
 
 /// Reads a .gltf file with its buffers, or a .glb file; the bytes tell which. Coordinates may be quantized
 /// (KHR_mesh_quantization) and sparse. No file is read but the document and the buffers that its bufferViews name,
 /// which lie in its folder. Memory and time are bounded by the bytes of these. texcoord_set: the N of TEXCOORD_N that
-/// texcoords are read from Throws io_error: unreadable, malformed, buffers that lie elsewhere, or compressed with Draco
-/// or meshopt; mesh_error (empty) without triangles.
+/// texcoords are read from. Throws io_error: unreadable, malformed, buffers that lie elsewhere, or compressed with
+/// Draco or meshopt; mesh_error (empty) without triangles.
 gltf_model read_gltf(const std::filesystem::path& path, int texcoord_set = 0);
 
 } // namespace taut::io
@@ -62,25 +62,25 @@ gltf_model parse_gltf(std::string_view bytes, const std::string& path = "glTF fi
 namespace taut::io
 {
 
-/// A surface as a new glTF document, to be written with texture coordinates: one mesh, points as floats in their order,
-/// normals weighted by area, and an attribute _SOURCE_VERTEX that tells the point of each vertex: two unsigned shorts,
-/// the lower and the upper 16 bits of its number. Triangles keep their numbers; one that names a point that is not
-/// there or not finite draws nothing.
+/// Makes a new glTF document of a surface, to be written with texture coordinates: one mesh, points as floats in their
+/// order, normals weighted by area, and an attribute _SOURCE_VERTEX that tells the point of each vertex: two unsigned
+/// shorts, the lower and the upper 16 bits of its number. Triangles keep their numbers; one with a missing or
+/// non-finite point draws nothing.
 ///
 /// Points farther from 0 than the surface is large, or where floats end, are relative to a node with a translation, and
 /// a scale if need be, which are doubles: rounding moves nothing by more than 2e-7 of its size. A note counts triangles
 /// that have no area in floats all the same. Throws mesh_error (empty).
 gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
 
-/// How texture coordinates are written.
+/// Number format of written texture coordinates.
 enum class gltf_numbers
 {
     floats,
-    fractions ///< of 65535, from 0 to 1: unsigned shorts, normalized
+    fractions ///< multiples of 1/65535, from 0 to 1: unsigned shorts, normalized
 };
 
-/// Texture coordinates as a glTF file holds them, and as they are read back bit for bit: the nearest such number.
-/// Certify these if the file is to be certain.
+/// Rounds texture coordinates to the numbers of a glTF file, which are read back bit for bit. Certify these rather than
+/// the unrounded ones.
 vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers = gltf_numbers::floats);
 
 } // namespace taut::io
@@ -102,16 +102,15 @@ std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path&
 namespace taut::io
 {
 
-/// The files to be written for a model with other texture coordinates: one, or a .gltf and the .bin beside it. Their
-/// bytes are made here.
+/// Encodes a model with new texture coordinates as the files to be written: one, or a .gltf and the .bin beside it.
+/// Their bytes are made here.
 ///
-/// The set is added or replaced in all primitives with triangles. A vertex becomes several only where its corners
-/// differ in texture coordinates; vertices keep their numbers, new ones follow, and have all attributes of theirs bit
-/// for bit. All else is as it was: every member of the JSON, the bytes of every bufferView that needs no change, and
-/// images, whose URIs are made relative to the new file. All buffers become one.
+/// The set is added or replaced in all primitives with triangles. A vertex is split only where its corners differ in
+/// texture coordinates; vertices keep their numbers, new ones follow, with all attributes bit for bit. All else is
+/// kept: every member of the JSON, the bytes of every bufferView that needs no change, and images, whose URIs are made
+/// relative to the new file. All buffers become one.
 ///
-/// corner_uv:    one a corner of model.triangles, v downwards; a triangle with a corner that is not finite has no
-/// place:
+/// corner_uv: one per corner of model.triangles, v downwards; a triangle with a corner that is not finite has no place:
 ///               it lies in one point, (0, 0)
 /// texcoord_set: the N of TEXCOORD_N
 /// path:         ends in .glb or .gltf
@@ -121,7 +120,7 @@ std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const g
                                       std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
                                       gltf_numbers numbers = gltf_numbers::floats);
 
-/// Writes them; they appear together or not at all.
+/// Writes a model with new texture coordinates; its files appear together or not at all.
 void write_gltf(const std::filesystem::path& path, const gltf_model& model,
                 std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
                 gltf_numbers numbers = gltf_numbers::floats);

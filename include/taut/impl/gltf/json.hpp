@@ -15,8 +15,8 @@
 namespace taut::io::impl
 {
 
-/// The members of a JSON object in the order of the text, as nlohmann::ordered_map, but found in logarithmic time: an
-/// object of a stranger may have any number of members.
+/// The members of a JSON object in the order of the text, as nlohmann::ordered_map, but found in logarithmic time, as
+/// untrusted objects may have any number of members.
 template <class Key, class T, class Less = std::less<Key>, class Allocator = std::allocator<std::pair<const Key, T>>>
 class ordered_members : public std::vector<std::pair<const Key, T>, Allocator>
 {

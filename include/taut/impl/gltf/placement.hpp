@@ -13,11 +13,11 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/exact/predicates.hpp>
 
-/// Where coordinates lie that floats are to hold.
+/// Placement of coordinates so that floats hold them.
 namespace taut::io::impl
 {
 
-/// What a node does to the points of its mesh.
+/// Transform of a node.
 struct gltf_placement
 {
     vec3 translation = vec3(0.0);
@@ -34,7 +34,7 @@ struct gltf_placement
     }
 };
 
-/// Whether three points lie on a line or in one point, in exact arithmetic.
+/// Returns whether three points lie on a line or in one point, in exact arithmetic.
 inline bool collinear(const vec3& a, const vec3& b, const vec3& c)
 {
     for (int i = 0; i < 3; ++i)

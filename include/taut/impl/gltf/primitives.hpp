@@ -17,7 +17,7 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/gltf/accessor.hpp>
 
-/// What the meshes of a glTF document are drawn from.
+/// Primitives of the meshes of a glTF document.
 namespace taut::io::impl
 {
 
@@ -101,7 +101,7 @@ inline gltf_primitive primitive_of(const gltf_source& source, std::size_t mesh, 
         {
             const std::size_t n = accessor_of(source, attribute.second).count;
             if (count.value_or(n) != n)
-                object.fail("has attributes of different counts: " + attribute.first + "; give each one a vertex");
+                object.fail("has attributes of different counts: " + attribute.first + "; give each one per vertex");
             count = n;
         }
     };

@@ -108,7 +108,7 @@ private:
         return static_cast<idx>(model_.points.size() - welded_.points().size()) + number;
     }
 
-    /// Where the texture coordinates of a primitive begin among those of the model; -1 if it has none.
+    /// Offset of the texture coordinates of a primitive among those of the model; -1 if it has none.
     idx texcoords_of(const gltf_primitive& p)
     {
         const std::size_t* const accessor = p.attribute(set_);

@@ -114,7 +114,7 @@ inline gltf_object item_of(const gltf_source& source, const char* list, std::siz
     return {items[i], std::string(list) + ' ' + std::to_string(i), source.path};
 }
 
-/// How much is made of a file: a small one may name the same bytes again and again, and elements that are nowhere.
+/// Limit of the memory made of a file: a small one may reference the same bytes repeatedly, or elements without data.
 class gltf_allowance
 {
 public:
@@ -139,7 +139,7 @@ private:
     std::size_t left_;
 };
 
-/// Whether brackets are nested deeper than in any glTF.
+/// Returns whether brackets are nested deeper than in any glTF.
 inline bool is_deep(std::string_view text)
 {
     constexpr int deepest = 256; // a document is walked through recursively

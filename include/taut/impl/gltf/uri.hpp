@@ -16,7 +16,7 @@ inline bool is_data_uri(std::string_view uri)
     return uri.starts_with("data:");
 }
 
-/// Whether a URI begins with a scheme such as data: or https:, and thus names no file beside the document.
+/// Returns whether a URI begins with a scheme such as data: or https:, and thus names no file beside the document.
 inline bool has_scheme(std::string_view uri)
 {
     const auto end = uri.find_first_of(":/?#");

@@ -135,7 +135,7 @@ private:
         }
     }
 
-    /// Whether corners of a primitive have new vertices.
+    /// Returns whether corners of a primitive have new vertices.
     bool moved(const gltf_primitive& p) const
     {
         const auto old = primitives_.vertices_of(p.pool);

@@ -19,14 +19,14 @@ struct affine_weights
     std::array<double, 4> weights{1, 0, 0, 0};
 };
 
-/// The search for the affine combination of at most four points that stands best for the origin.
+/// Search for the affine combination of at most four points that best represents the origin.
 class affine_search
 {
 public:
     /// points: one to most_points of them, none of them the origin. Their least sum of |w| |p|^2 + misfit |sum of w
-    /// p|^2, sum of |w| <= 2: where the points surround the origin, the corners of the Delaunay tetrahedron that holds
-    /// it, as the first term is lifted on a paraboloid; where they lie on a surface, three of them and what the origin
-    /// rises above them; never far from them.
+    /// p|^2, sum of |w| <= 2: where the points surround the origin, the corners of the Delaunay tetrahedron that
+    /// contains it, as the first term lifts the points to a paraboloid; where they lie on a surface, three of them and
+    /// the distance of the origin from their plane; never distant points.
     static affine_weights best(std::span<const vec3> points)
     {
         affine_search s(points);
@@ -64,7 +64,7 @@ private:
 
     void one(std::size_t i) { offer((1 + misfit) * squared_[i], {i, i, i, i}, {1, 0, 0, 0}); }
 
-    /// The point of an edge that is next to the origin.
+    /// Closest point of an edge to the origin.
     void two(std::size_t i, std::size_t j)
     {
         const vec3 d = p_[j] - p_[i];
@@ -74,7 +74,7 @@ private:
         offer((1 - t) * squared_[i] + t * squared_[j] + misfit * glm::dot(rest, rest), {i, j, j, j}, {1 - t, t, 0, 0});
     }
 
-    /// The foot of the origin on a plane.
+    /// Projection of the origin to a plane.
     void three(std::size_t i, std::size_t j, std::size_t k)
     {
         const vec3 n = glm::cross(p_[j] - p_[i], p_[k] - p_[i]);

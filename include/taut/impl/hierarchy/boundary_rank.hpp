@@ -11,9 +11,9 @@
 namespace taut::impl
 {
 
-/// Of each vertex of a volume, how many directions the normals of its boundary faces span: 0 inside, 1 on a smooth part
-/// of the boundary, 2 on a crease, 3 in a corner. After the classes of Adams, "Parallel multigrid solvers for 3D
-/// unstructured finite element problems".
+/// Rank of each vertex of a volume, the number of directions that the normals of its boundary faces span: 0 inside, 1
+/// on a smooth part of the boundary, 2 on a crease, 3 in a corner. After the classes of Adams, "Parallel multigrid
+/// solvers for 3D unstructured finite element problems".
 ///
 /// faces: of the boundary; unit: a power of two that brings lengths near 1
 inline std::vector<char> boundary_rank(const mesh<tetrahedron>& m, std::span<const std::array<idx, 3>> faces,

@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// A volume on some of its vertices, with cells.
+/// Coarser volume mesh on some of the vertices.
 struct coarser_volume
 {
     std::vector<idx> vertices; ///< numbers in the mesh, ascending
@@ -22,14 +22,14 @@ struct coarser_volume
     std::vector<idx> into;     ///< of each vertex of the mesh the one of `volume` that it went into; -1 without cells
 };
 
-/// Thins a volume by half-edge collapses to a mesh whose boundary is the same surface, but for what small features are
-/// worth, until it has `factor` times fewer vertices that are not kept, or no more can go.
+/// Coarsens a volume by half-edge collapses to a mesh whose boundary is the same surface, except for small features,
+/// until it has `factor` times fewer vertices that are not kept, or no more can be removed.
 ///
 /// m: no cell inverted, none overlapping another
-/// kept: one flag a vertex, or none at all: a vertex with one is removed only where all of its neighbours have one
-/// proceed: asked between rounds: go on?
+/// kept: one flag per vertex, or none at all: a vertex with one is removed only where all of its neighbours have one
+/// proceed: called between rounds; returning false ends them
 ///
-/// Throws parameter_error. About 10 us a vertex.
+/// Throws parameter_error. About 10 us per vertex.
 inline coarser_volume make_coarser(const mesh<tetrahedron>& m, std::span<const char> kept = {}, double factor = 8,
                                    const std::function<bool()>& proceed = {})
 {

@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// A surface that is being decimated.
+/// Surface under decimation.
 struct thinning_surface
 {
     std::vector<vec3> points;
@@ -24,7 +24,7 @@ struct thinning_surface
     std::vector<char> keep; ///< never removed
 };
 
-/// What a collapse must satisfy. Strict at first, relaxed when too few vertices qualify.
+/// Conditions of a collapse. Strict at first, relaxed when too few vertices qualify.
 struct collapse_rules
 {
     double quality;         ///< least quality of a new triangle, unless the star has a worse one already; 0 to 1
@@ -99,8 +99,8 @@ inline bool breaks_surface(const thinning_surface& m, std::span<const idx> ring,
     return false;
 }
 
-/// The neighbour that v is best pulled into (a half-edge collapse), as a position in its ring, or -1. Boundary vertices
-/// only move along the boundary.
+/// Finds the best target of a half-edge collapse of v, as a position in its ring, or -1. Boundary vertices are
+/// collapsed along the boundary only.
 inline int choose_target(const thinning_surface& m, idx v, const flat_star& s, const collapse_rules& rules)
 {
     const auto ring = m.rings[v];

@@ -13,12 +13,11 @@
 namespace taut::impl
 {
 
-/// Vertices with more neighbours than this are never removed: few triangulations of their star are good, and the
-/// arrays below stay small.
+/// Maximum valence of removed vertices: few triangulations of larger stars are good, and the arrays below stay small.
 constexpr std::size_t largest_star = 10;
 
-/// The triangles around a vertex, laid in the plane with the vertex at the origin: distances from it are kept, angles
-/// are scaled to fill the full turn (as in MAPS; Lee et al. 1998). A planar star keeps its shape.
+/// Star of a vertex, flattened to the plane with the vertex at the origin: distances from it are kept, angles are
+/// scaled to fill the full turn (as in MAPS; Lee et al. 1998). A planar star keeps its shape.
 struct flat_star
 {
     std::size_t size = 0;                  ///< neighbours

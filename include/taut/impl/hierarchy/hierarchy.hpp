@@ -13,14 +13,14 @@
 namespace taut::impl
 {
 
-/// How to build a hierarchy.
+/// Parameters of a hierarchy.
 struct hierarchy_params
 {
     double factor = 8;     ///< vertices of a level / vertices of the next coarser one; 2 to 64
     idx min_vertices = 50; ///< of the coarsest level, about; at least 3
     unsigned threads = 0;  ///< at most so many; 0: as many as the machine runs at once. The result does not change
 
-    /// Asked between rounds of thinning: go on? Once it says no, no further level is made.
+    /// Callback between rounds of coarsening; once it returns false, no further level is made.
     std::function<bool()> proceed = {};
 
     /// Throws parameter_error with the name of a field outside its domain.
@@ -31,9 +31,9 @@ struct hierarchy_params
     }
 };
 
-/// A coarser and coarser mesh on fewer and fewer of the vertices, with the way back: what multigrid and coarse-to-fine
-/// methods work on. It holds connectivity and weights, no positions, so it serves any energy, any pins that were kept,
-/// and other frames of the same mesh. make_hierarchy() is overloaded by element.
+/// Hierarchy of coarser meshes on subsets of the vertices, with prolongations, for multigrid and coarse-to-fine
+/// methods. It holds connectivity and weights, no positions, so it serves any energy, any pins that were kept, and
+/// other frames of the same mesh. make_hierarchy() is overloaded by element.
 template <class Element>
 struct hierarchy
 {
@@ -43,7 +43,7 @@ struct hierarchy
         std::vector<typename mesh<Element>::cell> cells; ///< oriented like the mesh; numbers in `vertices`; of volumes
                                                          ///< on the finest level only
     };
-    /// Between a level and the next coarser one.
+    /// Transfer between a level and the next coarser one.
     struct step
     {
         prolongation<static_cast<std::size_t>(Element::corners)> interpolation; ///< from the coarser to the finer level

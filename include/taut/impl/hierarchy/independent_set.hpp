@@ -27,8 +27,8 @@ inline std::uint32_t scramble(std::uint32_t x)
     return x ^ (x >> 16U);
 }
 
-/// The key of a vertex: dense places and low valences first, by coarse classes; in a class by lot, since any fixed
-/// pattern would show in the coarse triangles.
+/// Key of a vertex: dense regions and low valences first, by coarse classes; pseudo-random within a class, since any
+/// fixed pattern would show in the coarse triangles.
 ///
 /// size: of its star, relative to the mean;  salt: another one each round
 inline std::uint32_t make_key(idx v, std::size_t valence, float size, std::uint32_t salt)
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    /// Two passes, each of which writes only what the other reads.
+    /// Runs two passes, each of which writes only what the other reads.
     void decide(const thinning_surface& m, unsigned threads)
     {
         const auto each = [&](auto&& body)

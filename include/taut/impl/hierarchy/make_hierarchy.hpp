@@ -17,13 +17,13 @@ namespace taut::impl
 {
 
 /// Builds the hierarchy of an oriented surface, with or without boundary, holes and handles. Each level has the same
-/// topology. Boundary vertices are pulled along the boundary only. Vertices without triangles have no part in it.
+/// topology. Boundary vertices are collapsed along the boundary only. Vertices without triangles are ignored.
 ///
-/// keep: one flag a vertex, or none at all. Kept vertices (pins, a fixed boundary) are on every level, and no triangle
-///       is made whose three corners are all kept: it could not be repaired where they are pinned
+/// keep: one flag per vertex, or none at all. Kept vertices (pins, a fixed boundary) are on every level, and no
+///       triangle is made whose three corners are all kept: it could not be repaired where they are pinned
 ///
-/// A surface that cannot be thinned has one level. Linear time, about 1 us a triangle on two cores; the result takes 70
-/// bytes a triangle, 160 while it is built.
+/// A surface that cannot be coarsened has one level. Linear time, about 1 us per triangle on two cores; the result
+/// takes 70 bytes per triangle, 160 while it is built.
 /// Throws mesh_error (non_manifold_vertex) if the triangles of a vertex do not form one oriented fan, parameter_error.
 inline hierarchy<triangle> make_hierarchy(const mesh<triangle>& m, std::span<const char> keep = {},
                                           const hierarchy_params& params = {})

@@ -20,7 +20,7 @@
 namespace taut::impl
 {
 
-/// The levels of a cloud of the points of a mesh.
+/// Makes the levels of a cloud of the points of a mesh.
 template <class Element>
 hierarchy<Element> thinned_levels(const mesh<Element>& m, point_cloud cloud, const hierarchy_params& params)
 {
@@ -43,7 +43,7 @@ hierarchy<Element> thinned_levels(const mesh<Element>& m, point_cloud cloud, con
     return h;
 }
 
-/// The points of a mesh, near 1, in a cloud where none stands out.
+/// Cloud of the points of a mesh, scaled to about 1, all of one rank.
 template <class Element>
 point_cloud cloud_of(const mesh<Element>& m, std::span<const char> held)
 {
@@ -58,14 +58,14 @@ point_cloud cloud_of(const mesh<Element>& m, std::span<const char> held)
 
 /// Builds the hierarchy of a volume: each level is a maximal independent set of the vertices of the next finer one,
 /// some 5 to 7 times fewer, whatever params.factor is, and interpolates from up to four of them, with weights that can
-/// be negative where the boundary is curved. Coarser levels have no cells: no shape of the mesh can stop the thinning,
-/// and solvers need weights only.
+/// be negative where the boundary is curved. Coarser levels have no cells: no shape of the mesh can stop the
+/// coarsening, and solvers need weights only.
 ///
-/// held: one flag a vertex, or none at all. Held vertices (pins, a fixed boundary) are thinned like the others;
+/// held: one flag per vertex, or none at all. Fixed vertices (pins, a fixed boundary) are coarsened like the others;
 ///       nothing is interpolated to them
 /// boundary: the faces of the boundary, where the cells overlap, so that their own do not say it; else empty
 ///
-/// Linear time, about 5 us a vertex on two cores. Throws parameter_error.
+/// Linear time, about 5 us per vertex on two cores. Throws parameter_error.
 inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::span<const char> held = {},
                                              const hierarchy_params& params = {},
                                              std::span<const std::array<idx, 3>> boundary = {})
@@ -78,7 +78,7 @@ inline hierarchy<tetrahedron> make_hierarchy(const mesh<tetrahedron>& m, std::sp
     return impl::thinned_levels(m, std::move(cloud), params);
 }
 
-/// The same of the hinges of a surface: none of its vertices stands out.
+/// The same of the hinges of a surface: all of its vertices have one rank.
 inline hierarchy<hinge> make_hierarchy(const mesh<hinge>& m, std::span<const char> held = {},
                                        const hierarchy_params& params = {})
 {

@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// A volume that is being thinned: points and who is near whom. Cells are not needed, so nothing can stand in the way.
+/// Volume under coarsening: points and their neighbours. Cells are not needed, so any shape can be coarsened.
 struct point_cloud
 {
     std::vector<vec3> points;
@@ -24,8 +24,8 @@ struct point_cloud
     std::vector<char> held; ///< does not move
 };
 
-/// Some of the vertices, no two of them neighbours, and each other one a neighbour of one of them: those of greater
-/// rank first, then by number. Ascending; without the vertices that have no neighbours.
+/// Computes a maximal independent set of vertices: those of greater rank first, then by number. Ascending; without the
+/// vertices that have no neighbours.
 inline std::vector<idx> maximal_independent_set(const point_cloud& cloud)
 {
     const std::size_t n = cloud.points.size();
@@ -51,7 +51,7 @@ inline std::vector<idx> maximal_independent_set(const point_cloud& cloud)
 }
 
 /// Interpolation from the chosen points to all: each from chosen ones at most two edges away. Linear functions are
-/// reproduced but near the boundary, where the row is affine_search's best. Rows of held vertices are 0.
+/// reproduced but near the boundary, where the row is affine_search's best. Rows of fixed vertices are 0.
 inline prolongation<4> interpolate(const point_cloud& cloud, std::span<const idx> chosen, unsigned threads)
 {
     const std::size_t n = cloud.points.size();
@@ -106,8 +106,7 @@ inline prolongation<4> interpolate(const point_cloud& cloud, std::span<const idx
     return P;
 }
 
-/// The chosen points as a cloud of their own: neighbours are those that some vertex is interpolated from, as the
-/// corners of a tetrahedron are.
+/// Cloud of the chosen points: neighbours are points that some vertex is interpolated from together.
 inline point_cloud thinned(const point_cloud& cloud, std::span<const idx> chosen, const prolongation<4>& P,
                            unsigned threads)
 {

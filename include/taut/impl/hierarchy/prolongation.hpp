@@ -21,8 +21,8 @@ struct prolongation
     std::vector<std::array<idx, K>> columns;
     std::vector<std::array<double, K>> weights;
 
-    /// Of each coarse vertex: the places 4 * row + k with a weight, ascending; what restriction gathers. 4 for any
-    /// K, so that readers need no division.
+    /// Transpose for restriction: of each coarse vertex the places 4 * row + k with a weight, ascending. 4 for any K,
+    /// so that readers need no division.
     csr transpose;
 
     idx rows() const { return static_cast<idx>(columns.size()); }

@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// How to bring removed vertices back into a map.
+/// Parameters of the reinsertion of removed vertices into a map.
 struct reinsert_params
 {
     int newton_steps =
@@ -30,7 +30,7 @@ struct reinsert_params
     }
 };
 
-/// A map of a level, from one of the next coarser level.
+/// Map of a level, from one of the next coarser level.
 struct reinsertion
 {
     std::vector<vec2> uv;
@@ -63,8 +63,8 @@ inline vec2 mean_value_point(const ring_image& ring, std::span<const vec3> rest)
     return p / total;
 }
 
-/// Where a boundary vertex lies relative to its two neighbours along the boundary when its star is laid flat, in the
-/// frame of their images.
+/// Position of a boundary vertex relative to its two neighbours along the boundary with its star unfolded to the plane,
+/// in the frame of their images.
 inline vec2 boundary_point(const ring_image& ring, std::span<const vec3> rest)
 {
     double angle = 0;
@@ -106,12 +106,12 @@ inline bool place(const removals<triangle>& removed, std::size_t r, std::span<co
     return valid;
 }
 
-/// Brings the vertices between levels `level` and `level` + 1 back into a map of the coarser one, round by round. A
-/// coarse map without flipped triangles gives a fine one without, exactly; what cannot be placed so is reported.
-/// Vertices of the coarse level stay where they are, bit for bit.
+/// Reinserts the vertices between levels `level` and `level` + 1 into a map of the coarser one, round by round. A
+/// coarse map without flipped triangles gives a fine one without, exactly; vertices that cannot be placed so are
+/// reported. Vertices of the coarse level keep their positions bit for bit.
 ///
 /// points: rest positions of the vertices of the finest level, in this or another frame
-/// coarse: one image a vertex of level + 1
+/// coarse: one image per vertex of level + 1
 ///
 /// Throws parameter_error if an argument has the wrong size.
 inline reinsertion reinsert(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
@@ -152,9 +152,8 @@ inline reinsertion reinsert(const hierarchy<triangle>& h, std::size_t level, std
     return result;
 }
 
-/// The factor that makes a map of a level least distorted by the isometric energy: (b / a)^(1/4) with
-/// a = sum of area |S|^2 and b = sum of area |S|^2 / det^2 over the cells. 1 if that is not finite and positive.
-/// Meant for maps without pins.
+/// Scale that minimises the isometric energy of a map of a level: (b / a)^(1/4) with a = sum of area |S|^2 and b = sum
+/// of area |S|^2 / det^2 over the cells. 1 if that is not finite and positive. Meant for maps without pins.
 inline double isometric_scale(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
                               std::span<const vec2> uv, unsigned threads = 0)
 {

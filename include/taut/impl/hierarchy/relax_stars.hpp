@@ -25,13 +25,13 @@ struct relaxed_energy
     double before, after;
 };
 
-/// A map of a surface whose vertices are improved one at a time, where triangles are badly distorted.
-/// Every step keeps all triangles surely positive.
+/// Map of a surface whose vertices are improved one at a time, where triangles are badly distorted. Every step keeps
+/// all triangles certainly positive.
 class star_relaxation
 {
 public:
-    /// points: rest positions of the vertices that `numbers` names, one a vertex here; cells: of the surface, numbered
-    /// here. fixed: flags of vertices that stay, one a vertex here, or empty. All are referred to.
+    /// points: rest positions of the vertices that `numbers` names, one per vertex here; cells: of the surface,
+    /// numbered here. fixed: flags of fixed vertices, one per vertex here, or empty. All are referred to.
     star_relaxation(std::span<const vec3> points, std::span<const idx> numbers,
                     std::span<const std::array<idx, 3>> cells, std::span<const char> fixed, unsigned threads)
         : points_(points), numbers_(numbers), cells_(cells), fixed_(fixed), threads_(threads), density_(cells.size())
@@ -105,7 +105,7 @@ private:
             threads_);
     }
 
-    /// The neighbours of v counter-clockwise, along the boundary first; false if there are too many.
+    /// Finds the neighbours of v counter-clockwise, along the boundary first; returns false if there are too many.
     bool ring_of(std::size_t v, std::array<idx, largest_star>& ring, std::size_t& size, bool& open) const
     {
         std::array<std::array<idx, 2>, largest_star> edge;

@@ -10,16 +10,15 @@
 namespace taut::impl
 {
 
-/// How a level was thinned to the next coarser one; what it takes to undo that is each element's own. Of volumes and
-/// hinges nothing: their coarser levels have no cells that vertices could go back into.
+/// Record of the coarsening of a level, from which vertices are reinserted; specialised by element. Empty for volumes
+/// and hinges, whose coarser levels have no cells to insert vertices into.
 template <class Element>
 struct removals
 {
 };
 
-/// Of surfaces: vertices pulled into a neighbour each, in rounds. In a round no two
-/// removed vertices are neighbours, so all of it can be done, and undone, at once. Numbers are those of the finer
-/// level.
+/// Record for surfaces: half-edge collapses in rounds. In a round no two removed vertices are neighbours, so all of it
+/// can be done, and undone, at once. Numbers are those of the finer level.
 template <>
 struct removals<triangle>
 {

@@ -52,10 +52,10 @@ inline bool consecutive(int i, int j, int n, bool open)
     return apart == 1 || (!open && apart == n - 1);
 }
 
-/// The two other corners of a triangle at a vertex, counter-clockwise.
+/// Finds the two other corners of a triangle at a vertex, counter-clockwise.
 using spoke_pair = std::pair<idx, idx>;
 
-/// Puts the triangles around a vertex in order. Returns false if they do not form one fan.
+/// Sorts the triangles around a vertex. Returns false if they do not form one fan.
 inline bool order_fan(std::span<spoke_pair> fan, bool& open)
 {
     const std::size_t n = fan.size();
@@ -115,7 +115,7 @@ inline bool order_fan(std::span<spoke_pair> fan, bool& open)
     return open || current.second == fan[0].first;
 }
 
-/// The rings of a surface of `count` vertices, and which vertices are on the boundary.
+/// Computes the rings of a surface of `count` vertices, and marks the boundary vertices.
 /// Throws mesh_error (non_manifold_vertex) if the triangles of a vertex do not form one oriented fan.
 inline ring_table make_rings(std::span<const std::array<idx, 3>> cells, std::size_t count, std::vector<char>& open,
                              unsigned threads)

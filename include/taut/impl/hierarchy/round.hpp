@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// The collapses of one round. No two removed vertices are neighbours, so their stars have no triangle in common.
+/// Collapses of one round. No two removed vertices are neighbours, so their stars have no triangle in common.
 struct collapse_round
 {
     struct collapse
@@ -42,8 +42,8 @@ inline bool makes_edge(const thinning_surface& m, const collapse_round::collapse
                                       m.open[static_cast<std::size_t>(c.vertex)] != 0);
 }
 
-/// True if another collapse of the round makes an edge of this one too and goes before it. Both removed vertices are
-/// then neighbours of both ends.
+/// True if another collapse of the round makes an edge of this one too and has priority. Both removed vertices are then
+/// neighbours of both ends.
 inline bool loses(const thinning_surface& m, const collapse_round& round, const collapse_round::collapse& mine,
                   std::span<const std::uint32_t> key)
 {

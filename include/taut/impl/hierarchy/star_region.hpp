@@ -13,8 +13,8 @@
 namespace taut::impl
 {
 
-/// True if triangle (a, b, c) is counter-clockwise, beyond any doubt that rounding leaves: then its exact determinant
-/// is positive. The bound is that of Shewchuk (1997), taken with room to spare.
+/// True if triangle (a, b, c) is counter-clockwise beyond the rounding error: then its exact determinant is positive.
+/// The bound is that of Shewchuk (1997), with a margin.
 inline bool surely_positive(const vec2& a, const vec2& b, const vec2& c)
 {
     const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
@@ -40,7 +40,7 @@ struct ring_image
     }
 };
 
-/// A convex polygon that half-planes cut down.
+/// Convex polygon, clipped by half-planes.
 class convex_region
 {
 public:
@@ -53,7 +53,7 @@ public:
         corner_[3] = {low.x, high.y};
     }
 
-    /// Keeps what is left of the line from a to b.
+    /// Clips to the left side of the line from a to b.
     void cut(const vec2& a, const vec2& b)
     {
         std::array<vec2, capacity> kept;

@@ -18,9 +18,9 @@
 namespace taut::impl
 {
 
-/// Thins a surface in rounds of independent half-edge collapses (Dobkin, Kirkpatrick 1985), following each removed
-/// vertex on the surface that is left (MAPS: Lee, Sweldens, Schroeder, Cowsar, Dobkin 1998). Numbers stay those of the
-/// surface at the start. Nothing depends on the number of threads.
+/// Coarsens a surface in rounds of independent half-edge collapses (Dobkin, Kirkpatrick 1985), tracking each removed
+/// vertex on the remaining surface (MAPS: Lee, Sweldens, Schroeder, Cowsar, Dobkin 1998). The numbering of the original
+/// surface is kept. The result does not depend on the number of threads.
 class thinning
 {
 public:
@@ -48,7 +48,7 @@ public:
 
     std::size_t alive() const { return alive_.size(); }
 
-    /// Removes vertices until `goal` are left or hardly any can go, or until proceed(), if given, says no.
+    /// Removes vertices until `goal` remain, hardly any can be removed, or proceed(), if given, returns false.
     void run(std::size_t goal, const std::function<bool()>& proceed = {})
     {
         // When few qualify the rules are relaxed, for the rest of the level.
@@ -69,7 +69,7 @@ public:
         }
     }
 
-    /// What run() did. The object is then spent, but for coarse().
+    /// Result of run(). Afterwards only coarse() may be called.
     std::pair<prolongation<3>, removals<triangle>> result()
     {
         std::vector<idx> number(surface_.points.size(), 0);
@@ -98,10 +98,10 @@ public:
         return {std::move(P), std::move(log_)};
     }
 
-    /// The vertices that are left, ascending; the numbering of the coarse surface.
+    /// Remaining vertices, ascending; the numbering of the coarse surface.
     const std::vector<idx>& remaining() const { return alive_; }
 
-    /// The surface that is left, renumbered.
+    /// Remaining surface, renumbered.
     thinning_surface coarse() const
     {
         std::vector<idx> number(surface_.points.size(), 0);
@@ -180,7 +180,7 @@ private:
             });
     }
 
-    /// Flattens the stars of the chosen vertices and finds their targets.
+    /// Flattens the stars of the chosen vertices and finds the targets of their collapses.
     void evaluate(std::span<const idx> chosen, const collapse_rules& rules)
     {
         round_.collapses.resize(chosen.size());
@@ -210,7 +210,8 @@ private:
             threads_, 128);
     }
 
-    /// Where two collapses make the same edge, the one with the larger key is given up; so is one without a target.
+    /// Drops clashing collapses: of two that make the same edge, the one with the larger key; and those without a
+    /// target.
     void drop_clashes()
     {
         given_up_.assign(round_.collapses.size(), 0);
@@ -277,8 +278,7 @@ private:
         log_.rounds.push_back(static_cast<idx>(log_.vertex.size()));
     }
 
-    /// Writes all rings anew. Each piece finds its place when it is done, so that their order in memory is left to
-    /// chance; nothing looks at it.
+    /// Rewrites all rings. Their order in memory is nondeterministic; nothing depends on it.
     void splice_rings()
     {
         spare_.ranges.resize(surface_.rings.ranges.size());

@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// Where a fine vertex lies on the surface that is left: a triangle of it and barycentric coordinates.
+/// Point of the coarse surface that a fine vertex lies on: a triangle and barycentric coordinates.
 struct surface_point
 {
     std::array<idx, 3> vertices{};
@@ -71,7 +71,7 @@ inline surface_point locate(const vec2& x, std::size_t t, std::span<const idx> r
     return p;
 }
 
-/// Follows a point through a round. At most one corner of its triangle is removed, and all others are in its star.
+/// Tracks a point through a round. At most one corner of its triangle is removed, and all others are in its star.
 inline void follow(const thinning_surface& m, const collapse_round& round, surface_point& p)
 {
     for (std::size_t k = 0; k < 3; ++k)

@@ -28,23 +28,22 @@ inline double tetrahedron_quality(const vec3& a, const vec3& b, const vec3& c, c
     return 432 * det * std::abs(det) / (squares * squares * squares);
 }
 
-/// What a collapse must satisfy. Strict at first, relaxed when too few vertices qualify.
+/// Conditions of a collapse. Strict at first, relaxed when too few vertices qualify.
 struct volume_collapse_rules
 {
     double quality; ///< least tetrahedron_quality of a new cell, unless the star has a worse one already
     double facing;  ///< least cosine between the normals of a face of the boundary before and after
 };
 
-/// A volume that is being decimated: vertices are pulled into a neighbour each (half-edge collapses), those of the
-/// boundary along the boundary. All cells stay positive and the boundary stays a surface (the link condition: Dey et
-/// al. 1999, "Topology preserving edge contraction").
+/// Volume under decimation by half-edge collapses, at the boundary along the boundary. All cells stay positive and the
+/// boundary stays a manifold (the link condition: Dey et al. 1999, "Topology preserving edge contraction").
 class volume_thinning
 {
 public:
     using cell = mesh<tetrahedron>::cell;
 
-    /// m: without inverted cells. kept: one flag a vertex, or none; those that have one stay unless all their
-    /// neighbours have one, too.
+    /// m: without inverted cells. kept: one flag per vertex, or none; flagged ones are kept unless all their neighbours
+    /// are flagged, too.
     volume_thinning(const mesh<tetrahedron>& m, std::span<const char> kept)
         : points_(m.points()),
           cells_(m.cells()),
@@ -68,7 +67,7 @@ public:
         }
     }
 
-    /// Removes vertices, no two of them neighbours; how many without a flag.
+    /// Removes independent vertices; returns the number of those without a flag.
     std::size_t round(const volume_collapse_rules& rules)
     {
         std::size_t removed = 0;
@@ -87,7 +86,7 @@ public:
         return removed;
     }
 
-    /// Of each vertex the one that it is in now: itself where it is left, -1 without cells.
+    /// Vertex that each vertex is collapsed into: itself where it remains, -1 without cells.
     std::vector<idx> into() const
     {
         auto last = into_;
@@ -96,7 +95,7 @@ public:
         return last;
     }
 
-    /// Those that are left, in the numbers of the mesh.
+    /// Remaining vertices, in the numbering of the mesh.
     std::vector<cell> cells() const
     {
         std::vector<cell> left;
@@ -118,7 +117,7 @@ private:
         return std::find(corners.begin(), corners.end(), v) != corners.end();
     }
 
-    /// The face opposite v of a cell, such that with v in front the order is that of the cell.
+    /// Face opposite v of a cell, oriented such that v followed by it has the orientation of the cell.
     static link_face opposite(const cell& t, idx v)
     {
         if (t[0] == v) return {t[1], t[2], t[3]};
@@ -171,7 +170,7 @@ private:
         return std::all_of(vertices.begin(), vertices.end(), [this](idx v) { return is_kept(v); });
     }
 
-    /// The neighbour that v is best pulled into, or -1.
+    /// Finds the best target of a collapse of v, or -1.
     idx target(idx v, const volume_collapse_rules& rules) const
     {
         double least = rules.quality;
@@ -207,7 +206,7 @@ private:
         return worst;
     }
 
-    /// Whether no face of the boundary turns much.
+    /// Returns whether no boundary normal turns much.
     bool faces_stay(idx v, idx u, double least) const
     {
         return std::all_of(rim_.begin(), rim_.end(),
@@ -221,8 +220,8 @@ private:
                            });
     }
 
-    /// The link condition: what the links of v and u have in common is the link of their edge, in the volume and, where
-    /// v is on the boundary, there. mark_ has stamp_ at the ring of v.
+    /// Link condition: the intersection of the links of v and u is the link of their edge, in the volume and, where v
+    /// is on the boundary, there. mark_ has stamp_ at the ring of v.
     bool is_link(idx v, idx u) const
     {
         std::vector<idx> shared;
@@ -302,7 +301,7 @@ private:
     std::vector<idx> into_;
     std::vector<std::vector<idx>> stars_;
 
-    std::vector<link_face> link_; ///< of the vertex at hand
+    std::vector<link_face> link_; ///< of the current vertex
     std::vector<idx> ring_;
     std::vector<edge> rim_;
     std::vector<unsigned> mark_; ///< stamp_: in ring_

@@ -21,7 +21,7 @@ using new_file = posix_file;
 #else
 using new_file = plain_file;
 
-/// Nothing that a handler of signals could do is known here.
+/// Does nothing: there is no signal handler on systems without POSIX.
 inline void remove_temporaries() noexcept {}
 #endif
 
@@ -30,10 +30,9 @@ inline void remove_temporaries() noexcept {}
 namespace taut::io
 {
 
-/// A file that appears complete or not at all: it is written beside the one of that name, which it replaces in
+/// Output file that appears complete or not at all: it is written beside the one of that name, which it replaces in
 /// commit(). Without commit() nothing is left behind, and an older file stays. Permissions of the older file stay, its
-/// other hard links keep the older text, a link is followed. What is no regular file (a device, a pipe, /dev/stdout)
-/// is written directly.
+/// other hard links keep the older text, a link is followed. Devices, pipes and /dev/stdout are written directly.
 /// All members throw io_error, also where the disk is full.
 class atomic_file
 {
@@ -42,7 +41,7 @@ public:
 
     void write(std::string_view text) { file_.write(text); }
 
-    /// Finishes the file and gives it its name.
+    /// Finishes the file and renames it to its final name.
     void commit()
     {
         finish();
@@ -51,8 +50,8 @@ public:
         sync_folder();
     }
 
-    /// The steps of commit(), for several files that are to appear together: all is on the disk; it has a hidden name,
-    /// where it had none; it has its own. otherwise: added to the message if that fails.
+    /// Steps of commit(), for several files that are to appear together: flush to the disk; link to a hidden name, if
+    /// it has none; rename. otherwise: added to the message if that fails.
     void finish() { file_.finish(); }
     void link() { file_.link(); }
     void rename(const std::string& otherwise = {}) { file_.rename(otherwise); }
@@ -67,15 +66,14 @@ private:
 namespace taut::io::impl
 {
 
-/// Whether what is written to a path goes there at once: a device, a pipe, an open file such as /dev/stdout. Throws
-/// io_error for a folder.
+/// Returns whether a path is written directly: a device, a pipe, an open file such as /dev/stdout. Throws io_error for
+/// a folder.
 inline bool is_stream(const std::filesystem::path& path)
 {
     return impl::resolve_target(path).stream;
 }
 
-/// Throws io_error if a file could not be written there as things are: no permission, no folder, no room. Changes
-/// nothing.
+/// Checks that a file can be written: permission, folder, room. Changes nothing. Throws io_error.
 inline void require_writable(const std::filesystem::path& path)
 {
     impl::new_file::require_writable(impl::resolve_target(path));

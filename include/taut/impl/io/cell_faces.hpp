@@ -21,8 +21,8 @@
 namespace taut::io::impl
 {
 
-/// A side of a cell of the file's dimension: a face, its normal pointing out where the cell is positive, or in the
-/// plane an edge, with the cell to its left.
+/// Side of a cell of the file's dimension: a face, its normal pointing out where the cell is positive, or in the plane
+/// an edge, with the cell to its left.
 struct cell_face
 {
     idx cell;                    ///< as for_each_cell() counts
@@ -39,7 +39,7 @@ struct cell_face
 namespace taut::io
 {
 
-/// The sides of all cells of the file's dimension, those of a cell together, and which meet.
+/// Faces of all cells of the file's dimension, in the order of the cells, and their adjacency.
 struct cell_faces
 {
     static constexpr idx boundary = -1; ///< no cell is on the other side
@@ -48,7 +48,7 @@ struct cell_faces
     std::vector<impl::cell_face> faces;
     std::vector<idx> twin; ///< the other side of each, or boundary, or crowded
 
-    /// Whether a side goes around as its twin does: one of the two cells has its corners in the other order.
+    /// Returns whether a side goes around as its twin does: one of the two cells has its corners in the other order.
     bool clashes(std::size_t side) const
     {
         if (twin[side] < 0) return false;
@@ -101,7 +101,7 @@ inline std::span<const std::array<int, 4>> face_table(cell_kind kind)
 namespace taut::io
 {
 
-/// Time O(n log(largest valence)).
+/// Computes the faces of all cells and their adjacency. Time O(n log(largest valence)).
 inline cell_faces cell_faces_of(const volume_file& file)
 {
     std::size_t n = 0;
@@ -176,8 +176,8 @@ inline cell_faces cell_faces_of(const volume_file& file)
 namespace taut::io::impl
 {
 
-/// Numbers of the cells of a file by what they are labelled with, 0: with nothing. Of gmsh files physical groups or
-/// else entities count, of VTK arrays those that are no numbers of single cells.
+/// Labels of the cells of a file as numbers, 0: none. For gmsh files these are physical groups or else entities, for
+/// VTK integer arrays that do not number single cells.
 inline std::vector<idx> region_numbers(const volume_file& file)
 {
     std::size_t cells = 0;
@@ -203,9 +203,9 @@ inline std::vector<idx> region_numbers(const volume_file& file)
     return numbers;
 }
 
-/// The sides between cells of different labels, references or regions, those inside that a labelled face of the file
-/// lies on (in the plane a line), and, if boundary says so, the sides of the boundary: what a mesh keeps while it is
-/// smoothed. A piece has the same labels on both sides and on its faces.
+/// Facets that smoothing preserves: sides between cells of different labels, references or regions, inner ones with a
+/// labelled face of the file (in the plane a line), and, if `boundary`, the sides of the boundary. A piece has the same
+/// labels on both sides and on its faces.
 inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, bool boundary)
 {
     const auto numbers = impl::region_numbers(file);
@@ -250,9 +250,9 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
     return kept;
 }
 
-/// What keeps the cells of a file from being a mesh whose cells can all be positive and not overlap: pairs with the
-/// same corners (duplicate_cell), neighbours oriented differently (inconsistent_orientation), and sides that three
-/// cells or more share (non_manifold_facet), each with all of its kind. Cells count as for_each_cell() does.
+/// Finds faults of the cells of a file, because of which they cannot all be positive and disjoint: pairs with the same
+/// corners (duplicate_cell), neighbours oriented differently (inconsistent_orientation), and sides that three cells or
+/// more share (non_manifold_facet), each with all of its kind. Cells count as for_each_cell() does.
 inline std::vector<mesh_finding> check_sides(const volume_file& file)
 {
     const auto sides = cell_faces_of(file);

@@ -9,19 +9,19 @@
 namespace taut::io
 {
 
-/// A surface cut open along the seams of its texture coordinates, so that each vertex has one: the vertices of the file
+/// Surface cut open along the seams of its texture coordinates, so that each vertex has one: the vertices of the file
 /// in their order, then a further one for each further sheet of a vertex on a seam. Triangles keep their order.
 struct cut_surface
 {
     mesh<triangle> surface;
-    std::vector<vec2> uv;          ///< of the file, one a vertex; 0 for a vertex without a triangle
-    std::vector<idx> origins;      ///< the vertex of the file, one a vertex
+    std::vector<vec2> uv;          ///< of the file, one per vertex; 0 for a vertex without a triangle
+    std::vector<idx> origins;      ///< the vertex of the file, one per vertex
     std::vector<idx> corners;      ///< the vertex of each corner of file_faces
     std::size_t seam_vertices = 0; ///< vertices of the file that lie on a seam
 };
 
 /// Cuts a surface open along the edges where the texture coordinates of neighbours disagree in value; many programs
-/// write one vt a corner. Nothing if every vertex has one texture coordinate.
+/// write one vt per corner. Nothing if every vertex has one texture coordinate.
 /// Throws texcoord_error if a corner has none.
 std::optional<cut_surface> cut_seams(const surface_file& file);
 

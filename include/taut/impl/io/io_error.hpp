@@ -12,7 +12,7 @@
 namespace taut::io::impl
 {
 
-/// Where in a file: a line of a text, counted from 1, or a byte of a binary file, counted from 0.
+/// Position in a file: a line of a text, counted from 1, or a byte of a binary file, counted from 0.
 struct file_place
 {
     enum unit
@@ -42,7 +42,7 @@ inline std::string place_prefix(const std::string& path, const std::optional<fil
 namespace taut::io
 {
 
-/// A file that cannot be read, understood or written.
+/// Error of a file that cannot be read, parsed or written.
 class io_error : public error
 {
 public:

@@ -14,8 +14,8 @@
 namespace taut
 {
 
-/// The problem of a mesh and a map of it, one position a vertex, under the hard pins; springs take no part in
-/// untangling. Held coordinates get their values, whatever the map has there.
+/// Makes the untangling problem of a mesh and a map of it, one position per vertex, under the hard pins; springs are
+/// ignored. Pinned coordinates of the map are replaced by their targets.
 /// Throws constraint_error (wrong_count) unless map and constraints are of this mesh.
 template <class Element>
 untangle_problem<Element> make_untangle_problem(mesh<Element> rest, std::vector<vec<Element::dimension>> initial,
@@ -25,7 +25,7 @@ untangle_problem<Element> make_untangle_problem(mesh<Element> rest, std::vector<
     return {std::move(rest), std::move(initial), pins.held()};
 }
 
-/// The problem that a file states: its fixed vertices are pinned where the initial map has them.
+/// Makes the problem that a file states: its fixed vertices are pinned where the initial map has them.
 /// Throws mesh_error where the cells make no mesh.
 template <class Element>
 untangle_problem<Element> make_untangle_problem(io::prob_file<Element> file)
@@ -35,7 +35,7 @@ untangle_problem<Element> make_untangle_problem(io::prob_file<Element> file)
     return {mesh<Element>(std::move(file.rest), std::move(file.cells)), std::move(file.initial), std::move(held)};
 }
 
-/// Adds the pins and springs of a file. Throws constraint_error.
+/// Adds the pins and springs of a file to constraints. Throws constraint_error.
 template <class Element>
 void add_pins(constraints<Element>& to, const std::vector<io::pin<Element::dimension>>& pins)
 {

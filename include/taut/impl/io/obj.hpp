@@ -73,7 +73,7 @@ public:
         return true;
     }
 
-    /// Whether the faces name only what there is.
+    /// Returns whether the faces name only what there is.
     bool in_range() const
     {
         const auto within = [](const largest& most, std::size_t count)
@@ -114,7 +114,7 @@ private:
         soup_.add_texcoord({u, in_.content_ends() ? 0.0 : in_.number()}, in_.path(), in_.here());
     }
 
-    /// One that is none is no reason to refuse a file whose normals nobody may need.
+    /// Reads a normal; an invalid one is stored as not a number, as normals may not be needed.
     void read_normal()
     {
         soup_.normals.emplace_back(std::numeric_limits<double>::quiet_NaN());
@@ -142,7 +142,7 @@ private:
         soup_.end_polygon(first, in_.path(), in_.here());
     }
 
-    /// Of the last corner; that of one which cannot be is none.
+    /// Adds the normal of the last corner; an invalid index means none.
     void add_corner_normal(long long i)
     {
         absolute_ = absolute_ && i > 0;
@@ -193,7 +193,7 @@ private:
                "; numbers start at 1, or at -1 from the end";
     }
 
-    /// What a face names that is not there; empty if all is.
+    /// Describes the indices of a face that are out of range; empty if there are none.
     std::string beyond(const largest& most, std::size_t count, const std::string& what) const
     {
         if (most.number <= static_cast<long long>(count)) return {};

@@ -168,9 +168,9 @@ private:
     bool has_texcoords_ = false, has_colours_ = false, has_normals_ = false;
 };
 
-/// Reads OFF text: OFF, COFF, NOFF, STOFF and their combinations, one vertex a line, with comments, and with the counts
-/// beside or below the header. Normals, colours and comments are kept for write_obj. Polygons are split into triangles,
-/// which the notes say. `path` is named in errors. Throws io_error, mesh_error.
+/// Reads OFF text: OFF, COFF, NOFF, STOFF and their combinations, one vertex per line, with comments, and with the
+/// counts beside or below the header. Normals, colours and comments are kept for write_obj. Polygons are split into
+/// triangles, which the notes say. `path` is named in errors. Throws io_error, mesh_error.
 inline surface_file parse_off(std::string_view text, const std::string& path = "OFF text")
 {
     return impl::off_reader(text, path, true).read().finish(path);

@@ -23,7 +23,7 @@
 namespace taut::io
 {
 
-/// A line of a file of pins. An infinite weight makes it hard: the coordinates in `held` (bit k: coordinate k) hold
+/// One line of a file of pins. An infinite weight makes it hard: the coordinates in `held` (bit k: coordinate k) hold
 /// exactly. A finite one makes it a spring to `target`, of which all coordinates are given.
 template <int D>
 struct pin
@@ -155,8 +155,8 @@ pin<D> read_pin(const pin_reader& in)
 
 /// Reads pins as CSV: `vertex,u,v[,weight]`, for volumes `vertex,x,y,z[,weight]`; vertices count from 0. No weight, or
 /// inf: a hard pin, whose empty coordinates are free. A finite weight: a spring. A header line, empty lines and
-/// comments from # are passed over. A coordinate of a vertex may be given once.
-/// vertices: how many the mesh has. Throws io_error with the line.
+/// comments from # are ignored. A coordinate of a vertex may be given once.
+/// vertices: their number in the mesh. Throws io_error with the line.
 template <int D>
 std::vector<pin<D>> parse_pins(std::string_view text, const std::string& path = "pins",
                                idx vertices = std::numeric_limits<idx>::max())
@@ -193,6 +193,8 @@ std::vector<pin<D>> parse_pins(std::string_view text, const std::string& path = 
 namespace taut::io
 {
 
+/// Reads a file of pins and springs. vertices: their number in the mesh. Throws io_error with the line: unreadable,
+/// malformed, or a vertex out of range.
 template <int D>
 std::vector<pin<D>> read_pins(const std::filesystem::path& path, idx vertices = std::numeric_limits<idx>::max())
 {

@@ -84,7 +84,7 @@ private:
         for (; n > 0; --n) f(in_.next(p.type));
     }
 
-    /// What the properties of a vertex are, by the first of each group; -1 for all else.
+    /// Kinds of vertex properties, by the first of each group; -1 for all else.
     enum : std::size_t
     {
         position = 0,
@@ -114,7 +114,7 @@ private:
         return -1;
     }
 
-    /// What stands for full colour: integers count to the end of their range.
+    /// Value of full colour: the maximum of an integer type.
     static double full(ply_type t) { return t == ply_type::uint8 ? 255 : t == ply_type::uint16 ? 65535 : 1; }
 
     void read_vertices(const ply_element& e)

@@ -21,8 +21,8 @@
 namespace taut::io
 {
 
-/// An untangling problem as a file states it: every index is in range, every number finite, no cell names a vertex
-/// twice. Whether it has a solution is another matter.
+/// Untangling problem as a file states it: every index is in range, every number finite, no cell names a vertex twice.
+/// It need not be feasible.
 template <class Element>
 struct prob_file
 {
@@ -39,7 +39,7 @@ struct prob_file
 namespace taut::io::impl
 {
 
-/// Reads the four blocks of a problem, each a line with its size and then one item a line.
+/// Reads the four blocks of a problem, each a line with its size and then one item per line.
 class prob_reader
 {
 public:
@@ -70,7 +70,7 @@ public:
 
     std::size_t map_dimension() const { return map_dimension_; }
 
-    /// Where the coordinates of the initial map start, in bytes from the first one.
+    /// Byte offsets of the coordinates of the initial map.
     std::vector<std::size_t> take_places() { return std::move(places_); }
 
     template <class Element>
@@ -191,7 +191,7 @@ private:
         if (!in_.line_ends()) in_.fail_at_word("the end of the line after " + what);
     }
 
-    /// What to reserve: a wrong number must not ask for all memory. An item takes two bytes at least.
+    /// Number of items to reserve, which a wrong count must not exaggerate: an item takes two bytes at least.
     std::size_t fitting(std::size_t n) const { return std::min(n, in_.remaining() / 2); }
 
     scanner in_;
@@ -204,10 +204,10 @@ private:
 ///
 ///     nRest dimRest           then nRest lines of rest coordinates
 ///     nInit dimMap            then nInit = nRest lines: the initial map
-///     nSimplices dimMap+1     then one simplex a line, vertices counted from 0, positive at rest
-///     nFixed                  then one fixed vertex a line
+///     nSimplices dimMap+1     then one simplex per line, vertices counted from 0, positive at rest
+///     nFixed                  then one fixed vertex per line
 ///
-/// Throws io_error with the line for whatever is not so.
+/// Throws io_error with the line of a fault.
 template <class Element>
 prob_file<Element> parse_prob(std::string_view text, const std::string& path = "problem text")
 {
@@ -221,6 +221,7 @@ prob_file<Element> parse_prob(std::string_view text, const std::string& path = "
 namespace taut::io
 {
 
+/// Reads an untangling problem. Throws io_error with the line: unreadable or malformed.
 template <class Element>
 prob_file<Element> read_prob(const std::filesystem::path& path)
 {

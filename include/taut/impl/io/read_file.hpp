@@ -38,8 +38,8 @@ inline open_file open_to_read(const std::filesystem::path& path)
     return {std::fopen(path.string().c_str(), "rb"), &std::fclose};
 }
 
-/// The most bytes that read_file takes by default: a quarter of the machine's memory, or of what the process may have
-/// (ulimit -v). A device or a pipe may have no end.
+/// Maximum number of bytes that read_file reads by default: a quarter of the machine's memory, or of the limit of the
+/// process (ulimit -v), as a device or a pipe may be endless.
 inline std::uint64_t most_bytes_to_read()
 {
 #if defined(__unix__) || defined(__APPLE__)

@@ -9,8 +9,8 @@
 namespace taut::io
 {
 
-/// The kinds of files that surfaces are read from. automatic: as the extension says, in either case; what has none
-/// because it is standard input or a pipe, as it begins.
+/// File formats of surfaces. automatic: by the extension, in either case; by the first bytes for standard input and
+/// pipes, which have none.
 enum class surface_format
 {
     automatic,
@@ -24,10 +24,10 @@ enum class surface_format
 /// Throws io_error (unreadable, unknown or malformed, with line or byte), mesh_error (empty, NaN, ...).
 surface_file read_surface_file(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
-/// Reads a file as it is, for repair_surface(). Throws io_error.
+/// Reads the triangles of a file without validation, for repair_surface(). Throws io_error.
 surface_soup read_surface_soup(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
-/// The surface alone.
+/// Reads a surface without its texture coordinates and notes.
 mesh<triangle> read_surface(const std::filesystem::path& path, surface_format format = surface_format::automatic);
 
 } // namespace taut::io

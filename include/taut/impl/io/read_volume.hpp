@@ -11,13 +11,13 @@ namespace taut::io
 {
 
 /// Reads a volume mesh, or a planar mesh, with its groups.
-/// Throws io_error with line or byte: unreadable, unknown, malformed, or what coordinates alone cannot be exchanged in
-/// (higher order, polyhedra, partitions, several pieces).
-/// zone: which one of a SU2 file of several, as IZONE= has it, from 1; 0: there is one
+/// Throws io_error with line or byte: unreadable, unknown, malformed, or a kind of mesh whose coordinates cannot be
+/// replaced in the file (higher order, polyhedra, partitions, several pieces).
+/// zone: number of the zone in a SU2 file of several, as IZONE= has it, from 1; 0: the file has one
 volume_file read_volume_file(const std::filesystem::path& path, volume_format format = volume_format::automatic,
                              int zone = 0);
 
-/// The tetrahedra alone. Throws mesh_error as tetrahedra_of().
+/// Reads the tetrahedra of a volume mesh. Throws mesh_error as tetrahedra_of().
 mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format = volume_format::automatic);
 
 } // namespace taut::io

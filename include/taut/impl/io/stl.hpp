@@ -19,14 +19,14 @@ namespace taut::io::impl
 /// Bytes of a binary STL file: before the triangles, where their number ends, and of each.
 constexpr std::size_t stl_header = 84, stl_row = 50;
 
-/// How many triangles a binary STL file says it has; 0 if it is too short to say.
+/// Number of triangles a binary STL file says it has; 0 if it is too short to say.
 inline std::size_t stl_triangles(std::string_view bytes)
 {
     return bytes.size() < stl_header ? 0 : load<std::uint32_t>(bytes.data() + 80, std::endian::little);
 }
 
-/// Whether the length is that of a binary STL file, which may begin as a text does. No text has it: the bytes of the
-/// number would be letters and stand for half a billion triangles.
+/// Returns whether the length is that of a binary STL file, which may begin as a text does. No text has it: the bytes
+/// of the number would be letters and stand for half a billion triangles.
 inline bool is_binary_stl(std::string_view bytes)
 {
     const std::size_t n = stl_triangles(bytes);

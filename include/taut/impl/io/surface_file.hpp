@@ -18,7 +18,7 @@
 namespace taut::io
 {
 
-/// A vertex whose corners carry no texture coordinate, or several: a flat map of the surface cannot be read off.
+/// Error of a vertex whose corners carry no texture coordinate, or several: the file defines no map of the surface.
 class texcoord_error : public error
 {
 public:
@@ -59,28 +59,28 @@ struct file_faces
     }
 };
 
-/// The text of an OBJ file, and what write_obj needs to find its way in it.
+/// Text of an OBJ file, with an index of its statements for write_obj.
 struct obj_text
 {
     /// Statements that can be read by themselves.
     struct piece
     {
         std::size_t begin;        ///< the first byte
-        std::size_t first_corner; ///< how many corners of faces stand before
+        std::size_t first_corner; ///< number of corners of faces before
     };
 
     std::string bytes;         ///< all of the file
-    std::size_t body = 0;      ///< where the first vt or f statement starts
+    std::size_t body = 0;      ///< start of the first vt or f statement
     std::vector<piece> pieces; ///< in their order
 };
 
-/// What vertices of OFF and PLY files carry that OBJ can hold.
+/// Vertex attributes of OFF and PLY files that OBJ can hold.
 struct file_vertices
 {
     text_list positions;       ///< coordinates as they are written; none of a binary file
     std::vector<vec3> colours; ///< red, green, blue from 0 to 1; empty if the file has none
     std::vector<vec3> normals; ///< empty if the file has none
-    text_list comments;        ///< of the file, without the sign they start with
+    text_list comments;        ///< comments of the file, without the sign they start with
 };
 
 } // namespace taut::io::impl
@@ -88,17 +88,17 @@ struct file_vertices
 namespace taut::io
 {
 
-/// What a file of a surface holds. Vertices and faces are in the order of the file, unreferenced vertices included.
+/// Content of a surface file. Vertices and faces are in the order of the file, unreferenced vertices included.
 struct surface_file
 {
     mesh<triangle> surface;
     std::vector<vec2> texcoords;                    ///< as in the file; empty if it has none
-    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple a triangle, into texcoords; -1: that corner has none
-    std::vector<std::string> notes = {};            ///< what was changed in reading, in sentences
-    impl::file_faces faces = {};                    ///< what the triangles were made from
+    std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple per triangle, into texcoords; -1: none
+    std::vector<std::string> notes = {};            ///< changes in reading, in sentences
+    impl::file_faces faces = {};                    ///< faces that the triangles were made from
     impl::file_vertices vertices = {};              ///< OFF and PLY
     impl::obj_text obj = {};                        ///< OBJ; else empty
-    std::string texcoord_fault = {}; ///< what is wrong with the texture coordinates of the file, which then are none
+    std::string texcoord_fault = {}; ///< fault of the texture coordinates of the file, which then are none
                                      ///< here: one is no finite number, or is named and not there; place and fault
 
     /// The texture coordinate of corner k of triangle c.
@@ -138,8 +138,8 @@ struct surface_file
     }
 };
 
-/// What a file of a surface holds, as it is: triangles may name vertices that are not there, or one twice, coordinates
-/// may be no numbers, and there may be no triangle. repair_surface() makes a surface of it.
+/// Content of a surface file without validation: triangles may name vertices that do not exist, or one twice,
+/// coordinates may be non-finite, and there may be no triangle. repair_surface() makes a surface of it.
 struct surface_soup
 {
     std::vector<vec3> points;
@@ -148,9 +148,9 @@ struct surface_soup
     std::vector<vec2> texcoords;                    ///< as in surface_file
     std::vector<std::array<idx, 3>> texcoord_cells; ///< as in surface_file
     std::vector<vec3> normals;                      ///< as in the file; empty if it has none
-    std::vector<std::array<idx, 3>> normal_cells; ///< one triple a triangle, into normals, -1: none; empty: the normal
-                                                  ///< of a corner has the number of its vertex
-    std::vector<std::string> notes;               ///< as in surface_file, and the rest, too
+    std::vector<std::array<idx, 3>> normal_cells;   ///< one triple per triangle, into normals, -1: none; empty: the
+                                                    ///< normal of a corner has the number of its vertex
+    std::vector<std::string> notes;                 ///< as in surface_file, and the rest, too
     impl::file_faces faces;
     impl::file_vertices vertices;
     impl::obj_text obj;
@@ -163,8 +163,7 @@ struct surface_soup
 namespace taut::io::impl
 {
 
-/// Vertices without a triangle are no fault, whatever their coordinates: says so in the notes, and brings those whose
-/// coordinates are not finite to the place of another vertex.
+/// Notes vertices without a triangle, and moves those with non-finite coordinates to the position of another vertex.
 inline void ignore_unused_vertices(surface_soup& soup)
 {
     auto unused = taut::impl::unused_vertices(soup.points.size(), soup.triangles);
@@ -181,7 +180,7 @@ inline void ignore_unused_vertices(surface_soup& soup)
     taut::impl::set_aside(std::span<const idx>(unused), soup.triangles, soup.points);
 }
 
-/// The surface of triangles without such faults. path: named in errors. Throws `fault`, or mesh_error as mesh does.
+/// Makes the surface of valid triangles. path: named in errors. Throws `fault`, or mesh_error as mesh does.
 inline surface_file to_surface_file(surface_soup&& soup, const std::string& path)
 {
     if (soup.fault) throw mesh_error(*soup.fault);

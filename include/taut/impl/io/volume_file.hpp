@@ -18,7 +18,7 @@
 namespace taut::io
 {
 
-/// The kinds of files that volumes are read from. automatic: as the extension says, in either case.
+/// File formats of volumes. automatic: by the extension, in either case.
 enum class volume_format
 {
     automatic,
@@ -106,7 +106,7 @@ namespace taut::io
 struct cell_block
 {
     cell_kind kind;
-    std::vector<idx> corners; ///< shape_of(kind).corners a cell: positions in the points, never numbers of the file
+    std::vector<idx> corners; ///< shape_of(kind).corners per cell: positions in the points, never numbers of the file
 
     std::size_t size() const { return corners.size() / static_cast<std::size_t>(impl::shape_of(kind).corners); }
 
@@ -117,16 +117,16 @@ struct cell_block
     }
 };
 
-/// The vertices of what a file names together.
+/// Named group of vertices in a volume file.
 struct volume_group
 {
     std::string name;
-    int dimension;             ///< of what is named: 0 vertices, 1 lines, 2 faces, 3 volumes
+    int dimension;             ///< dimension of its entities: 0 vertices, 1 lines, 2 faces, 3 volumes
     std::vector<idx> vertices; ///< ascending, each once
 };
 
-/// Integers that a file gives its points, or its cells of all kinds in their order: references of MEDIT, tags of gmsh,
-/// arrays of VTK, attributes and markers of TetGen, markers of SU2.
+/// Integer labels of the points of a file, or of its cells of all kinds in their order: references of MEDIT, tags of
+/// gmsh, arrays of VTK, attributes and markers of TetGen, markers of SU2.
 struct volume_label
 {
     std::string name;
@@ -134,7 +134,7 @@ struct volume_label
     std::vector<long long> values;
 };
 
-/// A group that is not there, or a name that several have. what() lists those there are.
+/// Error of a group that does not exist, or of a name that several have. what() lists those that exist.
 class group_error : public error
 {
 public:
@@ -156,25 +156,25 @@ struct coded_coordinates
     /// An offset of an array that follows them, as the text has it.
     struct later
     {
-        std::size_t begin, end; ///< of its digits
+        std::size_t begin, end; ///< range of its digits
         std::size_t offset;
     };
     impl::array_code code;
-    std::size_t begin, end;         ///< of the code in the file
+    std::size_t begin, end;         ///< range of the code in the file
     std::vector<later> followed_by; ///< ascending by `begin`
 };
 
-/// Where the bytes of a file have its coordinates, and how.
+/// Locations and encoding of the coordinates in the bytes of a file.
 struct coordinate_places
 {
     bool text = true;                        ///< decimal numbers; else IEEE 754
     bool single = false;                     ///< the file declares single precision
-    std::endian order = std::endian::native; ///< of binary coordinates
+    std::endian order = std::endian::native; ///< byte order of binary coordinates
     int per_point = 3;                       ///< 3, or 2 in a planar file
     std::vector<std::size_t> offsets;        ///< the first byte of each, one point after the other, ascending
     std::optional<coded_coordinates> coded;  ///< then there are no offsets
 
-    /// Whether coordinates are rounded when they are written. A text holds all digits, which readers may round.
+    /// Returns whether coordinates are rounded when they are written. A text holds all digits, which readers may round.
     bool rounds() const { return single && !text; }
 };
 
@@ -190,22 +190,22 @@ struct companion_file
 namespace taut::io
 {
 
-/// What a file of a volume mesh, or of a planar triangle mesh, says, and its bytes. Points and cells are in the order
-/// of the file, unreferenced points included.
+/// Content and bytes of a file of a volume mesh, or of a planar triangle mesh. Points and cells are in the order of the
+/// file, unreferenced points included.
 struct volume_file
 {
     std::string path;   ///< as it was given
     std::string format; ///< "MEDIT", "gmsh", "VTK", "VTU", "TetGen", "SU2" or "problem"
-    int zone = 0;       ///< of SU2: that which was asked for, from 1; 0: none
-    int dimension = 3;  ///< 2: two coordinates a point, or no volume cell and all z equal
+    int zone = 0;       ///< SU2: the requested zone, from 1; 0: none
+    int dimension = 3;  ///< 2: two coordinates per point, or no volume cell and all z equal
     std::vector<vec3> points;
     std::vector<vec3> rest; ///< problems: the rest shape, of which the points are a map; else empty: points at rest
     std::vector<cell_block> cells;
     std::vector<idx> turned; ///< cells whose corners the file has in the other order, as for_each_cell() counts
     std::vector<volume_group> groups;
-    std::vector<volume_label> labels; ///< what groups were made of
-    std::vector<std::string> notes;   ///< what was not read, and what of groups, in sentences
-    std::string bytes;                ///< all of the file
+    std::vector<volume_label> labels; ///< labels that groups were made from
+    std::vector<std::string> notes;   ///< parts that were not read, in sentences
+    std::string bytes;                ///< the whole file
     std::vector<impl::companion_file> companions;
     impl::coordinate_places places;
 
@@ -243,11 +243,11 @@ std::string describe_turned(const volume_file& file);
 namespace taut::io
 {
 
-/// The tetrahedra at rest, cells in the order of the file. Some may be inverted: which, validate() tells.
+/// Tetrahedral mesh of the file at rest, cells in the order of the file. Some may be inverted: which, validate() tells.
 /// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty).
 mesh<tetrahedron> tetrahedra_of(const volume_file& file);
 
-/// The triangles of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
+/// Triangle mesh of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
 /// are no triangles, or the file is of dimension 3.
 mesh<triangle> triangles_of(const volume_file& file);
 
@@ -265,7 +265,7 @@ struct corner_simplices
     std::vector<idx> cells;                       ///< the cell of each, as for_each_cell() counts
     bool overlapping = false;                     ///< there are cells of other kinds
     std::vector<mat<Element::dimension>> regular; ///< edge matrix of each where its cell has equal edges of length 1
-    std::vector<double> weights;                  ///< of each, so that a cell counts once; exact for parallelepipeds
+    std::vector<double> weights; ///< weight of each, so that a cell counts once; exact for parallelepipeds
 };
 
 } // namespace taut::io::impl
@@ -273,10 +273,11 @@ struct corner_simplices
 namespace taut::io
 {
 
-/// A simplex a corner with `dimension` edges, which these edges span: 4 a quad, 4 a pyramid (at the corners of its
-/// base), 6 a wedge, 8 a hexahedron; cells of lower dimension have none. That all are positive is necessary for a
-/// wedge, pyramid or hexahedron to be valid, not sufficient (exact/cell_validity.hpp decides it); for a quad it is
-/// both. Throws mesh_error (empty) as tetrahedra_of does; triangles: also where the file has dimension 3.
+/// Corner simplices of cells: one per corner with `dimension` edges, spanned by these edges: 4 per quad, 4 per pyramid
+/// (at the corners of its base), 6 per wedge, 8 per hexahedron; cells of lower dimension have none. That all are
+/// positive is necessary for a wedge, pyramid or hexahedron to be valid, not sufficient (exact/cell_validity.hpp
+/// decides it); for a quad it is both. Throws mesh_error (empty) as tetrahedra_of does; triangles: also where the file
+/// has dimension 3.
 ///
 /// edged: wedges and hexahedra, ascending, that have the tetrahedra at their edges, too, after those at the corners, 6
 /// and 24 (exact/cell_tetrahedra.hpp). Where all are positive a wedge is valid; of a hexahedron that is not proved, but

@@ -9,7 +9,7 @@
 namespace taut::io
 {
 
-/// A file to write, and what writes its bytes.
+/// File to be written, with the function that writes its bytes.
 struct file_to_write
 {
     std::filesystem::path path;

@@ -13,7 +13,7 @@
 namespace taut::io
 {
 
-/// Writes a map as text: a line a vertex, its coordinates with 17 significant digits, which read back bit for bit.
+/// Writes a map as text: one line per vertex, its coordinates with 17 significant digits, which read back bit for bit.
 /// Throws io_error.
 template <int D>
 void write_map(atomic_file& file, std::span<const vec<D>> x)

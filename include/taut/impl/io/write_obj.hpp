@@ -10,30 +10,30 @@ namespace taut::io
 {
 
 /// Writes a surface and a map of it to the plane as OBJ: the vertices in their order with values that read back bit
-/// for bit, one vt a vertex, faces v/vt.
-/// uv: one a vertex. Throws io_error; parameter_error if uv has another size.
+/// for bit, one vt per vertex, faces v/vt.
+/// uv: one per vertex. Throws io_error; parameter_error if uv has another size.
 void write_obj(atomic_file& out, const mesh<triangle>& surface, std::span<const vec2> uv);
 
 /// Writes the file that a surface was read from with other texture coordinates. Of OBJ every byte stays, but for vt
 /// lines and the numbers of texture coordinates in faces; OFF and PLY become OBJ with their vertices, colours, normals,
 /// polygons and comments.
-/// uv: one a vertex. Throws io_error; parameter_error if uv has another size.
+/// uv: one per vertex. Throws io_error; parameter_error if uv has another size.
 void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2> uv);
 
 /// The same for a map of the surface cut open, which `cut` was made from `file` by cut_seams().
-/// uv: one a vertex of cut.surface.
+/// uv: one per vertex of cut.surface.
 void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut, std::span<const vec2> uv);
 
 /// The same for a file as it is, whose corners have texture coordinates of their own, or none. A face gets them at all
 /// corners or at none: a corner of a polygon that has none gets what lies between those before and after it.
-/// texcoords: one a corner of file.faces, into uv; -1: none. Throws io_error; parameter_error if there are more or
-/// fewer, or one names what is not there.
+/// texcoords: one per corner of file.faces, an index into uv; -1: none. Throws io_error; parameter_error if there are
+/// more or fewer, or one names what is not there.
 void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords, std::span<const vec2> uv);
 
-/// Writes the file that a surface was read from with its vertices at other places, which read back bit for bit. Of OBJ
+/// Writes the file that a surface was read from with new positions of its vertices, which read back bit for bit. Of OBJ
 /// every byte stays but the coordinates of v lines, also the normals, which are those at rest; OFF and PLY become OBJ
 /// with their vertices, colours and polygons.
-/// points: one a vertex. Throws io_error; parameter_error if there are more or fewer.
+/// points: one per vertex. Throws io_error; parameter_error if there are more or fewer.
 void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points);
 
 /// Any of these to a file of its own, which appears complete or not at all.

@@ -13,9 +13,9 @@
 namespace taut::io
 {
 
-/// The points as a reader gets them who keeps to the precision that the file declares: rounded to single where it
-/// does, else as they are. Text itself holds every digit in any case.
-/// points: one a point of the file.
+/// Rounds points to the precision that the file declares, as readers may: to single where it does, else not at all.
+/// Text itself holds every digit in any case.
+/// points: one per point of the file.
 std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points);
 
 } // namespace taut::io
@@ -25,7 +25,7 @@ namespace taut::io::impl
 
 /// The bytes of the file with other coordinates. A coordinate that has not changed, bit for bit, keeps its bytes;
 /// others are the shortest decimal that reads back the same double, or binary as the file has it.
-/// points: one a point of the file; z = that of the file where it has two coordinates.
+/// points: one per point of the file; z = that of the file where it has two coordinates.
 /// Throws parameter_error: another number of points, a coordinate that is not finite (also after rounding), a z that
 /// the file has no place for.
 std::string with_points(const volume_file& file, std::span<const vec3> points);
@@ -41,7 +41,8 @@ std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, con
 namespace taut::io
 {
 
-/// Writes them; they appear together or not at all. Throws io_error, parameter_error.
+/// Writes a volume file with new positions of its points; files appear together or not at all. Throws io_error,
+/// parameter_error.
 void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);
 
 } // namespace taut::io

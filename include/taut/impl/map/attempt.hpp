@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// What making the start on coarser levels came to.
+/// Result of computing the start on coarser levels.
 struct coarse_descent
 {
     start_map start; ///< on its level, without uv
@@ -20,13 +20,13 @@ struct coarse_descent
     std::string failure; ///< why it is none, or else why what came of it is none
 };
 
-/// A minimisation on the mesh itself, in one precision, and the map that it ended at.
+/// One minimisation on the finest level, in one precision, with its final map.
 struct attempt
 {
     taut::precision precision = taut::precision::fp64;
     std::optional<coarse_descent> descent; ///< that began it
-    /// On the finest level, in its numbers, centred: where the minimisation began, and from its end on where it ended.
-    /// Empty: there are no levels, or it did not come so far.
+    /// Map of the finest level, in its numbering, centred: the initial one, and after the minimisation the final one.
+    /// Empty: there are no levels, or it was not reached.
     std::vector<vec2> arrival;
     std::vector<vec2> uv; ///< in the user's order; empty: it did not come so far
     solve::report solve;
@@ -37,7 +37,7 @@ struct attempt
     std::vector<std::string> notes;
 };
 
-/// Counts flips of the map. Not certified either: a map whose energy was never finite.
+/// Certifies the map. A map whose energy was never finite is not certified either.
 inline attempt certified(const run_surface& in, attempt a)
 {
     a.flips = certify<2>(in.surface.cells(), a.uv, in.ideal.measure);
@@ -45,7 +45,8 @@ inline attempt certified(const run_surface& in, attempt a)
     return a;
 }
 
-/// A map without what the solver was free to change and nobody asked for. start: where held coordinates are right.
+/// Removes the solver's translation and scale; restores fixed coordinates. start: a map with the right fixed
+/// coordinates.
 inline std::vector<vec2> restored(const map_run& run, std::vector<vec2> uv, const vec2& centre,
                                   const std::vector<vec2>& start)
 {

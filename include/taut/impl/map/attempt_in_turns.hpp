@@ -9,7 +9,7 @@
 namespace taut::impl
 {
 
-/// False where float, and not the caller, ended the run above the tolerance.
+/// Returns false where the precision of float, not a limit, ended the run above the tolerance.
 inline bool accurate(const solve::report& r, double tolerance)
 {
     if (r.stop != solve::stop::decrease && r.stop != solve::stop::line_search && r.stop != solve::stop::barrier)
@@ -17,8 +17,8 @@ inline bool accurate(const solve::report& r, double tolerance)
     return r.gradient_norm <= tolerance;
 }
 
-/// An attempt in a precision, and another one in double where that did not do. A certified map is gone on from; the
-/// limit of iterations is one for both.
+/// Attempts a minimisation in one precision, and again in double where that failed. The second one starts from a
+/// certified map of the first; both share the limit of iterations.
 inline attempt attempt_in_turns(const map_run& run, const run_start& start)
 {
     const auto once = [&](precision how, int max_iterations, const std::vector<vec2>& from)
@@ -38,7 +38,7 @@ inline attempt attempt_in_turns(const map_run& run, const run_start& start)
     attempt next = first.certified ? once(precision::fp64, left, first.arrival)
                                    : once(precision::fp64, stopping.max_iterations, {});
     next.notes.push_back(first.certified ? "float could not reach the tolerance; continued in double"
-                                         : "float could not hold this map; repeated in double");
+                                         : "single precision does not suffice for this map; repeated in double");
     if (!next.descent) next.descent = std::move(first.descent);
     if (!next.stopped)
     {

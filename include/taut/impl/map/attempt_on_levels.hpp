@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// How a start is made and minimised on coarser levels.
+/// Parameters of the start and of the minimisation on coarser levels.
 inline nested_params descent_of(const map_run& run)
 {
     nested_params p;
@@ -24,7 +24,7 @@ inline nested_params descent_of(const map_run& run)
     return p;
 }
 
-/// An attempt with a hierarchy, `levels`. from: as attempt::arrival, where it begins; none: at the start.
+/// Attempts a minimisation with a hierarchy, `levels`. from: initial map, as attempt::arrival; none: the start.
 inline attempt attempt_on(const mesh_levels<triangle>& levels, const nested_params& descent, const map_run& run,
                           const run_start& start, precision how, int max_iterations, std::vector<vec2> from)
 {
@@ -84,8 +84,8 @@ inline attempt attempt_on(const mesh_levels<triangle>& levels, const nested_para
     return certified(run.in, std::move(a));
 }
 
-/// An attempt with the hierarchy of the run, or with one that grows more slowly where that shows the shape to be hard
-/// and the time limit leaves room for it: the map comes later then.
+/// Attempts a minimisation with the hierarchy of the run, or, on slow convergence and if the time limit allows it, with
+/// one of a smaller coarsening ratio, which takes longer.
 inline attempt attempt_on_levels(const map_run& run, const run_start& start, precision how, int max_iterations,
                                  const std::vector<vec2>& from)
 {

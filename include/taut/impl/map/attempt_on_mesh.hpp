@@ -17,7 +17,8 @@
 namespace taut::impl
 {
 
-/// Calls build, in which drivers compile for seconds, and asks the limits between the kernels; false if they ended it.
+/// Calls build, which may take seconds in the driver, and checks the limits between kernels; returns false if they
+/// ended it.
 template <class Build>
 bool build_within(const queue& q, run_clock& clock, const Build& build)
 {
@@ -45,7 +46,7 @@ bool build_within(const queue& q, run_clock& clock, const Build& build)
     return true;
 }
 
-/// The user's observer on a coarser level, where it also keeps the time.
+/// Wraps the user's observer for a coarser level, with the time limit.
 inline taut::observer observer_on(run_clock& clock, std::size_t level)
 {
     return [&clock, level](progress p)
@@ -55,7 +56,7 @@ inline taut::observer observer_on(run_clock& clock, std::size_t level)
     };
 }
 
-/// The user's observer on the mesh itself. now: the map of the run, centred, in the user's order.
+/// Wraps the user's observer for the finest level. now: the map of the run, centred, in the user's order.
 inline taut::observer observer_of(const map_run& run, const run_start& start, std::function<std::vector<vec2>()> now)
 {
     return [&run, &start, now = std::move(now)](progress p)
@@ -71,7 +72,7 @@ inline taut::observer observer_of(const map_run& run, const run_start& start, st
     };
 }
 
-/// How the mesh itself is solved in what is left of the time.
+/// Solver parameters for the finest level, with the remaining time.
 inline solve::params limited(const map_run& run, int max_iterations)
 {
     auto p = run.params.solve;
@@ -88,7 +89,7 @@ inline std::vector<vec2> centred(std::vector<vec2> uv, const vec2& centre)
     return uv;
 }
 
-/// The stage that a minimisation on the mesh itself was; capping in the user's numbers.
+/// Stage report of a minimisation on the finest level; capping in the user's numbering.
 inline stage_report minimised_on_mesh(const map_run& run, const solve::report& r)
 {
     stage_report did = stage_of("minimise", 0, run.vertices(), r);
@@ -96,7 +97,7 @@ inline stage_report minimised_on_mesh(const map_run& run, const solve::report& r
     return did;
 }
 
-/// An attempt without a hierarchy.
+/// Attempts a minimisation without a hierarchy.
 inline attempt attempt_on_mesh(const map_run& run, const run_start& start, precision how, int max_iterations)
 {
     attempt a;

@@ -13,13 +13,12 @@
 namespace taut::impl
 {
 
-/// A map as of a run without the constraints; none if that has no valid one. Defined in parameterization.hpp.
+/// Computes the map of a run without the constraints; none if that has no valid one. Defined in mapped.hpp.
 inline std::vector<vec2> free_draft(const map_run& run);
 
-/// The first of these that works: springs draw pins to their places on levels; where that fails and the boundary is
-/// pinned as a whole, the same from the map of a run without the constraints, if a similarity brings that near to them;
-/// where the boundary is free, such a map, brought near; the conformal start, where that is the method. None: it takes
-/// the start that all runs have.
+/// Chooses the first of these that works: a penalty continuation for pins on levels; where that fails and the boundary
+/// is pinned as a whole, the same from the unconstrained map, if a similarity brings that near to the pins; where the
+/// boundary is free, that map, brought near; the conformal start, if requested. None: the default start.
 inline std::optional<run_start> other_start(const map_run& run)
 {
     run_start start;
@@ -49,7 +48,7 @@ inline std::optional<run_start> other_start(const map_run& run)
     return fitted_start(run, std::move(start), false);
 }
 
-/// A start on the mesh itself: one that was asked for, or a barycentric one.
+/// Computes a start on the finest level: the requested one, or a barycentric one.
 inline run_start made_start(const map_run& run)
 {
     run_start start;
@@ -64,7 +63,7 @@ inline run_start made_start(const map_run& run)
     return fitted_start(run, std::move(start), false);
 }
 
-/// A start from the user's coordinates. Throws parameter_error for a wrong number.
+/// Makes a start of the user's coordinates. Throws parameter_error for a wrong number.
 inline run_start given_start(const map_run& run)
 {
     run_start start;
@@ -74,8 +73,8 @@ inline run_start given_start(const map_run& run)
     return fitted_start(run, std::move(start), true);
 }
 
-/// The start of a run: from the user's coordinates, unless another one is better, else made on coarser levels or on the
-/// mesh itself.
+/// Chooses the start of a run: from the user's coordinates, unless another one is better, else computed on coarser
+/// levels or on the finest one.
 inline run_start choose_start(const map_run& run)
 {
     run_start start;

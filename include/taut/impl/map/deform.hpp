@@ -9,7 +9,7 @@
 namespace taut::impl
 {
 
-/// The result of a session's only call: what its pins lack is what became of it.
+/// Result of a session's only call, with the outcome by its pins.
 template <class Element>
 session_result<Element> settled(session_result<Element> result)
 {
@@ -21,7 +21,7 @@ session_result<Element> settled(session_result<Element> result)
     {
         r.outcome = r.stopped ? outcome::stopped : outcome::gave_up;
         r.reason = "vertex " + std::to_string(r.farthest) + " is " + std::to_string(r.distance) + " from its place" +
-                   (r.stopped ? "; give it more time" : "; no way there was found");
+                   (r.stopped ? "; give it more time" : "; no path there was found");
         r.ids = {r.farthest};
     }
     return result;
@@ -33,12 +33,12 @@ namespace taut
 {
 
 /// Deforms a volume, or a mesh of the plane (z = 0), with as little distortion as the energy asks for, so that pins are
-/// where they are wanted, bit for bit, and no element is inverted: one call of a session. Shapes with inverted elements
-/// are untangled first.
+/// met bit for bit and no element is inverted: one call of a session. Shapes with inverted elements are untangled
+/// first.
 ///
-/// What has no certified shape is gave_up or infeasible, as in a map_report; so is a shape whose pins could not be
-/// brought to their places, which is returned with those as far as they came: injective, pins_held false. Where the
-/// limits ended it before the pins were there, it is stopped.
+/// The outcome is gave_up or infeasible, as in a map_report, where no certified shape was found, or pins could not be
+/// brought to their targets; in the latter case the injective shape with the pins as far as they came is returned,
+/// pins_held false. It is stopped where the limits ended the run before the pins reached their targets.
 /// Throws mesh_error, parameter_error, constraint_error, device_error.
 template <class Element>
 session_result<Element> deform(queue& q, const mesh<Element>& m, const deform_params<Element>& params)
@@ -46,8 +46,8 @@ session_result<Element> deform(queue& q, const mesh<Element>& m, const deform_pa
     return impl::settled(session<Element>(q, m, params).solve());
 }
 
-/// Deforms a surface in space as a thin shell, so that pins are where they are wanted, bit for bit, and no triangle has
-/// collapsed: one call of a session<hinge>. Outcomes as above; what begins with collapsed triangles gave_up.
+/// Deforms a surface in space as a thin shell, so that pins are met bit for bit and no triangle is collapsed: one call
+/// of a session<hinge>. Outcomes as above; a start with collapsed triangles is gave_up.
 ///
 ///     const taut::thin_shell shell(surface);
 ///     auto pins = taut::constraints(shell.hinges()).pin(12, {0, 0, 1});

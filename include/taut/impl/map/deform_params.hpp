@@ -18,58 +18,56 @@
 namespace taut
 {
 
-/// How to deform a volume, or a mesh of the plane. Every field has a sensible default.
+/// Parameters of deform() and of sessions of volumes and planar meshes. Every field has a sensible default.
 template <class Element>
 struct deform_params
 {
     static constexpr int D = Element::dimension;
 
-    /// What to minimise. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
     any_energy energy = impl::default_energy();
 
-    /// Whether elements count by rest measure, as is usual, or all the same.
+    /// Weights of elements in the sum: rest measure, as is usual, or all equal.
     energy::weighting weights = energy::weighting::measure;
 
-    /// What energies see of single elements beside their shape, in the order of the mesh.
+    /// Data of single elements that energies read, in the order of the mesh.
     cell_data data = {};
 
-    /// Numbers that the energy reads as e.parameter(k): other values take no other kernel.
+    /// Numbers that the energy reads as e.parameter(k): changing them needs no new kernel.
     std::vector<double> parameters = {};
 
-    /// Where vertices have to be, bit for bit, and where they should rather be.
+    /// Pins, which are met bit for bit, and springs.
     taut::constraints<Element> constraints = {};
 
-    /// The shape at rest, one position a vertex, if it is not that of the mesh: what no energy is paid for. Its
-    /// elements are positive.
+    /// Rest shape, of zero energy, one position per vertex, if it is not that of the mesh. Its elements are positive.
     std::vector<vec3> rest = {};
 
-    /// What elements are wanted to look like: `regular` ones, of the mean size, have no rest shape.
+    /// Target shapes: `regular` elements, of the mean size, have no rest shape.
     wanted_shapes shapes = wanted_shapes::rest;
 
-    /// What single elements are wanted to look like: the edges of each from its corner 0, as columns; turns of them
-    /// mean nothing. Empty, or one an element, none of them inverted. With wanted_shapes::rest in the lengths of the
-    /// mesh, in the place of the elements at rest; with wanted_shapes::regular in place of regular ones, all scaled to
-    /// the size of the mesh.
+    /// Target shapes of single elements: the edges of each from its corner 0, as columns, up to a rotation. Empty, or
+    /// one per element, none of them inverted. With wanted_shapes::rest in the lengths of the mesh, in the place of the
+    /// elements at rest; with wanted_shapes::regular in place of regular ones, all scaled to the size of the mesh.
     std::vector<mat<D>> targets = {};
 
-    /// Where the cells are the corners of cells of other kinds, and overlap (mesh/cell_corners.hpp): those of each.
+    /// Owners of simplices that are the corners of cells of other kinds, and overlap (mesh/cell_corners.hpp).
     /// Certificates then say that all corners are positive.
     std::vector<idx> owners = {};
 
-    /// Vertices that may move along a line or in a plane only, at most one each, none of them pinned in any coordinate.
+    /// Sliding constraints, at most one per vertex, none of a vertex with a pinned coordinate.
     std::vector<slide<D>> slides = {};
 
-    /// The shape to begin with, if it is not that of the mesh: of the last step, say.
+    /// Initial shape, if it is not that of the mesh: of the last step, say.
     std::vector<vec<D>> initial = {};
 
     taut::precision precision = precision::automatic;
 
-    /// How a shape with inverted elements is untangled, and one whose handles do not come to their places by steps. Its
-    /// time limit and observer are overruled by those below.
+    /// Parameters of untangling a shape with inverted elements, or one whose pins do not reach their targets by steps.
+    /// Its time limit and observer are overruled by those below.
     untangle_params untangling = {};
 
-    /// Stopping, and of Newton's method, which `automatic` is here, what it takes. `solve.stopping.time_limit` is
-    /// overruled by time_limit below.
+    /// Solver parameters: stopping, and those of Newton's method, which is the `automatic` one here.
+    /// `solve.stopping.time_limit` is overruled by time_limit below.
     solve::params solve = {};
 
     /// Time and observer of the whole call.

@@ -11,22 +11,22 @@
 namespace taut
 {
 
-/// What a deformation came to, and on which mesh.
+/// Result of deform_refined(): the deformation, and the refined mesh.
 template <class Element>
 struct refined_deformation
 {
-    session_result<Element> result; ///< of the refined mesh
+    session_result<Element> result; ///< deformation of the refined mesh
     mesh<Element> refined;          ///< the vertices of the mesh first, in their order
-    impl::subdivision how;          ///< of the mesh; empty: no element was split
-    std::vector<idx> cells;         ///< of each element of the refined mesh, the one that it is a part of
-    int rounds = 0;                 ///< of splits
+    impl::subdivision how;          ///< subdivision of the mesh; empty: no element was split
+    std::vector<idx> cells;         ///< element of the mesh that contains each element of the refined mesh
+    int rounds = 0;                 ///< rounds of splits
 };
 
-/// deform(), on a mesh whose elements are split before where it is proved that its pins admit no map without inverted
-/// elements: edges inside between pinned vertices, say, where all corners of an element are pinned so that it turns
-/// over. The boundary is not split. `infeasible`: what is proved is not mended by splits inside; reason says what.
-/// Throws parameter_error for params with targets, data of elements or owners, which refined elements do not have, and
-/// as deform() does.
+/// Deforms a mesh after splitting elements where it is proved that the pins admit no map without inverted elements:
+/// inner edges between pinned vertices, say, where all corners of an element are pinned so that it is inverted. The
+/// boundary is not split. `infeasible`: the proof holds for all splits inside the mesh; reason says which. Throws
+/// parameter_error for params with targets, data of elements or owners, which refined elements do not have, and as
+/// deform() does.
 template <class Element>
 refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, deform_params<Element> params,
                                             const refine_params& refine = {})

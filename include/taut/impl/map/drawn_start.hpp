@@ -15,21 +15,21 @@
 namespace taut::impl
 {
 
-/// A start that obeys pins, from coarse to fine. Springs draw pinned vertices to their places, stiffer on each finer
-/// level and then step by step on the mesh itself, until all of them can be put there without a flip. A boundary that
-/// is pinned as a whole is held from the beginning, and only what is inside is drawn. The energy is a barrier, so all
-/// maps on the way are injective, and what is around a pin is dragged along, which ends in better minima than
-/// untangling does.
+/// Start by a penalty continuation for pins, from coarse to fine. Springs pull pinned vertices to their targets,
+/// stiffer on each finer level and then step by step on the mesh itself, until all of them can be put there without a
+/// flip. A boundary that is pinned as a whole is fixed from the beginning, and only inner pins get springs. The energy
+/// is a barrier, so all maps on the way are injective, and what is around a pin is dragged along, which ends in better
+/// minima than untangling does.
 class drawn_start
 {
 public:
     enum class from
     {
-        constraints, ///< levels on which pins are drawn, within the outline if that is pinned as a whole
+        constraints, ///< levels of the penalty continuation, within the outline if that is pinned as a whole
         free_map     ///< the map of a run that nothing holds, moved near to the pins: where these are of such a map
     };
 
-    /// run: one that draws pins; referred to.
+    /// run: one with a penalty continuation; referred to.
     explicit drawn_start(const map_run& run, from where = from::constraints)
         : run_(run),
           free_(where == from::free_map),
@@ -47,7 +47,7 @@ public:
         run.clock.stages.add({.stage = "hierarchy", .vertices = run.vertices()});
     }
 
-    /// The start; `useless` where there is none, with the free map as its map if that is near to the pins.
+    /// Computes the start; `useless` where there is none, with the free map as its map if that is near to the pins.
     run_start make()
     {
         run_start start;
@@ -118,10 +118,10 @@ private:
         return flags;
     }
 
-    /// Of all springs together, in units of a mean energy a squared half of the map's size.
+    /// Total stiffness of all springs, in units of a mean energy per squared half of the map's size.
     static double first_stiffness(std::size_t l) { return 256 / std::pow(growth, static_cast<double>(l)); }
 
-    /// In the numbers of a level, about the centre.
+    /// Targets in the numbering of a level, relative to the centre.
     std::vector<directed_spring<2>> springs(std::size_t l, double stiffness) const
     {
         const auto there = levels_.places(l);
@@ -138,8 +138,7 @@ private:
         return all;
     }
 
-    /// A map of a level that obeys what is anchored, and is as near to the pins as a similarity brings it if nothing
-    /// is.
+    /// Map of a level with fixed anchors, or, without any, as near to the pins as a similarity brings it.
     start_map first_map(std::size_t l)
     {
         const mesh<triangle> surface = levels_.level(l);
@@ -161,7 +160,7 @@ private:
         return map;
     }
 
-    /// Minimises a map that nothing holds, and moves it near to the pins; whether a similarity brings it there.
+    /// Minimises an unconstrained map, and moves it near to the pins; returns whether a similarity does so.
     bool brought_near(level& finest)
     {
         auto how = limited(run_, run_.params.solve.stopping.max_iterations);
@@ -193,8 +192,8 @@ private:
         return untangle(problem, {.stages = {"harmonic", "newton"}, .rounds = 1}).map;
     }
 
-    /// Stiffens the springs, a step of Newton's method each time, until what they draw can be put to its place. Where a
-    /// step was short, what they draw has not followed yet: they wait.
+    /// Stiffens the springs, with a Newton step each time, until their vertices can be set to their targets. After a
+    /// short step, which they have not followed yet, the stiffness is kept.
     void draw(level& finest, run_start& start)
     {
         const solve::params step{.method = solve::method::newton, .stopping = {.max_iterations = 1}};
@@ -254,7 +253,7 @@ private:
     bool free_;
     bool bound_; ///< all of the boundary is pinned
     std::vector<bool> anchored_;
-    std::vector<vec2> places_; ///< where vertices are held
+    std::vector<vec2> places_; ///< targets of fixed vertices
     vec2 centre_;
     mesh_levels<triangle> levels_;
     std::vector<directed_spring<2>> pull_;

@@ -13,8 +13,8 @@
 namespace taut::impl
 {
 
-/// A start with flips, made injective, or why it is not. draft: the start before pinned vertices were put to their
-/// places, or none.
+/// Untangles a start with flips, or says why that failed. draft: initial guess, the start before pinned vertices were
+/// moved to their targets, or none.
 inline run_start untangled_start(const map_run& run, run_start start, std::vector<vec2> draft)
 {
     const bool bound = run.held.constrained() || run.params.boundary == boundary_mode::fixed;
@@ -49,8 +49,8 @@ inline run_start untangled_start(const map_run& run, run_start start, std::vecto
     return start;
 }
 
-/// A start on the mesh itself that obeys the constraints and is injective, or why there is none.
-/// start: its map is any. given: it is made of the user's coordinates.
+/// Computes an injective start on the finest level that satisfies the constraints, or says why there is none. start:
+/// its map is any. given: it is made of the user's coordinates.
 inline run_start fitted_start(const map_run& run, run_start start, bool given)
 {
     auto& uv = start.map.uv;

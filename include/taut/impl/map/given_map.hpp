@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// The user's coordinates as a map of m: brought to the surface's size where the boundary is free and nothing is
-/// constrained, turned over where they are mirrored as a whole. unit: from the user's lengths to those of m. Throws
+/// Makes a map of m of the user's coordinates: scaled to the surface's size where the boundary is free and nothing is
+/// constrained, reflected where they are mirrored as a whole. unit: from the user's lengths to those of m. Throws
 /// parameter_error for a wrong number.
 inline start_map given_map(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
                            const parameterize_params& params, double unit, std::vector<std::string>& notes)

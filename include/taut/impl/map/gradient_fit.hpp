@@ -17,9 +17,9 @@
 namespace taut::impl
 {
 
-/// Values at the vertices of a mesh, a vector each, whose gradients are nearest to wanted ones in the mean square by
-/// measure: a Poisson equation for each coordinate (Yu et al. 2004), by conjugate gradients scaled by the diagonal, as
-/// many steps as the mesh has edges across or some more.
+/// Values at the vertices of a mesh, a vector each, whose gradients are nearest to target ones in the mean square by
+/// measure: a Poisson equation for each coordinate (Yu et al. 2004), by conjugate gradients scaled by the diagonal, in
+/// a number of steps of the order of the mesh's diameter in edges.
 template <class Element>
 class gradient_fit
 {
@@ -27,7 +27,7 @@ public:
     static constexpr int D = Element::dimension;
     using values = std::vector<vec<D>>;
 
-    /// m: whose cells count. x: where its vertices are, no element inverted.
+    /// m: the mesh. x: positions of its vertices, no element inverted.
     gradient_fit(const mesh<Element>& m, const values& x)
         : cells_(m.cells()), corners_(vertex_corners(m)), neighbours_(vertex_neighbours(m)), entries_(x.size())
     {
@@ -71,8 +71,8 @@ public:
         return G;
     }
 
-    /// x: where to begin, and what is held there; the fit. wanted(c): the gradient that cell c should have; called from
-    /// several threads. tolerance: of the residual, in the norm of its scale, by that at the start. Without held
+    /// x: initial values, with the fixed coordinates; then the fit. wanted(c): the target gradient of cell c; called
+    /// from several threads. tolerance: of the residual, in the norm of its scale, by that at the start. Without fixed
     /// coordinates the mean of x, weighted by the diagonal, stays.
     template <class Wanted>
     void fit(const Wanted& wanted, const held_marks<D>& held, double tolerance, values& x) const
@@ -80,7 +80,7 @@ public:
         const std::size_t n = x.size();
         std::vector<mat<D>> missing(cells_.size());
         each(cells_.size(), [&](std::size_t c) { missing[c] = measure_[c] * (wanted(c) - gradient(c, x)); });
-        std::vector<vec<D>> free(n, vec<D>(1.0)); // 0 where a coordinate is held
+        std::vector<vec<D>> free(n, vec<D>(1.0)); // 0 where a coordinate is fixed
         values r(n), p(n), Ap(n);
         const auto scaled = [&](std::size_t v) { return entries_[v] > 0 ? r[v] / entries_[v] : vec<D>(0.0); };
         each(n,
@@ -161,8 +161,8 @@ private:
     csr corners_, neighbours_;
     std::vector<std::array<vec<D>, Element::corners>> basis_; ///< gradients of the basis functions
     std::vector<double> measure_;                             ///< of cells, times D!
-    std::vector<double> entries_;                             ///< the diagonal, one a vertex
-    std::vector<double> sides_;                               ///< the others, one a neighbour
+    std::vector<double> entries_;                             ///< the diagonal, one per vertex
+    std::vector<double> sides_;                               ///< the others, one per neighbour
 };
 
 } // namespace taut::impl

@@ -15,10 +15,10 @@
 namespace taut
 {
 
-/// Shapes between two shapes of one mesh, all without inverted elements: of each element the rotation and the stretch
-/// between the two shapes are interpolated by themselves, and the shape at t is the one whose elements differ least, by
-/// the energy, from those that this gives. Rotations are consistent among neighbours, so that twists by a turn or more
-/// are ways of that length.
+/// Interpolation between two shapes of one mesh without inverted elements: of each element the rotation and the stretch
+/// between the two shapes are interpolated separately, and the shape at t is the one whose elements differ least, by
+/// the energy, from those that this gives. Rotations are consistent among neighbours, so that twists by a full turn or
+/// more are interpolated as such.
 template <class Element>
 class interpolation
 {
@@ -26,7 +26,7 @@ public:
     static constexpr int D = Element::dimension;
     using shape = std::vector<vec<D>>;
 
-    /// from: the mesh, in its first shape. to: the other one, one position a vertex. Of params, `rest`,
+    /// from: the mesh, in its first shape. to: the second shape, one position per vertex. Of params, `rest`,
     /// `targets`, `initial` and `shapes` are overruled.
     /// Throws mesh_error where the first shape has inverted or flat elements, parameter_error where the other one has.
     interpolation(const mesh<Element>& from, shape to, deform_params<Element> params = {})
@@ -36,8 +36,8 @@ public:
         params_.shapes = wanted_shapes::rest;
     }
 
-    /// The shape at t: the two shapes, bit for bit, at 0 and 1. Without pins the middle of each component moves on a
-    /// straight line. Throws parameter_error for t outside of [0, 1].
+    /// Computes the shape at t: the two shapes, bit for bit, at 0 and 1. Without pins the middle of each component
+    /// moves on a straight line. Throws parameter_error for t outside of [0, 1].
     session_result<Element> at(queue& q, double t) const
     {
         if (!(t >= 0 && t <= 1)) throw parameter_error("t", "must be in [0, 1]");
@@ -67,12 +67,12 @@ private:
         return to;
     }
 
-    /// An injective shape near the draft at t.
+    /// Injective shape near the initial guess at t.
     shape start(queue& q, double t) const
     {
         shape draft = path_.draft(t);
         if (certify<D>(from_.cells(), std::span<const vec<D>>(draft))) return draft;
-        // The nearer end is drawn to it by springs.
+        // The nearer end is pulled to it by springs.
         auto params = params_;
         shape end = t < 0.5 ? shape(from_.points().begin(), from_.points().end()) : to_;
         const auto turn = fit_rigid_motion(std::span<const vec<D>>(end), std::span<const vec<D>>(draft));

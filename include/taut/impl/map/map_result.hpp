@@ -18,8 +18,8 @@
 namespace taut
 {
 
-/// What became of a map. Only `valid` comes with a certified map: no triangle is flipped, and there is no inner vertex
-/// that the map winds around other than once; in exact arithmetic.
+/// Outcome of a run. Only `valid` comes with a certified map: no triangle is flipped, and there is no inner vertex that
+/// the map winds around other than once; in exact arithmetic.
 enum class outcome
 {
     valid,          ///< the map is certified; map_report::solve says why the optimisation ended
@@ -41,31 +41,31 @@ struct map_seconds
     double overlap = 0;   ///< looking for crossings of the boundary, and minimisation without them
 };
 
-/// What became of crossings of the boundary: pairs of its edges that have a common point beyond a common end.
+/// Report on crossings of the boundary: pairs of its edges that have a common point beyond a common end.
 struct overlap_report
 {
-    impl::crossing_count before; ///< of the map as it would be without parameterize_params::no_overlap
-    double energy_before = 0;    ///< of that map, where it has any
-    int rounds = 0;              ///< of the minimisation without them; 0: none was needed, or there was no time
-    std::size_t crossings = 0;   ///< of the map that is returned, exact: 0 in valid ones
+    impl::crossing_count before; ///< crossings of the map without parameterize_params::no_overlap
+    double energy_before = 0;    ///< energy of that map, where it has any
+    int rounds = 0; ///< rounds of the minimisation without crossings; 0: none was needed, or there was no time
+    std::size_t crossings = 0; ///< crossings of the returned map, exact: 0 in valid ones
 };
 
-/// What one run did and what its map is like.
+/// Report of one run of parameterize(): its phases, and the measures and certificate of the map.
 struct map_report
 {
     taut::outcome outcome = outcome::no_valid_start;
     std::string reason;                          ///< why there is no valid map; empty if there is one
-    std::vector<idx> ids;                        ///< what the reason is about, see outcome
-    std::vector<std::string> notes;              ///< what the library decided on its own
-    taut::precision precision = precision::fp64; ///< that the map was calculated in
+    std::vector<idx> ids;                        ///< elements or vertices that the reason concerns, see outcome
+    std::vector<std::string> notes;              ///< decisions of the library
+    taut::precision precision = precision::fp64; ///< precision of the calculation
     impl::start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
     std::vector<impl::level_report> levels; ///< coarser levels, in their order in time
-    std::vector<vec2> pin_origins;    ///< where pinned vertices were in the start before they were put to their places
-    std::vector<stage_report> stages; ///< all that was done, also in vain, in its order in time
-    std::vector<impl::untangle_stage_report> untangling; ///< what it took to make the start injective
-    std::optional<overlap_report> overlap; ///< of a run with parameterize_params::no_overlap that came to a map
+    std::vector<vec2> pin_origins;          ///< pinned vertices in the start before they were moved to their targets
+    std::vector<stage_report> stages;       ///< all stages, also unsuccessful ones, in their order in time
+    std::vector<impl::untangle_stage_report> untangling; ///< stages that made the start injective
+    std::optional<overlap_report> overlap;               ///< with parameterize_params::no_overlap, if there is a map
     double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
-    certificate flips;   ///< of the map that is returned, exact: flips and branch points
+    certificate flips;   ///< certificate of the returned map, exact: flips and branch points
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
     map_seconds seconds;
     queue_counters counters; ///< launches, host waits and bytes of this run
@@ -78,10 +78,10 @@ inline std::ostream& operator<<(std::ostream& out, const map_report& r)
                << " flipped";
 }
 
-/// A map and its report; `auto [uv, report] = parameterize(...)`.
+/// Result of parameterize(): a map and its report; `auto [uv, report] = parameterize(...)`.
 struct map_result
 {
-    std::vector<vec2> uv; ///< one a vertex, in the user's order; units and place by parameterize_params::placement
+    std::vector<vec2> uv; ///< one per vertex, in the user's order; units and place by parameterize_params::placement
     map_report report;
 
     /// True if the map is certified: no triangle is flipped, and there is no branch point.

@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// The parameters with the energy that the data and parameters make of the user's. Throws parameter_error.
+/// Binds the data and parameters to the user's energy. Throws parameter_error.
 inline parameterize_params validated(parameterize_params p)
 {
     p.validate();
@@ -24,7 +24,7 @@ inline parameterize_params validated(parameterize_params p)
     return p;
 }
 
-/// A run of parameterize() once it is prepared: what all its phases read.
+/// Prepared run of parameterize(): the input of all its phases.
 struct map_run
 {
     taut::queue queue;
@@ -55,7 +55,7 @@ struct map_run
 
     std::size_t vertices() const { return in.surface.points().size(); }
 
-    /// factor: of vertices, from a level to the next coarser one.
+    /// factor: ratio of vertices between a level and the next coarser one.
     mesh_levels<triangle> make_levels(double factor = hierarchy_params{}.factor) const
     {
         mesh_levels<triangle> made(in.surface, held.marks().pinned(),
@@ -65,7 +65,7 @@ struct map_run
         return made;
     }
 
-    /// Whether nothing holds the map.
+    /// Returns whether the map is unconstrained.
     bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
 
     /// Without iterations the start is returned as it is.
@@ -79,10 +79,11 @@ struct map_run
         return levels ? precision::mixed : precision::fp64;
     }
 
-    /// Whether a start that is not given is made on coarser levels: of nothing that is held, as part of an attempt.
+    /// Returns whether a start that is not given is computed on coarser levels: without fixed coordinates, as part of
+    /// an attempt.
     bool starts_coarse() const { return may_start_coarse() && !held.constrained(); }
 
-    /// The same where pins are to be drawn to their places there.
+    /// Returns whether pins are reached by a penalty continuation there.
     bool draws_pins() const
     {
         return may_start_coarse() && held.pinned() && params.boundary == boundary_mode::free && params.energy.barrier();

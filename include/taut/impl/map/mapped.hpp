@@ -15,9 +15,9 @@
 namespace taut::impl
 {
 
-/// What parameterize.hpp declares; include that one.
-///
-/// The start on the mesh itself that takes the place of one from coarser levels whose map could not be certified.
+// Implementation of parameterize.hpp; include that one.
+
+/// Start on the finest level that replaces one from coarser levels whose map could not be certified.
 inline run_start second_start(const map_run& run, const run_start& coarse, const attempt& failed)
 {
     run_start start = made_start(run);
@@ -30,8 +30,8 @@ inline run_start second_start(const map_run& run, const run_start& coarse, const
     return start;
 }
 
-/// The phases between a run that is prepared and a map that is placed: start, attempts to minimise it, certificate.
-/// The map is in the lengths of the run.
+/// Runs the phases between preparation and placement of the map: start, attempts to minimise it, certificate.
+/// The map is in normalised units.
 inline map_result solved(const map_run& run)
 {
     const run_start start = choose_start(run);
@@ -65,7 +65,7 @@ inline std::vector<vec2> free_draft(const map_run& run)
     return draft ? std::move(draft.uv) : std::vector<vec2>();
 }
 
-/// All of parameterize() but the counters. params: validated.
+/// Does all of parameterize() except the counters. params: validated.
 inline map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params,
                          run_clock& clock)
 {

@@ -18,14 +18,14 @@
 namespace taut
 {
 
-/// What becomes of the boundary during the optimisation.
+/// Treatment of the boundary during the optimisation.
 enum class boundary_mode
 {
     free, ///< it moves like everything else
     fixed ///< it stays where the start map has it
 };
 
-/// Where the first map comes from.
+/// Method of the initial map.
 enum class start_method
 {
     automatic,   ///< `initial` if there is one; else coarse for Newton's method and barycentric for the others
@@ -34,60 +34,59 @@ enum class start_method
     conformal    ///< spectral conformal, or coarse_start() where that has flips (start/conformal.hpp)
 };
 
-/// How to parameterize. Every field has a sensible default.
+/// Parameters of parameterize(). Every field has a sensible default.
 struct parameterize_params
 {
-    /// What to minimise. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
     any_energy energy = impl::default_energy();
 
-    /// Whether elements count by rest area, as is usual, or all the same, as in the paper.
+    /// Weights of elements in the sum: rest area, as is usual, or all equal, as in the paper.
     energy::weighting weights = energy::weighting::measure;
 
-    /// What energies see of single triangles beside their shape, in the order of the mesh: weights, attributes,
-    /// directions.
+    /// Data of single triangles that energies read, in the order of the mesh: weights, attributes, directions.
     cell_data data = {};
 
-    /// Numbers that the energy reads as e.parameter(k): other values take no other kernel.
+    /// Numbers that the energy reads as e.parameter(k): changing them needs no new kernel.
     std::vector<double> parameters = {};
 
     boundary_mode boundary = boundary_mode::free;
 
-    /// Pins, which hold bit for bit, and springs. The start is brought near them and untangled.
+    /// Pins, which are met bit for bit, and springs. The start is brought near them and untangled.
     taut::constraints<triangle> constraints = {};
 
-    /// Start: these coordinates, one a vertex, if there are any (a warm start: the map of the last run, after the pins
-    /// have moved, say); with a free boundary and no constraints their
-    /// place and scale do not matter. A start that is mirrored as a whole is turned over, others with flips untangled.
+    /// Initial coordinates, one per vertex, or empty (a warm start: the map of the last run, after the pins have moved,
+    /// say); with a free boundary and no constraints their translation and scale do not matter. A start that is
+    /// mirrored as a whole is reflected, others with flips are untangled.
     std::vector<vec2> initial = {};
 
-    /// Otherwise the start is made so. A coarse start takes its boundary from `barycentric` and goes over to a
-    /// barycentric one where it fails.
+    /// Method of the start if there are no initial coordinates. A coarse start takes its boundary from `barycentric`
+    /// and falls back to a barycentric one where it fails.
     start_method start = start_method::automatic;
     barycentric_params barycentric = {.stretch_rounds = 10};
 
-    /// Where the map comes to lie if nothing holds it: a free boundary without pins and springs.
+    /// Placement of an unconstrained map: a free boundary without pins and springs.
     taut::placement placement = placement::upright;
 
-    /// Whether a surface with holes (more than one boundary loop) is taken. Its map is locally injective.
+    /// True if surfaces with holes (more than one boundary loop) are accepted. Their maps are locally injective.
     bool holes = false;
 
-    /// Whether the boundary of the map must not cross or touch itself, so that no two triangles overlap. Where it
-    /// would, the energy is minimised once more, through maps in which it does not (docs/howto/overlap.md); others stay
-    /// as they are.
+    /// True if the boundary of the map must not cross or touch itself, so that no two triangles overlap. If it does,
+    /// the energy is minimised once more, through maps without crossings (docs/howto/overlap.md); other maps are
+    /// unchanged.
     bool no_overlap = false;
 
     taut::precision precision = precision::automatic;
 
-    /// Whether lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.
+    /// True if lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.
     /// Newton's method always is.
     bool multigrid = false;
 
-    /// How a start with flips is untangled. Its time limit and observer are overruled by those below.
+    /// Parameters of untangling a start with flips. Its time limit and observer are overruled by those below.
     untangle_params untangling = {};
 
-    /// Method, line search (not of Newton's method, which `automatic` is here), stopping. `solve.stopping.time_limit`
-    /// is overruled by time_limit below. Stopping parameters that are given as a whole (`.stopping = {...}`) do not
-    /// end a run that has only settled.
+    /// Solver parameters: method, line search (except of Newton's method, which is the `automatic` one here), stopping.
+    /// `solve.stopping.time_limit` is overruled by time_limit below. With stopping parameters given as a whole
+    /// (`.stopping = {...}`), a run that has only settled goes on.
     solve::params solve = {.stopping = {.settled_tolerance = 1e-4}};
 
     /// Time and observer of the whole call. progress::usable: whether there is a map that would be returned.
@@ -114,7 +113,7 @@ struct parameterize_params
         if (solve.method == solve::method::automatic) solve.require_newton_search();
     }
 
-    /// Whether the method works on a hierarchy of levels.
+    /// Returns whether the method works on a hierarchy of levels.
     bool uses_levels() const
     {
         return multigrid || solve.method == solve::method::automatic || solve.method == solve::method::newton;

@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// Why a run has no valid map.
+/// Reason for which a run has no valid map.
 struct refusal
 {
     taut::outcome outcome;
@@ -18,7 +18,7 @@ struct refusal
     std::vector<idx> ids; ///< what the reason is about
 };
 
-/// `map` has defects.
+/// Makes the refusal of a map with defects.
 inline refusal refuse(outcome what, const std::string& map, const certificate& found)
 {
     return {what, map + " has " + describe_defects<triangle>(found), found.flipped > 0 ? found.ids : found.branch_ids};

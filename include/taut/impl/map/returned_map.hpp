@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// A map that no pins or springs hold brought to its place, or left where it is if rounding would flip a triangle on
-/// the way. One with a fixed boundary is brought into the unit square alone, and not turned.
+/// Places an unconstrained map, or leaves it if rounding would flip a triangle. A map with a fixed boundary is only
+/// scaled and translated into the unit square.
 inline map_result placed(const map_run& run, map_result r)
 {
     const bool fits = run.params.placement == placement::unit_square, free = run.is_free();
@@ -35,8 +35,8 @@ inline map_result placed(const map_run& run, map_result r)
     return r;
 }
 
-/// A map in lengths of the user, pins bit for bit; the division is inexact at the ends of the range of double, so what
-/// is valid is certified again.
+/// Converts a map to the user's units, pins bit for bit; the division is inexact at the ends of the range of double, so
+/// a valid map is certified again.
 inline map_result in_user_units(const map_run& run, map_result r)
 {
     for (auto* points : {&r.uv, &r.report.start.uv})

@@ -9,7 +9,7 @@
 namespace taut::impl
 {
 
-/// The limits of a run of parameterize(), and where its time went: by phases, and stage by stage.
+/// Limits of a run of parameterize(), and its times by phases and stages.
 struct run_clock : budget
 {
     map_seconds seconds = {};
@@ -17,7 +17,7 @@ struct run_clock : budget
 
     run_clock(budget::seconds limit, observer ask) : budget(limit, std::move(ask)) { has_result(false); }
 
-    /// Books the time since the last call on a phase.
+    /// Adds the time since the last call to a phase.
     void spent(double map_seconds::*phase) { seconds.*phase += lap(); }
 };
 

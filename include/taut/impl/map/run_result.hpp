@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// What there is to report of a start and the last attempt to minimise it, if there was one; the outcome is left open.
+/// Report of a start and of the last attempt to minimise it, if there was one, without the outcome.
 inline map_result run_result(const map_run& run, const run_start& start, attempt a)
 {
     map_result r;
@@ -43,7 +43,8 @@ inline map_result refused(map_result r, refusal why)
     return r;
 }
 
-/// The best map of a run that the limits ended outside of a minimisation, if there is one. a: the attempt by then.
+/// Result of a run that the limits ended outside of a minimisation: the best map, if there is one. a: the attempt by
+/// then.
 inline map_result stopped_result(const map_run& run, const run_start& start, attempt a)
 {
     if (!a.certified)
@@ -78,7 +79,7 @@ inline map_result stopped_result(const map_run& run, const run_start& start, att
                                   {}});
 }
 
-/// The result of a start that is not to be minimised: it is refused, or the limits ended the run.
+/// Result of a start that is not minimised: it is refused, or the limits ended the run.
 inline map_result unsolved_result(const map_run& run, const run_start& start)
 {
     if (start.stopped) return stopped_result(run, start, {});
@@ -88,7 +89,7 @@ inline map_result unsolved_result(const map_run& run, const run_start& start)
     return refused(run_result(run, start, std::move(none)), *start.refused);
 }
 
-/// The result of the last attempt; where its map is not certified, that of the start, if there is one.
+/// Result of the last attempt; where its map is not certified, that of the start, if there is one.
 inline map_result solved_result(const map_run& run, const run_start& start, attempt a)
 {
     if (a.stopped) return stopped_result(run, start, std::move(a));

@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// What a run of parameterize() begins with.
+/// Start of a run of parameterize().
 struct run_start
 {
     start_map map;       ///< without uv where it is made on coarser levels

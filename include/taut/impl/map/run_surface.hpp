@@ -14,8 +14,8 @@
 namespace taut::impl
 {
 
-/// The surface of a run of parameterize(), checked, with what all phases ask of it. Lengths are those of the user times
-/// a power of two (unit_scale), so that nothing overflows; undoing that is exact.
+/// Validated surface of a run of parameterize(), with data shared by all phases. Lengths are those of the user times a
+/// power of two (unit_scale), so that nothing overflows; undoing that is exact.
 struct run_surface
 {
     std::vector<idx> unused; ///< vertices without a triangle; they lie where another vertex does
@@ -35,7 +35,7 @@ struct run_surface
         params.data.validate(m.cells().size());
     }
 
-    /// The vertices that stay where the start has them.
+    /// Vertices that keep their positions in the start.
     std::vector<idx> fixed_boundary(boundary_mode mode) const
     {
         if (mode == boundary_mode::free) return {};
@@ -43,7 +43,7 @@ struct run_surface
         return std::move(loops[longest_loop(surface.points(), loops)]);
     }
 
-    /// Brings unused vertices of a map to the place of another one, so that they count nowhere.
+    /// Moves unused vertices of a map to the position of another one, so that they have no effect.
     void set_unused_aside(std::vector<vec2>& uv) const { set_aside(std::span(unused), surface.cells(), uv); }
 
 private:

@@ -17,18 +17,18 @@
 namespace taut
 {
 
-/// A map, or a shape that deforms, that stays open: it keeps the mesh, its order and hierarchy, the tables and kernels
-/// of all levels, and the last map, so that a call of solve() costs steps of Newton's method and nothing else. Pins may
-/// come, move and go between calls; who is pinned is a mask, of which no table depends.
+/// Interactive session of a map or of a deforming shape. It keeps the mesh, its order and hierarchy, the tables and
+/// kernels of all levels, and the last map, so that a call of solve() costs steps of Newton's method and nothing else.
+/// Pins may be added, moved and removed between calls: no table depends on them.
 ///
 ///     taut::session s(queue, surface);
 ///     auto [uv, report] = s.solve();                // as parameterize()
 ///     s.pin(v, uv[v]);
 ///     while (dragging) show(s.pin(v, mouse()).solve({.time = 12ms}).x);
 ///
-/// Each map that is returned is injective and certified as those of parameterize(). Pins are not put to their places
-/// but brought there through injective maps, so a map changes as much as its pins move: it does not jump to another
-/// minimum, nor wind twice around a vertex. What the budget leaves is reported, and the next call goes on.
+/// Each map that is returned is injective and certified as those of parameterize(). Pins are brought to their targets
+/// through injective maps, so a map changes as much as its pins move: it does not jump to another minimum, nor wind
+/// twice around a vertex. Unfinished work is reported, and the next call continues it.
 ///
 /// Not to be used from two threads at once. Objects may be moved, not copied.
 template <class Element>
@@ -38,23 +38,23 @@ public:
     static constexpr int D = Element::dimension;
     using point = vec<D>;
 
-    /// A map of a surface. Validates; the first map is made by the first solve(). params: as for parameterize(), of
-    /// which `constraints` are the first ones, and `time_limit` is for the first map. Throws mesh_error,
+    /// Opens a session of a map of a surface. Validates; the first solve() computes the first map. params: as for
+    /// parameterize(); `constraints` are the initial ones, `time_limit` is for the first map. Throws mesh_error,
     /// parameter_error (also for a method other than Newton's), constraint_error for constraints of another mesh.
     session(queue& q, const mesh<Element>& m,
             const parameterize_params& params = {}) requires std::same_as<Element, triangle>;
 
-    /// A volume that deforms; the first shape is that of the mesh, or of params.initial, untangled if it has inverted
-    /// elements. Throws as above.
+    /// Opens a session of a deforming volume; the first shape is that of the mesh, or params.initial, untangled if it
+    /// has inverted elements. Throws as above.
     session(queue& q, const mesh<Element>& m,
             const deform_params<Element>& params = {}) requires std::same_as<Element, tetrahedron>;
 
-    /// The same of a mesh of the plane (z = 0).
+    /// Opens a session of a deforming mesh of the plane (z = 0).
     template <std::same_as<deform_params<Element>> Params>
     session(queue& q, const mesh<Element>& m, const Params& params) requires std::same_as<Element, triangle>;
 
-    /// A surface in space that deforms as a thin shell, taut::session<hinge>: maps are its shapes, of which it is
-    /// certified that no triangle has collapsed to a line or a point; it may pass through itself.
+    /// Opens a session of a thin shell, taut::session<hinge>: maps are its shapes, which are certified to have no
+    /// triangle collapsed to a line or a point; the surface may intersect itself.
     session(queue& q, const thin_shell& shell, const shell_params& params = {}) requires std::same_as<Element, hinge>;
 
     /// Pins vertex v to x, in the lengths of the map, or moves its pin there. Throws constraint_error, as
@@ -77,8 +77,8 @@ public:
         return change([&](auto& c) { c.repin(vertices, places); });
     }
 
-    /// Pins vertices where a function takes them from where the last map has them. Throws also for no_position: there
-    /// is no map yet.
+    /// Pins vertices to the images of their last positions under a function. Throws also no_position: there is no map
+    /// yet.
     template <std::invocable<point> Transform>
     session& move(std::span<const idx> vertices, const Transform& transform)
     {
@@ -87,35 +87,35 @@ public:
         return move(vertices, places);
     }
 
-    /// Draws vertex v towards x, in the place of another spring that it has.
+    /// Adds a spring from vertex v to x, or replaces its spring.
     session& spring(idx v, const point& x, double weight)
     {
         return change([&](auto& c) { c.respring(v, x, weight); });
     }
 
-    /// Takes back pin and spring of vertex v, if there are any.
+    /// Removes pin and spring of vertex v, if there are any.
     session& release(idx v)
     {
         return change([&](auto& c) { c.release(v); });
     }
 
-    /// Goes back to what was once asked and to the map of that time, as for an undo: the next solve() goes on from
-    /// there. x: one position a vertex. Throws parameter_error, and all is as before, where x has another size or is
-    /// not injective, or where there was no map yet; constraint_error for constraints of another mesh.
+    /// Restores earlier constraints and the map of that time, as for an undo: the next solve() continues from there. x:
+    /// one position per vertex. Throws parameter_error, and all is as before, where x has another size or is not
+    /// injective, or where there was no map yet; constraint_error for constraints of another mesh.
     session& restore(const taut::constraints<Element>& asked, const std::vector<point>& x)
     {
         body_->restore(asked, x);
         return *this;
     }
 
-    /// What is asked at present.
+    /// Current constraints.
     const taut::constraints<Element>& constraints() const { return body_->wanted; }
 
-    /// The last map, empty before there was one.
+    /// Last map; empty before there was one.
     const std::vector<point>& x() const { return body_->last.x; }
 
-    /// Goes on from the last map, until it has converged or the budget ends; without one, makes the first map, as
-    /// parameterize() does. Throws parameter_error, device_error.
+    /// Continues from the last map until convergence or the end of the budget; without a map, computes the first one,
+    /// as parameterize() does. Throws parameter_error, device_error.
     session_result<Element> solve(const session_budget& budget = {})
     {
         budget.validate();

@@ -11,14 +11,14 @@
 namespace taut
 {
 
-/// How much one call of session::solve may do. What ends first ends it; one step is made in any case, if there is
-/// something to do, but by the first call, which may end with the shape that it began with.
+/// Limits of one call of session::solve. The first that is reached ends it. At least one step is made if there is
+/// something to do, except by the first call, which may return its initial shape.
 struct session_budget
 {
-    /// Wall-clock limit. A step that would take longer than what is left, as the last one did, is not begun.
+    /// Wall-clock limit. No step is begun that would exceed it if it took as long as the last one.
     std::chrono::duration<double> time = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
-    /// Newton's steps. Range >= 1.
+    /// Maximum number of Newton steps. Range >= 1.
     int steps = std::numeric_limits<int>::max();
 
     /// Throws parameter_error that names the field.
@@ -33,41 +33,41 @@ struct session_budget
 struct session_seconds
 {
     double start = 0;       ///< the first map or shape, and what is made once for all calls
-    double constrain = 0;   ///< lists of who is held, where that has changed, and where
-    double follow = 0;      ///< steps that bring pins to their places
+    double constrain = 0;   ///< updates of the fixed coordinates and their targets
+    double follow = 0;      ///< steps that bring pins to their targets
     double repair = 0;      ///< untangling, where such steps stuck
-    double solve = 0;       ///< minimisation with the pins at their places
+    double solve = 0;       ///< minimisation with the pins at their targets
     double certificate = 0; ///< the map back from the device, and the count of its defects
     double total() const { return start + constrain + follow + repair + solve + certificate; }
 };
 
-/// What one call of session::solve did, and what the map is like.
+/// Report of one call of session::solve: its steps, and the measures and certificate of the map.
 struct session_report
 {
     /// `valid`: there is a certified map. Otherwise there are no coordinates, and reason and ids are as in map_report.
     taut::outcome outcome = outcome::no_valid_start;
     std::string reason;             ///< why there is no valid map, or why the pins cannot be reached; else empty
-    std::vector<idx> ids;           ///< what the reason is about
-    std::vector<std::string> notes; ///< what the library decided on its own
-    bool converged = false;         ///< pins hold, and there is nothing left to gain
+    std::vector<idx> ids;           ///< elements or vertices that the reason concerns
+    std::vector<std::string> notes; ///< decisions of the library
+    bool converged = false;         ///< pins are met, and the map is a minimum
     bool stopped = false;           ///< the budget, a limit or the observer ended the call
-    bool pins_held = false;         ///< all held coordinates are where they should be, bit for bit
-    idx farthest = -1;              ///< the vertex that is farthest from its pin; -1: pins hold
-    double distance = 0;            ///< of that vertex from its pin
+    bool pins_held = false;         ///< all pins are met, bit for bit
+    idx farthest = -1;              ///< the vertex farthest from its pin; -1: pins are met
+    double distance = 0;            ///< distance of that vertex from its pin
     double energy = 0;              ///< mean over the elements, springs included
-    double gradient = 0;            ///< its relative norm, where pins hold
-    int steps = 0;                  ///< of Newton's method, in this call
-    certificate flips;              ///< of the map that is returned, exact
+    double gradient = 0;            ///< relative norm of the gradient, where pins are met
+    int steps = 0;                  ///< Newton steps of this call
+    certificate flips;              ///< certificate of the returned map, exact
     session_seconds seconds;
-    std::vector<stage_report> stages; ///< of this call, in their order in time
-    queue_counters counters;          ///< of this call
+    std::vector<stage_report> stages; ///< stages of this call, in their order in time
+    queue_counters counters;          ///< counts of this call
 };
 
-/// Positions and a report; `auto [uv, report] = s.solve(...)`.
+/// Result of session::solve: positions and a report; `auto [uv, report] = s.solve(...)`.
 template <class Element>
 struct session_result
 {
-    std::vector<vec<Element::dimension>> x; ///< one a vertex, in the user's order and lengths
+    std::vector<vec<Element::dimension>> x; ///< one per vertex, in the user's order and lengths
     session_report report;
 
     /// True if there is a map: it is certified.

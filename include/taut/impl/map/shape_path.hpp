@@ -68,11 +68,10 @@ mat<D> rotation(const vec3& w)
     return R;
 }
 
-/// Gradients on the way from one shape of a mesh to another: what moves the mesh as a whole, a rotation and a stretch
-/// of each element, F = Q R S, are brought from 1 to what they are at the end each by itself, rotations at constant
-/// speed about their axes. Of an element's axes and angles, which differ by whole turns, the one is taken that is
-/// nearest to that of a neighbour (along a spanning tree that takes the nearest neighbours first), so that a bar which
-/// is twisted by a full turn is twisted, and not left as it is.
+/// Gradients on the path from one shape of a mesh to another: a global rotation, and a rotation and a stretch of each
+/// element, F = Q R S, are interpolated separately from the identity, rotations at constant speed about their axes. Of
+/// an element's rotation vectors, which differ by whole turns, the one nearest to that of a neighbour is taken (along a
+/// minimum spanning tree), so that a bar twisted by a full turn is interpolated as such.
 template <class Element>
 class shape_path
 {
@@ -110,7 +109,7 @@ public:
         }
     }
 
-    /// Edges from corner 0 of each element at t, 0 to 1: of no shape as a whole.
+    /// Edges from corner 0 of each element at t, 0 to 1, which need not fit together.
     std::vector<mat<D>> edges(double t) const
     {
         std::vector<mat<D>> all;
@@ -119,7 +118,7 @@ public:
     }
 
     /// The shape whose gradients are nearest to those at t, in the mean square by rest measure (a Poisson equation for
-    /// each coordinate); its middle is where it would be on a straight line. Elements may be inverted.
+    /// each coordinate); its centre moves on a straight line. Elements may be inverted.
     shape draft(double t) const
     {
         shape x(start_.size());
@@ -137,7 +136,7 @@ private:
         return rotation<D>(t * whole_) * rotation<D>(t * turn_[c]) * S;
     }
 
-    /// The element whose middle moves least.
+    /// Element whose centre moves least.
     std::size_t stillest() const
     {
         std::size_t found = 0;
@@ -160,7 +159,7 @@ private:
         return axis * (angle + turn * std::round((glm::dot(axis, w) - angle) / turn));
     }
 
-    /// turn_: of rotations R, of which the one of the whole is taken off, consistent among neighbours.
+    /// Computes turn_, the rotation vectors of R without the global rotation, consistent among neighbours.
     void unwrap(const std::vector<mat<D>>& rotations, const facet_table& table)
     {
         const mat<D> back = glm::transpose(rotation<D>(whole_));

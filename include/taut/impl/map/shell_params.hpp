@@ -16,17 +16,17 @@
 namespace taut
 {
 
-/// How to deform a surface in space. Every field has a sensible default.
+/// Parameters of deform() and of sessions of thin shells. Every field has a sensible default.
 struct shell_params
 {
-    /// Where vertices have to be, bit for bit, and where they should rather be: of thin_shell::hinges().
+    /// Pins, which are met bit for bit, and springs, of the mesh thin_shell::hinges().
     taut::constraints<hinge> constraints = {};
 
-    /// In the lengths of the surface; none: the mean edge. How much bending costs against stretching, as for a plate so
-    /// thick: thin shells crease and wrinkle where thick ones arch. Range > 0.
+    /// Thickness in the lengths of the surface; none: the mean edge. The cost of bending against stretching is that of
+    /// a plate of this thickness: thin shells crease and wrinkle where thick ones arch. Range > 0.
     std::optional<double> thickness = {};
 
-    /// The shape to begin with, if it is not that at rest: of the last step, say. One position a vertex.
+    /// Initial shape, if it is not that at rest: of the last step, say. One position per vertex.
     std::vector<vec3> initial = {};
 
     taut::precision precision = precision::automatic;

@@ -19,7 +19,7 @@
 namespace taut
 {
 
-/// What the boundary of a mesh may do while it is smoothed.
+/// Treatment of the boundary of a mesh during smoothing.
 enum class smooth_boundary
 {
     fixed,   ///< nothing
@@ -27,33 +27,33 @@ enum class smooth_boundary
     free     ///< all; the shape changes
 };
 
-/// How to smooth a mesh. Every field has a sensible default.
+/// Parameters of smooth(). Every field has a sensible default.
 template <class Element>
 struct smooth_params
 {
     smooth_boundary boundary = smooth_boundary::sliding;
 
-    /// What elements are wanted to look like: regular, or as in `rest`.
+    /// Target shapes of elements: regular, or as in `rest`.
     wanted_shapes shapes = wanted_shapes::regular;
 
-    /// The shape at rest for wanted_shapes::rest, one position a vertex; none: that of the mesh.
+    /// Rest shape for wanted_shapes::rest, one position per vertex; none: that of the mesh.
     std::vector<vec3> rest = {};
 
-    /// What single elements are wanted to look like, and what they are corners of, as in deform_params: those of
-    /// corner_simplices::regular where they are corners of regular cells.
+    /// Target shapes of single elements, and their owners, as in deform_params: those of corner_simplices::regular
+    /// where they are corners of regular cells.
     std::vector<mat<Element::dimension>> targets = {};
     std::vector<idx> owners = {};
 
-    /// The energy, shape distortion by itself, is taken to this power: larger ones put the worst elements first, 1 the
-    /// mean. Range 1 to 8.
+    /// Power of the energy, which is shape distortion: larger ones improve the worst elements first, 1 the mean. Range
+    /// 1 to 8.
     int worst_exponent = 2;
 
-    /// Vertices that stay where they are whatever the boundary does.
+    /// Vertices that are fixed, whatever smooth_params::boundary says.
     std::vector<idx> fixed = {};
 
     /// Facets, inside or on the boundary, of surfaces that keep their shape whatever the boundary does: interfaces
     /// between materials, named pieces of the boundary (io::impl::kept_facets() finds them). Flat pieces slide in their
-    /// planes, straight lines where pieces meet or end along themselves; what is curved stays.
+    /// planes, straight lines where pieces meet or end along themselves; curved parts are fixed.
     std::vector<impl::kept_facet> kept = {};
 
     /// Sine of the angle up to which a boundary is flat or straight.
@@ -73,11 +73,12 @@ struct smooth_params
     }
 };
 
-/// A smoothed mesh, its report, and the shapes of its elements; `auto [x, report, before, after] = smooth(...)`.
+/// Result of smooth(): positions, a report, and the qualities of the elements before and after; `auto [x, report,
+/// before, after] = smooth(...)`.
 template <class Element>
 struct smooth_result
 {
-    std::vector<vec<Element::dimension>> x; ///< one a vertex, in the user's order and lengths
+    std::vector<vec<Element::dimension>> x; ///< one per vertex, in the user's order and lengths
     session_report report;
     shape_quality before, after; ///< after: only with coordinates
 
@@ -85,8 +86,8 @@ struct smooth_result
     explicit operator bool() const { return report.outcome == outcome::valid; }
 };
 
-/// Moves the vertices of a volume, or a mesh of the plane (z = 0), to where its elements are best shaped, without
-/// inverting one; what is inverted is untangled first. Connectivity stays.
+/// Moves the vertices of a volume, or a mesh of the plane (z = 0), to improve the shapes of its elements, without
+/// inverting one; inverted elements are untangled first. Connectivity is kept.
 /// Throws mesh_error, parameter_error, constraint_error for wrong ids, device_error.
 template <class Element>
 smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth_params<Element>& params = {})
@@ -190,7 +191,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
             }
         }
         if (!report.converged && !report.stopped)
-            report.notes.push_back("steps ended before they converged; what is written is as far as they came");
+            report.notes.push_back("steps ended before convergence; the result is the best by then");
     }
     result.x = restored(std::move(found.x));
     result.report = std::move(found.report);

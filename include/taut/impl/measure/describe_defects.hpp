@@ -10,9 +10,9 @@
 namespace taut::impl
 {
 
-/// What keeps a map from being locally injective, with the first ids; "no defect" if nothing does. Of what has no
-/// orientation, as hinges, it is the triangles that have collapsed. owners: where the
-/// elements are the corners of cells, the cell of each.
+/// Describes the defects of a map that is not locally injective, with the first ids; else "no defect". For elements
+/// without orientation, as hinges, these are collapsed triangles. owners: where the elements are the corners of cells,
+/// the cell of each.
 template <class Element>
 std::string describe_defects(const certificate& c, std::span<const idx> owners = {})
 {

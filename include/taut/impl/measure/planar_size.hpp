@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// True if the energy does not see a dilation, as the shape energy: the scale of a map is then up to us.
+/// True if the energy is scale-invariant, as the shape energy: the scale of a map is then free.
 inline bool is_scale_invariant(const any_energy& energy)
 {
     const mat2 S(1.1, 0.2, -0.3, 0.9);

@@ -17,7 +17,7 @@
 namespace taut
 {
 
-/// How a ratio that is 1 without distortion spreads over the elements.
+/// Statistics over the elements of a ratio that is 1 without distortion.
 struct spread
 {
     double min = std::numeric_limits<double>::infinity();
@@ -25,10 +25,10 @@ struct spread
     double rms = 0; ///< sqrt(mean((ratio - 1)^2)), every element counting 1
 };
 
-/// Distortion of a map in all the measures of the literature, and what folds. Energies see the map as it is. Stretch
-/// and area are the paper's columns (Table 3) and are taken after scaling the map to the total measure of the rest
-/// mesh, the sum of unsigned mapped measures; angles do not depend on scale. Everything but the energies is finite also
-/// for flipped elements (they count with |det|), as long as no element is flat.
+/// Quality of a map: the distortion measures of the literature, and counts of flipped elements. Energies see the map as
+/// it is. Stretch and area are the paper's columns (Table 3) and are taken after scaling the map to the total measure
+/// of the rest mesh, the sum of unsigned mapped measures; angles do not depend on scale. Everything but the energies is
+/// finite also for flipped elements (they count with |det|), as long as no element is flat.
 struct quality
 {
     certificate flips;           ///< exact
@@ -126,7 +126,7 @@ double angular_distortion(const mesh<Element>& m, std::span<const vec<Element::d
     return sum;
 }
 
-/// What a pass over the cells adds up before the scale is known.
+/// Sums of a pass over the cells before the scale is known.
 struct quality_sums
 {
     means isometric, shape, area;
@@ -148,7 +148,7 @@ struct quality_sums
 struct stretch_sums
 {
     spread_sum l2, linf, ratio;
-    double total = 0; ///< of l2^2, by measure
+    double total = 0; ///< sum of l2^2, by measure
 
     stretch_sums& operator+=(const stretch_sums& o)
     {
@@ -217,7 +217,7 @@ quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& i
     return q;
 }
 
-/// The same for the mesh as it is. Throws mesh_error where a cell is flat or inverted at rest.
+/// Measures a map in the units of the mesh. Throws mesh_error where a cell is flat or inverted at rest.
 template <class Element>
 quality measure_quality(const mesh<Element>& m, std::span<const vec<Element::dimension>> x)
 {

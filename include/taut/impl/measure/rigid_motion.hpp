@@ -12,22 +12,21 @@
 namespace taut
 {
 
-/// A motion of the plane or of space that keeps shapes: it turns by an angle about an axis through `from`, which goes
-/// to `to`.
+/// Rigid motion of the plane or of space: a rotation by an angle about an axis through `from`, which is moved to `to`.
 template <int D>
 struct rigid_motion
 {
     vec<D> from{0.0}, to{0.0};
-    vec3 axis{0, 0, 1}; ///< of length 1; in the plane the normal
+    vec3 axis{0, 0, 1}; ///< axis of length 1; in the plane the normal
     double angle = 0;   ///< radians; of a fit -pi to pi in the plane, 0 to pi in space
 
-    /// Where a point is when a share t of the motion is done, 0 to 1.
+    /// Image of a point under the fraction t of the motion, 0 to 1.
     vec<D> operator()(const vec<D>& p, double t = 1) const
     {
         return from + t * (to - from) + turned(p - from, t * angle);
     }
 
-    /// v turned about the axis, as Rodrigues' formula has it.
+    /// v rotated about the axis, by Rodrigues' formula.
     vec<D> turned(const vec<D>& v, double by) const
     {
         const double c = std::cos(by), s = std::sin(by);
@@ -38,8 +37,8 @@ struct rigid_motion
     }
 };
 
-/// The rigid motion that brings points closest to their images, in the sum of squares. Points on a line leave the turn
-/// about it open: of all that are as close it is the one that turns least. The two are of one length, at least 1.
+/// Fits the rigid motion that takes points to their images in the sense of least squares. For collinear points, which
+/// leave the rotation about their line open, it is the one of smallest angle. Both have one length, at least 1.
 inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<const vec2> images)
 {
     rigid_motion<2> m;
@@ -56,8 +55,8 @@ inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<
     return m;
 }
 
-/// In space by Horn, "Closed-form solution of absolute orientation using unit quaternions" (1987): the eigenvector of
-/// the largest eigenvalue of a symmetric 4 x 4 matrix, found by squaring it again and again.
+/// Fits a rigid motion of space after Horn, "Closed-form solution of absolute orientation using unit quaternions"
+/// (1987): the eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix, found by repeated squaring.
 inline rigid_motion<3> fit_rigid_motion(std::span<const vec3> points, std::span<const vec3> images)
 {
     rigid_motion<3> m;

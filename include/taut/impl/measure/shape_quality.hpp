@@ -17,9 +17,9 @@
 namespace taut::impl
 {
 
-/// How well single triangles or tetrahedra are shaped, in the measures of mesh generation; 1 is regular, 0 flat, less
-/// turned over. Definitions as in Stimpson et al., "The Verdict library reference manual" (2007), the mean ratio as in
-/// Liu and Joe, "Relationship between tetrahedron shape measures" (1994).
+/// Shape qualities of a triangle or tetrahedron, the measures of mesh generation: 1 is regular, 0 flat, less inverted.
+/// Definitions as in Stimpson et al., "The Verdict library reference manual" (2007), the mean ratio as in Liu and Joe,
+/// "Relationship between tetrahedron shape measures" (1994).
 struct element_shape
 {
     double mean_ratio = 0; ///< D = 2: 4 sqrt(3) area / sum l^2; D = 3: 12 (3 volume)^(2/3) / sum l^2, with its sign
@@ -27,7 +27,7 @@ struct element_shape
     double min_angle = 0;       ///< degrees; corner angles of triangles, dihedral ones of tetrahedra, 0 to 180
     double max_angle = 0;
 
-    /// Takes the worse of each.
+    /// Takes the worse value of each measure.
     void join(const element_shape& other)
     {
         mean_ratio = std::min(mean_ratio, other.mean_ratio);
@@ -161,7 +161,7 @@ inline element_shape corner_shape(const std::array<vec3, 4>& corners, const mat3
 namespace taut
 {
 
-/// The shapes of all elements of a mesh.
+/// Shape qualities of the elements of a mesh.
 struct shape_quality
 {
     impl::element_shape worst{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 180, 0};
@@ -216,7 +216,7 @@ std::vector<element_shape> shapes_of(const std::vector<typename mesh<Element>::c
 namespace taut
 {
 
-/// x: one finite position a vertex.
+/// Measures the shapes of all elements of a mesh. x: one finite position per vertex.
 template <class Element>
 shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& cells,
                              std::span<const vec<Element::dimension>> x)
@@ -225,8 +225,9 @@ shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& ce
         impl::shapes_of<Element>(cells, x, [](std::size_t, const auto& corners) { return impl::shape_of(corners); }));
 }
 
-/// The same of cells of any kind by the simplices at their corners, a cell being as good as its worst corner. owners:
-/// the cell of each simplex, those of one together; one alone is the cell itself. regular: as for corner_shape().
+/// Measures cells of any kind by the simplices at their corners: the quality of a cell is that of its worst corner.
+/// owners: the cell of each simplex, those of one together; one alone is the cell itself. regular: as for
+/// corner_shape().
 template <class Element>
 shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& simplices,
                              std::span<const vec<Element::dimension>> x, std::span<const idx> owners,

@@ -9,7 +9,7 @@
 namespace taut::impl
 {
 
-/// A similarity of the plane, z -> to + turn (z - from) in complex numbers: turned, scaled and shifted.
+/// Similarity of the plane, z -> to + turn (z - from) in complex numbers.
 struct similarity
 {
     std::complex<double> from = 0, to = 0, turn = 1;
@@ -21,14 +21,14 @@ struct similarity
     }
 };
 
-/// A point and where it should be.
+/// Point and its target.
 struct anchor
 {
     vec2 from, to;
     double weight = 1;
 };
 
-/// The similarity that brings anchors nearest to their places, in the sense of least squares.
+/// Fits the similarity that takes anchors to their targets in the sense of least squares.
 struct similarity_fit
 {
     similarity map;       ///< its turn is 0 where the anchors fix none: fewer than two, or all in one place

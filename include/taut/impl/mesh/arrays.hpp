@@ -18,9 +18,9 @@
 namespace taut
 {
 
-/// Rows of K numbers in the memory of a program: row i begins `stride` bytes after row i - 1, wherever that is (a
-/// packed array, an interleaved vertex buffer, every second row), and its numbers are `step` bytes apart (a matrix by
-/// columns, coordinates in arrays of their own). It refers to the memory; T is const where it is only read.
+/// View of rows of K numbers in the memory of a program: row i begins `stride` bytes after row i - 1, wherever that is
+/// (a packed array, an interleaved vertex buffer, every second row), and its numbers are `step` bytes apart (a matrix
+/// by columns, coordinates in arrays of their own). It refers to the memory; T is const where it is only read.
 template <class T, int K>
     requires std::is_arithmetic_v<std::remove_const_t<T>>
 class array_view
@@ -82,7 +82,7 @@ idx to_idx(I i)
 namespace taut
 {
 
-/// A mesh of arrays as other programs have them, copied once: points of 3 numbers, or of 2 in the plane z = 0; cells of
+/// Makes a mesh of arrays of another program, copied once: points of 3 numbers, or of 2 in the plane z = 0; cells of
 /// 32- or 64-bit, signed or unsigned vertex numbers that count from 0.
 ///
 ///     auto m = taut::mesh_of<taut::triangle>(taut::array_view<const float, 3>(vertices, n, sizeof(my_vertex)),
@@ -109,16 +109,16 @@ mesh<Element> mesh_of(const array_view<Real, Coordinates>& points, const array_v
     return mesh<Element>(std::move(x), std::move(c));
 }
 
-/// Points in rows of the user's, rounded to their type; a map that is certified in double may fold where it is rounded
-/// to float, so certify<D>(cells, points_of(rows)) tells whether what was stored did. Throws parameter_error for
-/// another number of rows.
+/// Stores points in rows of the user's, rounded to their type; a map that is certified in double may fold where it is
+/// rounded to float, so certify<D>(cells, points_of(rows)) tells whether what was stored did. Throws parameter_error
+/// for another number of rows.
 template <int D, class Real>
     requires std::floating_point<Real>
 void store(std::span<const vec<D>> x, const array_view<Real, D>& rows)
 {
     if (rows.rows() != x.size())
         throw parameter_error("rows", std::to_string(rows.rows()) + " rows for " + std::to_string(x.size()) +
-                                          " points; give one a point");
+                                          " points; give one per point");
     for (std::size_t v = 0; v < x.size(); ++v)
     {
         std::array<Real, static_cast<std::size_t>(D)> row;
@@ -127,7 +127,7 @@ void store(std::span<const vec<D>> x, const array_view<Real, D>& rows)
     }
 }
 
-/// Points out of rows of the user's.
+/// Reads points from rows of the user's.
 template <int D, class Real>
     requires std::floating_point<std::remove_const_t<Real>> std::vector<vec<D>>
     points_of(const array_view<Real, D>& rows)
@@ -141,7 +141,7 @@ template <int D, class Real>
         return x;
     }
 
-/// Points as the numbers that they are, packed: D doubles a point, without a copy.
+/// Coordinates of points as packed numbers: D doubles per point, without a copy.
 template <int D>
 std::span<const double> numbers_of(std::span<const vec<D>> x)
 {

@@ -13,8 +13,8 @@
 namespace taut
 {
 
-/// The facets with one cell, oriented as the boundary of the mesh: edges with the surface to their left, or triangles
-/// whose normals point out of the volume.
+/// Boundary facets, oriented as the boundary of the mesh: edges with the surface to their left, or triangles whose
+/// normals point out of the volume.
 template <class Element>
 std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Element>& m, const facet_table& f)
 {
@@ -51,9 +51,8 @@ inline idx next_boundary_side(const facet_table& f, idx side)
 namespace taut
 {
 
-/// The boundary loops as vertex cycles, each with the surface to its left, starting at its smallest vertex; in the
-/// order of those. Empty for a closed surface. Around a vertex where two parts of the surface touch, each part has its
-/// own loop.
+/// Boundary loops as vertex cycles, each with the surface to its left, starting at its smallest vertex; in the order of
+/// those. Empty for a closed surface. Around a vertex where two parts of the surface touch, each part has its own loop.
 /// Throws mesh_error (non_manifold_facet, inconsistent_orientation) where left has no meaning.
 inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const facet_table& f)
 {

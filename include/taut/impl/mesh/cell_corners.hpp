@@ -22,8 +22,8 @@ namespace taut
 /// after the other. A simplex without others of its cell is that cell. Without owners all are cells. 24 further
 /// tetrahedra after the 8 at the corners of a hexahedron, and 6 after the 6 of a wedge, are those at its edges.
 ///
-/// The facets of such a mesh with cells on one side alone, as simplices with the normal of the boundary: of a quad the
-/// triangles at its four corners.
+/// Boundary facets of such a mesh, as simplices with the normal of the boundary: of a quad the triangles at its four
+/// corners.
 template <class Element>
 std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Element>& m, std::span<const idx> owners)
 {
@@ -84,7 +84,7 @@ inline std::span<const std::array<std::size_t, 4>> corner_simplices(std::size_t 
     return corner_tetrahedra(count);
 }
 
-/// A flag a triangle: lone ones, and of the four at the corners of a quad those at two opposite ones, which do not
+/// A flag per triangle: lone ones, and of the four at the corners of a quad those at two opposite ones, which do not
 /// overlap, so that these are the surface, once.
 inline std::vector<char> triangle_cover(std::span<const idx> owners)
 {

@@ -13,18 +13,18 @@
 namespace taut
 {
 
-/// What a user says of single cells of a mesh, in its order: how much a cell counts, numbers that energies read, and a
-/// direction that anisotropic ones see. All parts may be left out.
+/// Data of the cells of a mesh, in its order: weights, parameters that energies read, and directions for anisotropic
+/// energies. All parts are optional.
 struct cell_data
 {
-    /// One a cell, positive: a factor of its weight in the sum of energies (a painted importance).
+    /// One per cell, positive: a factor of its weight in the sum of energies (a painted importance).
     std::vector<double> weights = {};
 
-    /// Numbers a cell, attribute k of cell c at [c * attribute_count + k]; an energy reads e.attribute(k).
+    /// Numbers per cell, attribute k of cell c at [c * attribute_count + k]; an energy reads e.attribute(k).
     std::size_t attribute_count = 0;
     std::vector<double> attributes = {};
 
-    /// One a cell, of any length, in space: the first axis of the frame of S at rest, projected to the cell (the warp
+    /// One per cell, of any length, in space: the first axis of the frame of S at rest, projected to the cell (the warp
     /// of a cloth, the fibre of a composite). Without them the frame is the element's own, along its first edge.
     std::vector<vec3> directions = {};
 

@@ -58,7 +58,7 @@ std::string list_first_elements(std::size_t n, const std::vector<idx>& ids, std:
            text.substr(text.find('('));
 }
 
-/// What is said of vertices that no triangle names, where these are no obstacle.
+/// Describes unreferenced vertices, where they are no obstacle.
 inline std::string describe_unused(const std::vector<idx>& ids)
 {
     return list_ids("vertex", "vertices", ids) + " without a triangle: ignored";
@@ -69,7 +69,7 @@ inline std::string describe_unused(const std::vector<idx>& ids)
 namespace taut
 {
 
-/// The sentence for a fault of a mesh of `Element`s: how many, the first ids, what is wrong, and the remedy. owners:
+/// Describes a fault of a mesh of `Element`s in a sentence: the count, the first ids, the fault and the remedy. owners:
 /// where these are the corners of cells, the cell of each.
 template <class Element>
 mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<const idx> owners = {})

@@ -15,18 +15,18 @@
 namespace taut
 {
 
-/// Facets (edges of triangles, faces of tetrahedra) with their two sides. Side s = corners * cell + k is the facet of
-/// `cell` opposite its corner k.
+/// Table of facets (edges of triangles, faces of tetrahedra) with their two sides. Side s = corners * cell + k is the
+/// facet of `cell` opposite its corner k.
 struct facet_table
 {
     static constexpr idx boundary = -1; ///< the side has no other side
     static constexpr idx crowded = -2;  ///< three or more cells share the facet
 
     std::vector<idx> twin;                 ///< other side of each side, or boundary, or crowded
-    std::vector<std::array<idx, 2>> clash; ///< pairs of sides that run the same way: one cell is turned over
+    std::vector<std::array<idx, 2>> clash; ///< pairs of sides that run the same way: one cell is flipped
     std::vector<std::vector<idx>> crowds;  ///< the sides of each facet with three or more
 
-    bool manifold() const { return crowds.empty(); }                  ///< at most two cells a facet
+    bool manifold() const { return crowds.empty(); }                  ///< at most two cells per facet
     bool oriented() const { return crowds.empty() && clash.empty(); } ///< and neighbours agree
 };
 
@@ -148,7 +148,7 @@ void sort_bucket(side_key<D>* first, side_key<D>* last)
 namespace taut
 {
 
-/// Finds the two sides of every facet: a counting sort by smallest vertex, then a small sort in each bucket.
+/// Computes the facet table of a mesh: a counting sort by smallest vertex, then a small sort in each bucket.
 /// Time O(n log(largest valence)), memory O(n).
 template <class Element>
 facet_table facets(const mesh<Element>& m)

@@ -17,9 +17,9 @@ namespace taut
 ///       \ /
 ///        3
 ///
-/// It has the corners of a tetrahedron, which is flat where the surface is: it has no orientation that a map could turn
-/// over, and its ideal is no shape at rest but a length. What the surface is like at rest is said by attributes of
-/// cells (thin_shell.hpp).
+/// It has the corners of a tetrahedron, which is flat where the surface is: it has no orientation that a map could
+/// invert, and its ideal is no rest shape but a length. The rest shape is given by attributes of cells
+/// (thin_shell.hpp).
 struct hinge
 {
     static constexpr int dimension = 3;

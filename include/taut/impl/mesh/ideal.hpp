@@ -40,7 +40,7 @@ double unit_scale(const mesh<Element>& m)
 namespace taut
 {
 
-/// The mesh with lengths times a factor, which its unit_scale makes exact.
+/// Mesh with all lengths multiplied by a factor, exactly, by its unit_scale.
 template <class Element>
 mesh<Element> scaled(const mesh<Element>& m, double factor)
 {
@@ -49,7 +49,8 @@ mesh<Element> scaled(const mesh<Element>& m, double factor)
     return {std::move(points), m.cells()};
 }
 
-/// S = A W^-1 (eq. 3), A the edges of the image from corner 0. inverse: W^-1, upper triangular.
+/// Jacobian S = A W^-1 (eq. 3) of the map of an element, A the edges of the image from corner 0. inverse: W^-1, upper
+/// triangular.
 inline mat2 shape_matrix(const mat2& A, const mat2& inverse)
 {
     return mat2(inverse[0][0] * A[0], inverse[1][0] * A[0] + inverse[1][1] * A[1]);
@@ -59,7 +60,7 @@ inline mat3 shape_matrix(const mat3& A, const mat3& inverse)
     return mat3(inverse[0][0] * A[0], inverse[1][0] * A[0] + inverse[1][1] * A[1],
                 inverse[2][0] * A[0] + inverse[2][1] * A[1] + inverse[2][2] * A[2]);
 }
-/// Of a cell. x: one image point a vertex.
+/// Jacobian of a cell. x: one image point per vertex.
 template <int D, std::size_t N>
 mat<D> shape_matrix(const std::array<idx, N>& cell, std::span<const vec<D>> x, const mat<D>& inverse)
 {
@@ -144,23 +145,24 @@ std::pair<std::vector<idx>, std::vector<idx>> bad_rest_cells(const mesh<Element>
 namespace taut
 {
 
-/// The ideal element of every cell (eqs. 1-10, 18): congruent to the cell at rest, so that S = A W^-1 is a rotation
-/// exactly where the map is an isometry, and det S is mapped / rest measure.
+/// Ideal elements of all cells (paper, equations 1 to 10 and 18): congruent to the cell at rest, so that S = A W^-1 is
+/// a rotation exactly where the map is an isometry, and det S is mapped / rest measure.
 template <class Element>
 struct ideal_elements
 {
     static constexpr int D = Element::dimension;
 
-    std::vector<mat<D>> inverse; ///< W^-1, upper triangular, one a cell; finite
-    std::vector<double> measure; ///< rest area or volume, one a cell
+    std::vector<mat<D>> inverse; ///< W^-1, upper triangular, one per cell; finite
+    std::vector<double> measure; ///< rest area or volume, one per cell
 
-    /// Any others, one a cell.
+    /// Any others, one per cell.
     ideal_elements(std::vector<mat<D>> inverses, std::vector<double> measures)
         : inverse(std::move(inverses)), measure(std::move(measures))
     {
     }
 
-    /// Of the mesh times `scale`: W^-1 in 1 / length and measure in length^D of the scaled mesh.
+    /// Computes the ideal elements of the mesh times `scale`: W^-1 in 1 / length and measure in length^D of the scaled
+    /// mesh.
     /// Throws mesh_error (degenerate_cell, inverted_cell) with every cell that has no ideal element.
     explicit ideal_elements(const mesh<Element>& m, double scale = 1.0)
         : inverse(static_cast<std::size_t>(m.cell_count())), measure(inverse.size())
@@ -193,7 +195,7 @@ struct ideal_elements
 namespace taut::impl
 {
 
-/// Elements with the edges from corner 0 that are the columns of matrices, times `scale`, one a cell.
+/// Elements with the edges from corner 0 that are the columns of matrices, times `scale`, one per cell.
 /// Throws parameter_error of that name for the first that is flat or inverted.
 template <class Element>
 ideal_elements<Element> elements_with_edges(std::span<const mat<Element::dimension>> edges, double scale,

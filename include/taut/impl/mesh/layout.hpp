@@ -47,13 +47,14 @@ struct layout
         frames; ///< D * D x cell_stride or none: by columns, the user's axes in the frame of the ideal cell
 
     /// Renumbers the mesh: free vertices first, otherwise for locality.
-    /// `pinned`: one flag a vertex of the mesh, or empty. Throws mesh_error for degenerate cells.
+    /// `pinned`: one flag per vertex of the mesh, or empty. Throws mesh_error for degenerate cells.
     explicit layout(const mesh<Element>& m, const std::vector<bool>& pinned = {}) : layout(m, solution_order(m, pinned))
     {
     }
 
-    /// Of a mesh that has its final order: its first `free` vertices move, the rest are pinned. `numbers` leads from
-    /// the user's mesh to this one; identity_order() where they are the same. Throws mesh_error for degenerate cells.
+    /// Makes the layout of a mesh in its final order: its first `free` vertices move, the rest are pinned. `numbers`
+    /// leads from the user's mesh to this one; identity_order() where they are the same. Throws mesh_error for
+    /// degenerate cells.
     layout(const mesh<Element>& local, mesh_order numbers, idx free)
         : layout(local, std::move(numbers), free, ideal_elements<Element>(local))
     {

@@ -11,11 +11,11 @@
 #include <taut/impl/mesh/facets.hpp>
 #include <taut/impl/mesh/ideal.hpp>
 
-/// The single questions that check() puts together.
+/// Tests that check() combines.
 namespace taut::impl
 {
 
-/// Pairs of cells with the same corners. They share all their facets, so only facet neighbours need a look.
+/// Pairs of cells with the same corners. They share all their facets, so only facet neighbours are tested.
 template <class Element>
 std::vector<idx> duplicate_cells(const mesh<Element>& m, const facet_table& f)
 {
@@ -67,7 +67,7 @@ std::vector<idx> clashing_cells(const mesh<Element>& m, const facet_table& f)
     return ids;
 }
 
-/// Whether turning cells over can make all neighbours agree: two-colours (as it is, turned over) the graph of cells.
+/// Returns whether the mesh is orientable: two-colours (kept, reversed) the graph of cells.
 inline bool orientable(const facet_table& f, idx corners)
 {
     if (f.clash.empty()) return true;
@@ -88,7 +88,7 @@ inline bool orientable(const facet_table& f, idx corners)
     return true;
 }
 
-/// The vertices of all facets with three or more cells, `dimension` of them a facet.
+/// Vertices of all facets with three or more cells, `dimension` per facet.
 template <class Element>
 std::vector<idx> crowded_facets(const mesh<Element>& m, const facet_table& f)
 {
@@ -141,8 +141,8 @@ inline std::vector<idx> vertices_of_several_fans(const mesh<triangle>& m, const 
     return ids;
 }
 
-/// Vertices whose cells fall into several groups that share no facet at the vertex. Vertices of crowded facets are
-/// left out: they are named there.
+/// Vertices whose cells fall into several groups that share no facet at the vertex. Vertices of non-manifold facets are
+/// left out.
 template <class Element>
 std::vector<idx> pinched_vertices(const mesh<Element>& m, const facet_table& f)
 {

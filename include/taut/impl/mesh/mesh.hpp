@@ -19,10 +19,10 @@
 namespace taut
 {
 
-/// A mesh at rest: points in space and cells (triangles or tetrahedra) that name them. A planar mesh has z = 0.
-/// It cannot be changed, and what it holds can always be indexed and computed with: there is at least one cell, every
-/// index is in range, no cell names a vertex twice and every coordinate is finite. What a map needs beyond that (a
-/// disk, ...) is the matter of validate().
+/// Mesh at rest: points in space and cells (triangles or tetrahedra) of vertex indices. A planar mesh has z = 0.
+/// It is immutable, and valid for indexing and computing: there is at least one cell, every index is in range, no cell
+/// names a vertex twice and every coordinate is finite. Further requirements of a map (disk topology, ...) are checked
+/// by validate().
 template <class Element>
 class mesh
 {
@@ -32,7 +32,7 @@ public:
     static constexpr int corners = Element::corners;
     using cell = std::array<idx, static_cast<std::size_t>(corners)>;
 
-    /// Throws mesh_error: empty, too_large, index_out_of_range, repeated_vertex, non_finite.
+    /// Makes a mesh. Throws mesh_error: empty, too_large, index_out_of_range, repeated_vertex, non_finite.
     mesh(std::vector<vec3> points, std::vector<cell> cells) : points_(std::move(points)), cells_(std::move(cells))
     {
         require_sizes();
@@ -41,14 +41,14 @@ public:
         require_finite();
     }
 
-    // Both arrays are packed: &points()[0].x is 3 doubles a vertex, cells()[0].data() `corners` 32-bit integers a cell
-    // (with GLM as it comes; its aligned types have gaps).
-    const std::vector<vec3>& points() const noexcept { return points_; } ///< rest positions, one a vertex
+    // Both arrays are packed: &points()[0].x is 3 doubles per vertex, cells()[0].data() `corners` 32-bit integers per
+    // cell (with GLM as it comes; its aligned types have gaps).
+    const std::vector<vec3>& points() const noexcept { return points_; } ///< rest positions, one per vertex
     const std::vector<cell>& cells() const noexcept { return cells_; }   ///< vertices of each cell, oriented
     idx vertex_count() const noexcept { return static_cast<idx>(points_.size()); }
     idx cell_count() const noexcept { return static_cast<idx>(cells_.size()); }
 
-    /// The rest positions of the corners of cell c.
+    /// Rest positions of the corners of cell c.
     typename Element::rest_corners rest(idx c) const
     {
         const cell& t = cells_[static_cast<std::size_t>(c)];
@@ -86,7 +86,7 @@ private:
         return !twice;
     }
 
-    /// Whether a vertex or a cell cannot be computed with; which ones is found out where there are any.
+    /// Returns whether there is an invalid vertex or cell; the ids are found afterwards.
     bool any_fault() const
     {
         const auto n = static_cast<std::uint32_t>(vertex_count());

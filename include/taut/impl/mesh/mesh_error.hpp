@@ -11,8 +11,8 @@
 namespace taut
 {
 
-/// What can be wrong with a mesh. The first five make it unusable and are found by the constructor of mesh; the others
-/// are found by check() and validate(). The comment says what mesh_error::ids() holds.
+/// Faults of a mesh. The first five make it unusable and are found by the constructor of mesh; the others are found by
+/// check() and validate(). The comment says what mesh_error::ids() holds.
 enum class mesh_fault
 {
     empty,                    ///< no cells; no ids
@@ -34,7 +34,7 @@ enum class mesh_fault
     handles                   ///< no ids
 };
 
-/// A word for programs.
+/// Stable identifier of a fault, for programs.
 constexpr const char* to_string(mesh_fault fault)
 {
     switch (fault)
@@ -77,7 +77,7 @@ constexpr const char* to_string(mesh_fault fault)
     return "unknown";
 }
 
-/// One fault with everything it concerns, and a sentence for people with the remedy.
+/// One fault of a mesh, the ids it concerns, and a sentence with the remedy.
 struct mesh_finding
 {
     mesh_fault fault;
@@ -85,7 +85,7 @@ struct mesh_finding
     std::string message;
 };
 
-/// A mesh that cannot be used. what() names the first ids and the remedy; ids() has all of them.
+/// Error of a mesh that cannot be used. what() names the first ids and the remedy; ids() has all of them.
 class mesh_error : public error
 {
 public:

@@ -30,7 +30,7 @@ struct permutation
                      });
     }
 
-    /// The renumbering of n things that changes nothing.
+    /// Identity renumbering of n things.
     static permutation identity(std::size_t n)
     {
         permutation p;
@@ -73,7 +73,7 @@ struct mesh_order
     permutation vertices, cells;
 };
 
-/// The renumbering that changes nothing.
+/// Identity renumbering.
 template <class Element>
 mesh_order identity_order(const mesh<Element>& m)
 {
@@ -139,8 +139,8 @@ inline std::vector<idx> along_curve(const std::vector<vec3>& points)
     return order;
 }
 
-/// An order in which neighbours in space are neighbours in memory: vertices along a Morton curve, cells by their
-/// smallest vertex. On scans this reads 2 to 5 times fewer cache lines than the order of the file, as few as a
+/// Computes an order in which neighbours in space are neighbours in memory: vertices along a Morton curve, cells by
+/// their smallest vertex. On scans this reads 2 to 5 times fewer cache lines than the order of the file, as few as a
 /// breadth-first or Hilbert order, and needs no connectivity. O(n log n).
 template <class Element>
 mesh_order locality_order(const mesh<Element>& m)
@@ -171,7 +171,7 @@ struct solution_order
     mesh_order order;
     idx free_count = 0; ///< vertices [0, free_count) of the new order move, the rest are pinned
 
-    /// pinned: one flag a vertex of the mesh, or empty.
+    /// pinned: one flag per vertex of the mesh, or empty.
     template <class Element>
     explicit solution_order(const mesh<Element>& m, const std::vector<bool>& pinned = {})
         : order(locality_order(m)), free_count(m.vertex_count())

@@ -24,15 +24,15 @@ namespace taut::impl
 class subdivision
 {
 public:
-    subdivision() = default; ///< of no mesh
+    subdivision() = default; ///< subdivision of no mesh
 
-    /// None yet, of a mesh with so many vertices.
+    /// Makes an empty subdivision of a mesh with a number of vertices.
     explicit subdivision(idx vertices) : originals_(vertices) {}
 
-    /// Puts a vertex in the middle of a simplex, of 2 to 4 vertices in any order: of the mesh, or put in before.
-    /// Returns its number: new ones follow the others in the order in which they are put in; the same simplex twice has
-    /// one. A simplex with a part that was split before is no longer there: split cells first, then faces, then edges.
-    /// Throws parameter_error for another number of vertices, one that is not there or is named twice.
+    /// Inserts a vertex at the centre of a simplex, of 2 to 4 vertices in any order: of the mesh, or inserted before.
+    /// Returns its number: new ones follow the others in the order of insertion; the same simplex twice has one. A
+    /// simplex with a part that was split before no longer exists: split cells first, then faces, then edges. Throws
+    /// parameter_error for another number of vertices, a missing or a repeated one.
     idx split(std::vector<idx> simplex)
     {
         std::sort(simplex.begin(), simplex.end());
@@ -72,7 +72,7 @@ public:
         return all;
     }
 
-    /// Calls part(array of vertices) for what becomes of a simplex of the mesh, orientation kept.
+    /// Calls part(array of vertices) for the parts of a simplex of the mesh, orientation kept.
     template <std::size_t N, class Part>
     void for_each_part(const std::array<idx, N>& simplex, const Part& part) const
     {
@@ -107,12 +107,12 @@ private:
     std::unordered_map<idx, std::vector<idx>> of_first_; ///< the splits of simplices whose smallest vertex this is
 };
 
-/// A mesh some of whose elements are split, and which part is of what.
+/// Refined mesh, with the parents of its elements.
 template <class Element>
 struct refinement
 {
     mesh<Element> refined;  ///< the vertices of the mesh first, in their order; the parts of an element together
-    std::vector<idx> cells; ///< of each element of it, the one that it is a part of; ascending
+    std::vector<idx> cells; ///< element that contains each of its elements; ascending
 };
 
 /// Splits elements of a mesh at rest, those beside them, too, so that neighbours meet in whole facets.

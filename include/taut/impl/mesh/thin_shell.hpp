@@ -15,19 +15,20 @@
 namespace taut
 {
 
-/// The attributes of a hinge that energy::shell reads.
+/// Attributes of a hinge that energy::shell reads.
 struct shell_attributes
 {
     static constexpr std::size_t first = 0;   ///< W^-1 of triangle (0, 1, 2) in lengths of the common edge: xx, xy, yy
     static constexpr std::size_t second = 3;  ///< the same of triangle (0, 1, 3)
-    static constexpr std::size_t shares = 6;  ///< of the two triangles in this hinge: area / hinges, by the mean
+    static constexpr std::size_t shares = 6;  ///< in the areas of its two triangles: area / hinges, by the mean
     static constexpr std::size_t bending = 8; ///< |edge|^2 / (sum of both areas), in means of area and squared edge
-    static constexpr std::size_t cosine = 9, sine = 10; ///< of the angle between the normals at rest
+    static constexpr std::size_t cosine = 9, sine = 10; ///< cosine and sine of the angle between the normals at rest
     static constexpr std::size_t count = 11;
 };
 
-/// A surface in space that bends and stretches: its hinges, and what they are like at rest. Vertices are those of the
-/// surface. Sums over hinges are integrals over the surface: a triangle is shared out evenly among its hinges.
+/// Thin shell: a surface in space that bends and stretches, as its hinges and their rest shapes. Vertices are those of
+/// the surface. Sums over hinges are integrals over the surface: the area of a triangle is divided equally among its
+/// hinges.
 class thin_shell
 {
 public:
@@ -41,7 +42,7 @@ public:
 
     const mesh<triangle>& surface() const { return surface_; }
     const mesh<hinge>& hinges() const { return hinges_; }
-    const cell_data& rest() const { return rest_; } ///< of the hinges: shell_attributes
+    const cell_data& rest() const { return rest_; } ///< data of the hinges: shell_attributes
     double mean_edge() const { return mean_edge_; } ///< root of the mean square of the edges with two triangles
 
 private:
@@ -75,7 +76,7 @@ private:
         {
             const auto text = impl::list_ids("triangle", "triangles", alone);
             throw mesh_error(mesh_fault::several_components, std::move(alone),
-                             text + " without a neighbour, which cannot bend; leave out what is alone");
+                             text + " without a neighbour, which cannot bend; remove isolated ones");
         }
         return found;
     }
@@ -115,7 +116,7 @@ private:
         rest_.attributes.insert(rest_.attributes.end(), numbers.begin(), numbers.end());
     }
 
-    /// Of the area of triangle k of a hinge.
+    /// Share of a hinge in the area of its triangle k.
     double share(std::size_t c, std::size_t k) const
     {
         const auto x = surface_.rest(static_cast<idx>(triangles_[c][k]));
@@ -123,8 +124,8 @@ private:
     }
 
     mesh<triangle> surface_;
-    std::vector<std::array<std::size_t, 2>> triangles_; ///< of each hinge
-    std::vector<int> hinges_of_;                        ///< of each triangle
+    std::vector<std::array<std::size_t, 2>> triangles_; ///< triangles of each hinge
+    std::vector<int> hinges_of_;                        ///< number of hinges of each triangle
     mesh<hinge> hinges_;
     cell_data rest_;
     double mean_edge_ = 0;

@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// The vertices, of `count`, that no cell names, ascending. Numbers that are no vertices are passed over.
+/// Finds unreferenced vertices, of `count`, ascending. Numbers out of range are ignored.
 template <class Cell>
 std::vector<idx> unused_vertices(std::size_t count, const std::vector<Cell>& cells)
 {
@@ -24,7 +24,7 @@ std::vector<idx> unused_vertices(std::size_t count, const std::vector<Cell>& cel
     return unused;
 }
 
-/// Brings unused vertices to the place of one that a cell names, where they widen no box and lie in nobody's way.
+/// Moves unreferenced vertices to the position of a referenced one, so that they do not affect bounding boxes.
 template <class Point, class Cell>
 void set_aside(std::span<const idx> unused, const std::vector<Cell>& cells, std::vector<Point>& points)
 {

@@ -11,8 +11,8 @@
 namespace taut
 {
 
-/// What a mesh must be beyond a well-oriented manifold with cells that are not flat. The default for triangles is a
-/// disk: connected, one boundary loop, no handles.
+/// Requirements on a mesh beyond a consistently oriented manifold with non-degenerate cells. The default for triangles
+/// is a disk: connected, one boundary loop, no handles.
 struct mesh_requirements
 {
     bool referenced = true;   ///< every vertex belongs to a cell
@@ -22,8 +22,8 @@ struct mesh_requirements
     bool no_handles = true;   ///< triangles: and a seam from it to itself cuts the surface apart
 };
 
-/// Every fault of the mesh, one finding a kind, the most basic first. Empty: the mesh is as required. Boundary and
-/// handles are looked at where the mesh is an oriented manifold. `f` are the facets of m.
+/// Finds every fault of the mesh, one finding per kind, the most basic first. Empty: the mesh is as required. Boundary
+/// and handles are checked where the mesh is an oriented manifold. `f` are the facets of m.
 template <class Element>
 std::vector<mesh_finding> check(const mesh<Element>& m, const facet_table& f, const mesh_requirements& need = {})
 {

@@ -4,7 +4,7 @@
 namespace taut
 {
 
-/// What elements are wanted to look like.
+/// Target shapes of elements.
 enum class wanted_shapes
 {
     rest,   ///< like the elements at rest

@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// What the kernels of elements read of a mesh besides positions, on a device; strides as in layout.hpp.
+/// Arrays of a mesh on a device that the element kernels read, besides positions; strides as in layout.hpp.
 template <class Element>
 struct element_arrays
 {
@@ -48,7 +48,7 @@ struct element_arrays
             parameters.emplace_back("parameter" + std::to_string(parameters.size()), p);
     }
 
-    /// The arguments of a kernel that takes element_inputs: these arrays, the map x and what else it takes.
+    /// Arguments of a kernel with element_inputs: these arrays, the map x and further ones.
     std::vector<named_argument> with(const real_buffer& x, std::initializer_list<named_argument> more) const
     {
         std::vector<named_argument> all = {{"corners", corners},

@@ -15,7 +15,7 @@
 namespace taut
 {
 
-/// What becomes of the negative eigenvalues of an element's Hessian, in the space of S: before the change to corners,
+/// Treatment of the negative eigenvalues of an element's Hessian, in the space of S, before the change to corners,
 /// which keeps their sign.
 enum class definiteness
 {
@@ -24,7 +24,7 @@ enum class definiteness
     absolute    ///< without it: negative_eigenvalues::absolute
 };
 
-/// The stand-in for the Hessian.
+/// Treatment of the projected (PSD) Hessian.
 inline definiteness definite(impl::negative_eigenvalues treated)
 {
     return treated == impl::negative_eigenvalues::absolute ? definiteness::absolute : definiteness::projected;
@@ -35,16 +35,16 @@ inline definiteness definite(impl::negative_eigenvalues treated)
 namespace taut::impl
 {
 
-/// How an element's Hessian is stored: blocks of D x D for pairs of corners k <= l in the order (0,0) (0,1) .. (0,D)
-/// (1,1) .. (D,D). A block on the diagonal has its upper triangle by rows (2D: xx xy yy), the others all entries by
-/// rows, which belong to corner k (2D: xx xy yx yy). Slot n of cell c stands at [n * cell_stride + c].
+/// Storage of an element's Hessian: blocks of D x D for pairs of corners k <= l in the order (0,0) (0,1) .. (0,D) (1,1)
+/// .. (D,D). A block on the diagonal has its upper triangle by rows (2D: xx xy yy), the others all entries by rows,
+/// which belong to corner k (2D: xx xy yx yy). Slot n of cell c stands at [n * cell_stride + c].
 template <int D>
 struct hessian_slots
 {
     static constexpr int diagonal = D * (D + 1) / 2; ///< entries of a block (k, k)
     static constexpr int count = (D + 1) * diagonal + D * (D + 1) / 2 * D * D;
 
-    /// The slot of d2 E / d(coordinate i of corner k) d(coordinate j of corner l), in either order.
+    /// Slot of d2 E / d(coordinate i of corner k) d(coordinate j of corner l), in either order.
     static constexpr int at(int k, int i, int l, int j)
     {
         if (k > l || (k == l && i > j)) return at(l, j, k, i);
@@ -55,12 +55,12 @@ struct hessian_slots
     }
 };
 
-/// The second derivatives of weight * energy by the corners of each element, one work-item an element; arrays and
-/// ranges as in element_kernels. Nothing is tested against the domain: outside of a barrier's the result means nothing.
+/// Kernels of the second derivatives of weight * energy by the corners of each element, one work-item per element;
+/// arrays and ranges as in element_kernels. The domain is not tested: outside of a barrier's the result is undefined.
 ///
-/// An energy that says its Hessian itself (any_energy::hessian) is asked for it; one of |S|^2 and det S takes the
-/// closed forms of modes.hpp. Any other is differentiated twice on the tape and filtered by Jacobi rotations; in space
-/// its diagonal is shifted instead, whatever the filter.
+/// An energy with a Hessian of its own (any_energy::hessian) provides it; one of |S|^2 and det S takes the closed forms
+/// of modes.hpp. Any other is differentiated twice on the tape and filtered by Jacobi rotations; in space its diagonal
+/// is shifted instead, whatever the filter.
 template <class Element>
 struct element_hessian_kernel
 {
@@ -75,13 +75,13 @@ struct element_hessian_kernel
     {
     }
 
-    /// From a program with what record() gives.
+    /// Takes the kernel from a program with the text of record().
     explicit element_hessian_kernel(const traced_program& p) : launch(p, name) {}
 
-    /// All kinds of Hessian are one kernel: what they have in common is most of what a driver compiles.
+    /// Records all kinds of Hessian in one kernel: most of its code is common to them.
     static named_argument as_argument(definiteness sign) { return {"definiteness", static_cast<idx>(sign)}; }
 
-    /// As text, for a program that others share.
+    /// Text of the kernel, for a shared program.
     static kernel_text record(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.vector);
@@ -109,7 +109,7 @@ private:
 
     static constexpr const char* name = "element_hessian";
 
-    /// Second derivatives of weight * energy by the entries of S, by columns.
+    /// Second derivatives of weight * energy with respect to the entries of S, by columns.
     static symmetric_matrix<real, N> by_shape_matrix(const any_energy& energy, const traced& e,
                                                      const eigenvalue_filter<real>& filter, scalar_type type)
     {
@@ -147,7 +147,7 @@ private:
             return shifted(std::move(H), filter.projected);
     }
 
-    /// H + t I with the least t >= 0 for which Gershgorin's circles say that it is positive semi-definite. In space the
+    /// H + t I with the minimum t >= 0 for which Gershgorin's circles show it positive semi-definite. In space the
     /// rotations of filtered_matrix are 0.8 MB of unrolled code, which a driver compiles for half a minute.
     static symmetric_matrix<real, N> shifted(symmetric_matrix<real, N> H, sym_bool projected)
     {
@@ -164,8 +164,8 @@ private:
         return H;
     }
 
-    /// From the entries of S to the corners: S is linear in the edges A = S W, and an edge is a corner less corner 0,
-    /// which so takes minus the sum of the others.
+    /// Chain rule from the entries of S to the corners: S is linear in the edges A = S W, and an edge is a corner minus
+    /// corner 0, which takes minus the sum of the others.
     static symmetric_matrix<real, D*(D + 1)> corner_hessian(const symmetric_matrix<real, N>& H, const traced& e)
     {
         symmetric_matrix<real, D*(D + 1)> result;

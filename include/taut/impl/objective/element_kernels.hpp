@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// The kernels of one energy over one kind of element, one work-item an element, traced from the energy's C++ template.
+/// Kernels of one energy over one kind of element, one work-item per element, traced from the energy's C++ template.
 /// All of them take element_inputs. Arrays are laid out as in layout.hpp; ranges are whole multiples of its step, so
 /// there are no bounds tests, and loads and stores have stride 1 but for the vertices, which is what lets a CPU device
 /// vectorise them.
@@ -43,7 +43,7 @@ struct element_kernels
     {
     }
 
-    /// From a program with all that record() and record_common() give.
+    /// Takes the kernels from a program with the texts of record() and record_common().
     explicit element_kernels(const traced_program& p)
         : value(p, "element_value"),
           gradient(p, "element_gradient"),
@@ -52,13 +52,13 @@ struct element_kernels
     {
     }
 
-    /// The kernels as text: for a program that others share, for tests and for the curious.
+    /// Texts of the kernels: for a shared program, and for tests.
     static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
         return {record_value(energy, types, form), record_gradient(energy, types, form),
                 record_along(energy, types, form)};
     }
-    /// Those that are the same for all energies without data.
+    /// Texts of the kernels that are the same for all energies without data.
     static std::vector<kernel_text> record_common(const any_energy& energy, const real_types& types, kernel_form form)
     {
         return {record_first_flips(energy, types, form)};
@@ -116,7 +116,7 @@ struct element_kernels
         return r.finish("element_along", form);
     }
 
-    /// energy: says which arguments it takes beside those that it needs.
+    /// energy: determines the optional arguments.
     static kernel_text record_first_flips(const any_energy& energy, const real_types& types, kernel_form form)
     {
         recording r(types.position);

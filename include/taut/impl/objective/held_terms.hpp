@@ -17,9 +17,9 @@
 namespace taut::impl
 {
 
-/// Coordinates of vertices that a solver does not choose, beside those that are pinned in the layout: vectors are zero
-/// there, and so are rows and columns of element Hessians, so that the matrices of all levels know of it. Who is held,
-/// and where, can change without anything else being made anew. Kernels run over what is held, and the elements at it.
+/// Fixed coordinates beside those that are pinned in the layout: vectors are zero there, and so are rows and columns of
+/// element Hessians, and with them the matrices of all levels. The set of fixed coordinates and their targets can
+/// change without rebuilding anything else. Kernels run over fixed coordinates, and the elements at them.
 template <class Element>
 class held_terms
 {
@@ -36,7 +36,7 @@ public:
 
     bool empty() const noexcept { return places_.empty(); }
 
-    /// marks: one a vertex in the user's numbers, or none; they take the place of those before.
+    /// Replaces the fixed coordinates. marks: one per vertex in the user's numbering, or none.
     void hold(const layout<Element>& mesh_layout, const held_marks<D>& marks)
     {
         vertices_.clear();
@@ -69,7 +69,7 @@ public:
         corners_ = buffer_of(corners);
     }
 
-    /// Where held coordinates are wanted: those of a map in the user's numbers and units, of which no others are read.
+    /// Sets the targets of fixed coordinates: those of a map in the user's numbers and units; no others are read.
     void aim(const layout<Element>& mesh_layout, std::span<const vec<D>> map)
     {
         if (empty()) return;
@@ -78,13 +78,13 @@ public:
         targets_ = real_buffer(queue_, types_.position, targets);
     }
 
-    /// v = 0 at what is held.
+    /// Sets v = 0 at fixed coordinates.
     void mask(device_vector& v) { clear("mask", places_, v.data()); }
 
-    /// Rows and columns of what is held in the Hessians of elements, packed as hessian_slots say, become 0.
+    /// Sets rows and columns of fixed coordinates in the Hessians of elements, packed as in hessian_slots, to 0.
     void mask_hessian(real_buffer& hessian) { clear("mask_hessian", entries_, hessian); }
 
-    /// d = a share of what x lacks at what is held; other places stay as they are.
+    /// d = a fraction of the remaining displacement at fixed coordinates; other places stay as they are.
     void gap(const device_vector& x, double share, device_vector& d)
     {
         over_places("gap",
@@ -98,7 +98,7 @@ public:
                     });
     }
 
-    /// x = what is wanted at what is held.
+    /// Sets x to the targets at fixed coordinates.
     void put(device_vector& x)
     {
         over_places("put",
@@ -110,8 +110,8 @@ public:
                     });
     }
 
-    /// To the gradients of corners the products of the Hessians of elements, not masked yet, with d, which is zero at
-    /// all that is not held.
+    /// Adds to the gradients of corners the products of the Hessians of elements, not masked yet, with d, which is zero
+    /// at all free coordinates.
     void add_product(const real_buffer& hessian, const device_vector& d, real_buffer& corner_gradients)
     {
         if (cells_.empty()) return;
@@ -187,9 +187,9 @@ private:
     real_types types_;
     idx cell_stride_, vertex_stride_;
     std::vector<std::pair<std::size_t, int>> vertices_; ///< vertex and coordinate of each place, the user's numbers
-    buffer<idx> places_;                                ///< held coordinates in vectors
-    buffer<idx> entries_;                               ///< of element Hessians
-    buffer<idx> cells_, corners_;                       ///< elements at held vertices, and their vertices
+    buffer<idx> places_;                                ///< fixed coordinates in vectors
+    buffer<idx> entries_;                               ///< entries of element Hessians
+    buffer<idx> cells_, corners_;                       ///< elements at fixed vertices, and their vertices
     real_buffer targets_;                               ///< by place
 };
 

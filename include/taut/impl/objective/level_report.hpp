@@ -8,7 +8,7 @@
 namespace taut::impl
 {
 
-/// What happened on one level of a nested iteration.
+/// Report of one level of a nested iteration.
 struct level_report
 {
     std::size_t level = 0; ///< 0: the mesh itself

@@ -18,7 +18,7 @@
 namespace taut
 {
 
-/// Energy, gradient and Hessian of a map as numbers, for people with a solver of their own:
+/// Evaluator of the energy, gradient and Hessian of a map, for solvers of one's own:
 ///
 ///     f(x) = sum over cells of w_c E(S_c(x)) / sum of w_c
 ///
@@ -46,14 +46,14 @@ public:
     {
     }
 
-    /// f(x); infinity where the energy is a barrier and an element is not positive. x: one point a vertex.
+    /// Value f(x); infinity where the energy is a barrier and an element is not positive. x: one point per vertex.
     double value(points x)
     {
         upload(x);
         return objective_.value(x_);
     }
 
-    /// The same, and its gradient, one vector a vertex. Throws parameter_error for another number of them.
+    /// The same, and its gradient, one vector per vertex. Throws parameter_error for another number of them.
     double value_gradient(points x, std::span<vec<D>> gradient)
     {
         require(gradient.size(), "gradient");
@@ -67,7 +67,7 @@ public:
         return value;
     }
 
-    /// The Hessian at x, or with the Hessian of each element projected to its positive semi-definite part.
+    /// Hessian at x, or the projected one (positive semi-definite element by element).
     impl::block_rows<D> hessian(points x, definiteness sign = definiteness::indefinite)
     {
         upload(x);
@@ -79,7 +79,7 @@ public:
         return rows();
     }
 
-    /// The largest a for which no element has flipped anywhere on [x, x + a d); infinity if none ever does.
+    /// Maximum step a for which no element flips on [x, x + a d); infinity if none ever does.
     double max_step(points x, points d)
     {
         require(d.size(), "d");
@@ -90,7 +90,7 @@ public:
     }
 
 private:
-    /// What the Hessian takes, made where it is first asked for.
+    /// Data for the Hessian, made on first use.
     struct second_order
     {
         impl::element_hessian_kernel<Element> kernel;

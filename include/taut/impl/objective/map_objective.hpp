@@ -26,12 +26,12 @@
 namespace taut::impl
 {
 
-/// The distortion of a map of a mesh as an objective for the solvers (solve/objective.hpp), evaluated on a device:
+/// Distortion of a map of a mesh as an objective for the solvers (solve/objective.hpp), evaluated on a device:
 ///
 ///     f(x) = sum over cells of w_c E(S_c(x)) / sum of w_c + sum over springs of k_v |x_v - t_v|^2
 ///
 /// with w_c = 1 or the rest measure. A point holds the coordinates of all vertices in layout order, D x vertex_stride;
-/// vectors have the same shape and are zero on what is pinned or held, so that it never moves.
+/// vectors have the same shape and are zero at fixed coordinates, so that these never move.
 /// Kernels per evaluation: elements, gather (paper Fig. 8), one reduction; one host wait.
 template <class Element>
 class map_objective
@@ -51,7 +51,7 @@ public:
     {
     }
 
-    /// With kernels of the same energy and types that another one has traced already.
+    /// Shares kernels of the same energy and types with another objective.
     map_objective(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
                   energy::weighting weights, const real_types& types, std::shared_ptr<const kernels> traced,
                   const point_constraints<D>& constraints = {})
@@ -83,18 +83,18 @@ public:
     void copy(const point& x, point& y) const { space_.copy(x, y); }
     void step(const point& x, double a, const vector& d, point& out) const { space_.step(x, a, d, out); }
 
-    /// Coordinates in the user's order and units, to the device and back.
+    /// Transfers coordinates in the user's order and units to the device and back.
     void upload(const std::vector<vec<D>>& x, point& p) const { p.upload(layout_->to_local(x)); }
     std::vector<vec<D>> download(const point& p) const { return layout_->to_user(p.download()); }
 
-    /// Other values of the numbers that the energy reads as parameters: as many as before.
+    /// Replaces the parameters of the energy, in the same number.
     void set_parameters(std::span<const double> values)
     {
         for (std::size_t k = 0; k < values.size(); ++k) arrays_->parameters.at(k).second = values[k];
     }
-    /// Other springs, in the user's numbers and units.
+    /// Replaces the springs, in the user's numbering and units.
     void set_springs(std::span<const directed_spring<D>> springs) { springs_.set_springs(*layout_, springs); }
-    /// Other constraints, in the user's numbers and units, in the place of those that it was made with.
+    /// Replaces the constraints, in the user's numbering and units.
     void constrain(const point_constraints<D>& c)
     {
         springs_.set_springs(*layout_, c.springs);
@@ -102,10 +102,10 @@ public:
         sliding_.slide(*layout_, c.slides);
     }
 
-    /// Where coordinates that are held besides those of pinned vertices are wanted, for linearize_towards() and put():
-    /// those of a map in the user's numbers and units, of which no others are read.
+    /// Sets the targets of fixed coordinates other than those of pinned vertices, for linearize_towards() and put():
+    /// those of a map in the user's numbers and units; no others are read.
     void aim(std::span<const vec<D>> map) { held_.aim(*layout_, map); }
-    /// x = what is wanted at what is held, to the last bit of the type of positions.
+    /// Sets x to the targets at fixed coordinates, to the last bit of the type of positions.
     void put(point& x) { held_.put(x); }
 
     double value(const point& x)
@@ -132,7 +132,7 @@ public:
         return reductions_.value(sum);
     }
 
-    /// g = the gradient; nothing waits.
+    /// Computes the gradient g without a wait.
     void gradient(const point& x, vector& g)
     {
         element_gradients(x);
@@ -140,7 +140,7 @@ public:
         mask(g);
     }
 
-    /// f at x + a[i] d, four step lengths a launch, one wait in all.
+    /// Values f(x + a[i] d), four step lengths per launch, one wait in all.
     void values(const point& x, const vector& d, std::span<const double> a, std::span<double> out)
     {
         const auto results = enqueue_values(x, d, one_, a);
@@ -148,7 +148,7 @@ public:
         fold_values(results, out);
     }
 
-    /// The largest a for which no element has flipped anywhere on [x, x + a d); infinity if none ever does.
+    /// Maximum step a for which no element flips on [x, x + a d); infinity if none ever does.
     double max_step(const point& x, const vector& d)
     {
         const auto least = enqueue_max_step(x, d);
@@ -156,7 +156,7 @@ public:
         return reductions_.value(least);
     }
 
-    /// The elements that flip first along d, up to sixteen within twice the least step, in the user's numbers.
+    /// Elements that flip first along d, up to sixteen within twice the minimum step, in the user's numbering.
     std::vector<int> capping(const point& x, const vector& d)
     {
         constexpr std::size_t most = 16;
@@ -169,7 +169,7 @@ public:
         return found;
     }
 
-    /// f at x + u a[i] d with u = min(most, fraction * max_step), which is returned. One wait in all.
+    /// Values f(x + u a[i] d) with u = min(most, fraction * max_step), which is returned. One wait in all.
     double capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
                          std::span<double> out, double most = 1)
     {
@@ -191,8 +191,8 @@ public:
         return {fold_capped_values(capped, fraction, out, most), reductions_.value(norm)};
     }
 
-    /// Launches once what Newton's method launches, so that what the driver compiles at the first launch is compiled;
-    /// what other methods need besides is compiled at its first use.
+    /// Launches the kernels of Newton's method once, so that the driver compiles them; those of other methods are
+    /// compiled at first use.
     void warm_up(const point& x)
     {
         auto g = space_.make(), d = space_.make();
@@ -214,7 +214,7 @@ public:
     /// scale. After Zhu, Bridson, Kaufman 2018 ("Blended cured quasi-Newton"), section 4.
     double gradient_scale(const point&) const { return gradient_scale_; }
 
-    /// f is a mean of the energy, so what is typical of the one is of the other.
+    /// Typical value of f, which is a mean of the energy.
     double value_scale() const { return value_scale_; }
 
     std::uint64_t waits() const { return queue_.counters().waits; }
@@ -232,9 +232,9 @@ protected:
         springs_.add_gradient(x, corner_gradients_);
     }
 
-    /// What held coordinates that move by d do to the gradients of elements, which are those at the current point, in
-    /// the model of `hessian`, not masked yet: g = the gradient at the others. f here, and by how much the model
-    /// changes. One wait.
+    /// Applies a displacement d of fixed coordinates to the gradients of elements, which are those at the current
+    /// point, in the model of `hessian`, not masked yet: g = the gradient at the others. f here, and by how much the
+    /// model changes. One wait.
     solve::impl::model_change move_held(const real_buffer& hessian, const vector& d, vector& g)
     {
         const auto sum = enqueue_sum();
@@ -255,13 +255,13 @@ protected:
     spring_terms<Element>& springs() { return springs_; }
     held_terms<Element>& held() { return held_; }
 
-    /// v without what vertices may not do.
+    /// Projects v to the admissible displacements.
     void mask(vector& v)
     {
         held_.mask(v);
         sliding_.project(v);
     }
-    /// The same of the Hessians of elements.
+    /// Projects the Hessians of elements.
     void mask_hessian(real_buffer& hessian)
     {
         sliding_.project_hessian(hessian);
@@ -269,7 +269,7 @@ protected:
     }
 
 private:
-    /// Rows of free vertices only: the others get zero.
+    /// Gathers rows of free vertices only: the others get zero.
     gather make_gather()
     {
         const auto& corners = layout_->vertex_corners;

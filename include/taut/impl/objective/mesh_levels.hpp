@@ -17,16 +17,16 @@
 namespace taut::impl
 {
 
-/// A mesh in solution order and its coarser levels, with what solvers want of each: connectivity, layout, and the
-/// transfers between levels. Levels keep the numbering of the finest one, so free vertices are first on each.
+/// Mesh in solution order and its coarser levels, with the connectivity and layout of each and the transfers between
+/// them. Levels keep the numbering of the finest one, so free vertices are first on each.
 template <class Element>
 class mesh_levels
 {
 public:
-    /// pinned: one flag a vertex of m, or empty; pinned vertices are on every level of a surface. data: of the cells of
-    /// m; coarser levels have the means. kept: other vertices that are on every level, or empty. owners: of cells that
-    /// overlap (mesh/cell_corners.hpp), whose coarser levels are those of triangle_cover(), or of the cells' boundary
-    /// in space. Throws mesh_error, parameter_error.
+    /// pinned: one flag per vertex of m, or empty; pinned vertices are on every level of a surface. data: of the cells
+    /// of m; coarser levels have the means. kept: other vertices that are on every level, or empty. owners: of cells
+    /// that overlap (mesh/cell_corners.hpp), whose coarser levels are those of triangle_cover(), or of the cells'
+    /// boundary in space. Throws mesh_error, parameter_error.
     explicit mesh_levels(const mesh<Element>& m, const std::vector<bool>& pinned = {},
                          const hierarchy_params& params = {}, const cell_data& data = {},
                          const std::vector<bool>& kept = {}, std::span<const idx> owners = {})
@@ -79,10 +79,10 @@ public:
     std::span<const vec3> points() const { return finest_.points(); }
     std::size_t vertices(std::size_t l) const { return hierarchy_.levels[l].vertices.size(); }
 
-    /// Between the user's numbers and those of the finest level.
+    /// Permutation between the user's numbering and that of the finest level.
     const mesh_order& order() const noexcept { return numbering_.order; }
 
-    /// The numbers on a level of all of the user's vertices; -1 for those that it lacks.
+    /// Numbers on a level of all of the user's vertices; -1 for missing ones.
     std::vector<idx> places(std::size_t l) const
     {
         std::vector<idx> place(order().vertices.new_to_old.size(), -1);
@@ -106,7 +106,7 @@ public:
     mesh<Element> level(std::size_t l) const { return l == 0 ? finest_ : level_mesh(hierarchy_, l, finest_.points()); }
     const std::vector<typename mesh<Element>::cell>& cells(std::size_t l) const { return hierarchy_.levels[l].cells; }
 
-    /// In the numbers of the level; for the finest one, to and from the numbers of the level, too, not the user's.
+    /// Layout in the numbering of the level, also for the finest one.
     std::shared_ptr<const layout<Element>> make_layout(std::size_t l) const
     {
         const auto m = level(l);
@@ -127,10 +127,10 @@ public:
     }
 
     bool pinned() const { return free_[0] < static_cast<idx>(vertices(0)); }
-    /// One flag a vertex.
+    /// One flag per vertex.
     std::span<const char> fixed(std::size_t l) const { return fixed_[l]; }
 
-    /// From each level that is coarser than l to the next finer one. Refers to this object.
+    /// Transfers from each level coarser than l to the next finer one. Refers to this object.
     std::vector<transfer_weights> transfers(std::size_t l) const
     {
         std::vector<transfer_weights> all;

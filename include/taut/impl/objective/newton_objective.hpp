@@ -22,7 +22,7 @@
 namespace taut::impl
 {
 
-/// What a newton_objective does for elements that cap a step.
+/// Treatment of elements that cap a step in a newton_objective.
 enum class capping_elements
 {
     relaxed, ///< newton_objective::relax() moves their vertices
@@ -30,7 +30,7 @@ enum class capping_elements
 };
 
 /// The kernels of one energy for Newton's method, traced once, built as one program beside what all energies have, and
-/// shared by all levels of a hierarchy. Those that are launched last may be compiled elsewhere.
+/// shared by all levels of a hierarchy. Those that are launched last may be compiled in another process.
 template <class Element>
 struct newton_kernels
 {
@@ -82,7 +82,7 @@ private:
 
 /// A map_objective that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into
 /// block-sparse matrices on the device, and a multigrid V-cycle over the hierarchy of the mesh is the preconditioner.
-/// The positive semi-definite stand-in has the eigenvalues of element Hessians filtered, as the energy says.
+/// The positive semi-definite (projected) Hessian has the eigenvalues of element Hessians filtered, as the energy says.
 template <class Element>
 class newton_objective : public map_objective<Element>
 {
@@ -117,7 +117,7 @@ public:
                                  weights, energy, touched);
     }
 
-    /// As map_objective::constrain.
+    /// Replaces the constraints, as map_objective::constrain.
     void constrain(const point_constraints<D>& c)
     {
         base::constrain(c);
@@ -139,8 +139,9 @@ public:
         assemble_(hessian_, *indefinite_);
     }
 
-    /// As linearize(x, false), where held coordinates are on their way to what aim() said: d = a share of what x lacks
-    /// there and 0 elsewhere, g = the gradient at x + d in the model. f(x), and the change of the model along d.
+    /// Linearizes as linearize(x, false), with prescribed displacements towards the targets of aim(): d = a fraction of
+    /// the remaining ones there and 0 elsewhere, g = the gradient at x + d in the model. Returns f(x), and the change
+    /// of the model along d.
     solve::impl::model_change linearize_towards(const point& x, double share, vector& d, vector& g)
     {
         d.data().fill(0);
@@ -153,27 +154,28 @@ public:
         return change;
     }
     void hessian_product(const vector& v, vector& out) { (exact_ ? *indefinite_ : cycle_.matrix()).multiply(v, out); }
-    /// The V-cycle between two projections where coordinates are held: symmetric and positive on what is left.
+    /// Applies the V-cycle between two projections where coordinates are fixed: symmetric and positive definite on the
+    /// free ones.
     void precondition(const vector& v, vector& out)
     {
         cycle_.apply(v, out);
         this->mask(out);
     }
 
-    /// What precondition() applies, with its matrices, for measurements.
+    /// Preconditioner with its matrices, for measurements.
     const multigrid& preconditioner() const { return cycle_; }
 
-    /// Moves the vertices of the worst elements alone; whether there were any.
+    /// Relaxes the vertices of the worst elements; returns whether there were any.
     bool relax(point& x) { return relaxation_ && (*relaxation_)(x).vertices > 0; }
 
-    /// Minimises what a step has found far from quadratic by itself, on surfaces; whether there was anything.
+    /// Eliminates strongly nonlinear parts of a surface; returns whether there were any.
     bool eliminate(point& x, const vector& unexpected, const std::function<bool()>& proceed)
     {
         if constexpr (eliminates) return elimination_ && (*elimination_)(x, unexpected, proceed);
         return false;
     }
 
-    /// As map_objective::warm_up, and what is Newton's.
+    /// Does map_objective::warm_up, and launches the kernels of Newton's method.
     void warm_up(point& x)
     {
         base::warm_up(x);
@@ -187,7 +189,7 @@ public:
 private:
     static constexpr bool eliminates = std::is_same_v<Element, triangle>;
 
-    /// The matrices of all levels, of the element Hessians without what is held.
+    /// The matrices of all levels, of the element Hessians without fixed coordinates.
     void assemble()
     {
         this->mask_hessian(hessian_);

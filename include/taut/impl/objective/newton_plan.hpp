@@ -15,8 +15,8 @@
 namespace taut::impl
 {
 
-/// All of a newton_objective that can be made on the host, most of its set-up: no queue is needed, so another thread
-/// can make it while the device is at work.
+/// Host part of the set-up of a newton_objective: it needs no queue, so another thread can make it while the device is
+/// at work.
 template <class Element>
 struct newton_plan
 {
@@ -24,8 +24,8 @@ struct newton_plan
     using cells_type = std::vector<typename mesh<Element>::cell>;
 
     /// cells: of the mesh in layout order. transfers: from each coarser level to the next finer one, in layout order;
-    /// none for a mesh too small to be thinned; what they refer to may go afterwards. fixed: one flag a vertex, or
-    /// none.
+    /// none for a mesh too small to be coarsened; referenced data may be destroyed afterwards. fixed: one flag per
+    /// vertex, or none.
     newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells,
                 const std::vector<transfer_weights>& transfers, std::span<const char> fixed, lane_form form)
         : newton_plan(mesh_layout, cells,
@@ -34,7 +34,7 @@ struct newton_plan
     {
     }
 
-    /// Of a level.
+    /// Makes the plan of a level.
     newton_plan(const mesh_levels<Element>& levels, std::size_t l, lane_form form)
         : newton_plan(levels.make_layout(l), levels.cells(l), levels.transfers(l), levels.fixed(l), form)
     {
@@ -45,7 +45,8 @@ struct newton_plan
     assembly_lists assembly;
 
 private:
-    /// In space a level of few points cannot bend, so that the last one is as large as a direct solver takes.
+    /// Size of the coarsest level: in space a level of few points cannot bend, so that it is as large as a direct
+    /// solver allows.
     static constexpr std::size_t dense_enough = Element::dimension == 3 ? 600 : 180;
 
     newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells, const csr& around,

@@ -21,23 +21,24 @@
 namespace taut::impl
 {
 
-/// Minimises the map of a surface where Newton's method finds it hardest, in patches, each by itself with all around it
-/// held: nonlinear elimination (Lanzkron, Rose, Wilkes 1996; Cai, Keyes 2002). Creases that come and go and what turns
-/// between pins are far from quadratic, but small; one step length for all of a map lets the hardest of them decide.
+/// Nonlinear elimination: minimises the map of a surface in patches where it is farthest from quadratic, each
+/// separately with all around it fixed (Lanzkron, Rose, Wilkes 1996; Cai, Keyes 2002). Creases and rotations between
+/// pins are far from quadratic, but small; with one step length for the whole map the hardest of them would decide.
 ///
 /// A step is Newton's with a direct solver on the host: along the Hessian where it is positive definite, else along its
-/// stand-in, to the best of four lengths, none beyond 0.9 of the way to the first flip. Formulas are those of the
-/// kernels of the mesh. The energy falls, no element flips, and what patches do not move stays bit for bit.
+/// projection, to the best of four lengths, none beyond 0.9 of the way to the first flip. Formulas are those of the
+/// kernels of the mesh. The energy decreases, no element flips, and vertices outside of patches keep their positions
+/// bit for bit.
 ///
-/// Costs two or three waits a step, and some tenths of a microsecond a triangle of the patches.
+/// Costs two or three waits per step, and some tenths of a microsecond per triangle of the patches.
 class nonlinear_elimination
 {
     static constexpr int D = triangle::dimension;
 
 public:
     /// Refers to the kernels. arrays: of the mesh, whose parameters of the energy are read at each call. still: one
-    /// flag a vertex in the user's numbers, or none; these are not moved, as more is asked of them than the energy
-    /// knows.
+    /// flag per vertex in the user's numbers, or none; these are not moved, as they have constraints besides the
+    /// energy.
     nonlinear_elimination(const queue& q, std::shared_ptr<const layout<triangle>> mesh_layout,
                           std::shared_ptr<const element_arrays<triangle>> arrays,
                           const element_kernels<triangle>& first, const element_hessian_kernel<triangle>& second,
@@ -55,7 +56,7 @@ public:
         keep_still(still);
     }
 
-    /// Other vertices that are not moved, as where it was made.
+    /// Replaces the flags of vertices that are not moved, as in the constructor.
     void keep_still(const std::vector<bool>& still)
     {
         barred_.assign(at(layout_->vertex_count), 0);
@@ -63,8 +64,8 @@ public:
             if (still[v]) barred_[at(layout_->order.vertices.old_to_new[v])] = 1;
     }
 
-    /// Minimises x around the vertices where the vectors of `unexpected` are longest: what a step has left of the
-    /// gradient, or brought, against the model. proceed() is asked between steps. Whether x moved.
+    /// Minimises x around the vertices where the vectors of `unexpected`, the difference of the gradient from the
+    /// model's after a step, are longest. proceed() is called between steps. Returns whether x moved.
     bool operator()(device_vector& x, const device_vector& unexpected, const std::function<bool()>& proceed)
     {
         const auto patches = find(unexpected.download());
@@ -124,7 +125,7 @@ private:
         return x;
     }
 
-    /// One patch on its way.
+    /// State of the minimisation of one patch.
     class minimisation
     {
     public:
@@ -133,20 +134,20 @@ private:
         {
         }
 
-        /// Before all others.
+        /// Starts the patch, before all other calls.
         void prepare() { solver_.emplace(patch_->cells, patch_->fixed); }
 
         std::size_t first_cell() const { return first_cell_; }
         bool done() const { return done_; }
-        /// Whether its next step is to be along the Hessian itself.
+        /// Returns whether its next step is to be along the Hessian itself.
         bool exact() const { return !done_ && pause_ <= 0; }
         const std::vector<vec<D>>& x() const { return x_; }
-        /// The longest step to be tried, as a vector a vertex; 0 where it is done.
+        /// Maximum trial step, as a vector per vertex; 0 where the patch is done.
         const std::vector<vec<D>>& d() const { return d_; }
 
         solver& factors() { return *solver_; }
 
-        /// Makes d() by the factors, of the Hessian itself if `exact`.
+        /// Computes the direction d() by the factors, of the Hessian itself if `exact`.
         void direct(const std::vector<double>& gradients, std::size_t stride, bool exact)
         {
             const auto force = forces(gradients, stride);
@@ -161,7 +162,7 @@ private:
             slope_ *= longest;
         }
 
-        /// Goes to the best of x + steps[k] d by the energies there and at x.
+        /// Moves to the best of x + steps[k] d by the energies there and at x.
         void choose(const std::vector<double>& energies, std::size_t stride, const std::array<double, trials>& steps)
         {
             if (done_) return;
@@ -180,7 +181,7 @@ private:
                     best = steps[t];
                 }
             if (best == 0 && exact_)
-                pause_ = patience; // the stand-in may still bring something
+                pause_ = patience; // the projected Hessian may still bring something
             else if (best == 0 || here - least < little * most_)
                 done_ = true;
             most_ = std::max(most_, here - least);
@@ -189,7 +190,7 @@ private:
             if (done_) finish();
         }
 
-        /// Writes where its vertices have come to; whether any has moved.
+        /// Writes the positions of its vertices; returns whether any has moved.
         bool put(std::vector<double>& places, std::size_t stride) const
         {
             if (!moved_) return false;
@@ -200,7 +201,7 @@ private:
         }
 
     private:
-        static constexpr int patience = 2; // steps along the stand-in before the Hessian is tried again
+        static constexpr int patience = 2; // steps along the projected Hessian before the Hessian is tried again
 
         void finish()
         {
@@ -221,7 +222,7 @@ private:
             return force;
         }
 
-        /// How far along d_ steps are tried: the stand-in is too stiff.
+        /// Maximum step along d_: above 1, as the projected Hessian is too stiff.
         double reach() const
         {
             constexpr double fraction = 0.9;
@@ -242,7 +243,7 @@ private:
         bool exact_ = false, done_ = false, moved_ = false;
     };
 
-    /// A step of every patch that is not done; false if there is none.
+    /// Makes a step of every patch that is not done; returns false if there is none.
     bool advance(std::vector<minimisation>& all, patch_cells& cells)
     {
         std::vector<minimisation*> exact, others;
@@ -270,7 +271,7 @@ private:
         return true;
     }
 
-    /// Makes the directions of some; where the Hessian itself is not positive definite there is none.
+    /// Computes the directions of some patches; none where the Hessian is not positive definite.
     static void direct(const std::vector<minimisation*>& some, const patch_cells& cells, bool exact)
     {
         constexpr auto slots = []

@@ -50,10 +50,10 @@ public:
 
     std::size_t stride() const { return layout_.cell_stride; }
 
-    /// Where vertices are, in units of the layout of the mesh.
+    /// Sets the positions of vertices, in units of the layout of the mesh.
     void place(const std::vector<vec<D>>& x) { x_.upload(layout_.to_local(x)); }
 
-    /// Makes gradients() and hessians() of where vertices are, in one wait.
+    /// Computes gradients() and hessians() at the current positions, in one wait.
     void differentiate(definiteness sign)
     {
         first_.gradient(cells(), arrays_.with(x_, {{"energy", energies_}, {"corner_gradient", gradients_}}));
@@ -62,7 +62,7 @@ public:
         gradients_.download(gradients_here_);
     }
 
-    /// Of the corners: entry ((corner * D) + k) * stride() + cell.
+    /// Gradients of the corners: entry ((corner * D) + k) * stride() + cell.
     const std::vector<double>& gradients() const { return gradients_here_; }
 
     /// hessian_slots.
@@ -123,7 +123,7 @@ private:
         return result;
     }
 
-    /// What some cells have of arrays of cells, padded with what the last one has.
+    /// Gathers the values of some cells, padded with those of the last one.
     static std::vector<double> picked(const std::vector<double>& whole, std::size_t stride, std::span<const idx> ids,
                                       std::size_t new_stride)
     {

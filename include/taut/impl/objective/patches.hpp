@@ -12,24 +12,24 @@
 namespace taut::impl
 {
 
-/// Where the patches of a map lie.
+/// Parameters of the patches of a map.
 struct patch_params
 {
-    double share = 0.9;               ///< of all weights, that the vertices in the middle of patches have at most
-    double middles = 0.01;            ///< of the free vertices that are those at most
-    int rings = 8;                    ///< around them
-    double size = 0.2;                ///< of the free vertices that patches have at most
+    double share = 0.9;    ///< maximum fraction of all weights that the vertices in the middle of patches have
+    double middles = 0.01; ///< maximum fraction of the free vertices that are middles
+    int rings = 8;         ///< around them
+    double size = 0.2;     ///< maximum fraction of the free vertices in patches
     std::size_t most_vertices = 8192; ///< that patches have at most
 };
 
-/// A part of a mesh in numbers of its own: free vertices that hang together, and all cells at them.
+/// Part of a mesh in its own numbering: connected free vertices, and all cells at them.
 template <class Element>
 struct patch
 {
     std::vector<typename mesh<Element>::cell> cells;
     std::vector<idx> cell_ids; ///< their numbers in the layout
     std::vector<idx> vertices; ///< the numbers of its vertices there
-    std::vector<char> fixed;   ///< one a vertex: it does not move
+    std::vector<char> fixed;   ///< one per vertex: it does not move
 };
 
 /// Finds the patches around the vertices of the largest weights.
@@ -37,7 +37,7 @@ template <class Element>
 class patch_finder
 {
 public:
-    /// weights: one a free vertex of the layout, not negative; barred: flags of those that no patch moves.
+    /// weights: one per free vertex of the layout, not negative; barred: flags of those that no patch moves.
     patch_finder(const layout<Element>& mesh_layout, std::span<const double> weights, const std::vector<char>& barred,
                  const patch_params& params = {})
         : layout_(mesh_layout),
@@ -53,7 +53,7 @@ public:
             if (grow(std::span(middles).first(count))) break;
     }
 
-    /// The largest first.
+    /// Patches found, the largest first.
     std::vector<patch<Element>> patches()
     {
         std::vector<patch<Element>> all;
@@ -99,7 +99,7 @@ private:
         return order;
     }
 
-    /// False, and nothing, where that would be too much.
+    /// Grows patches around these centres; returns false, with none, where they would be too large.
     bool grow(std::span<const idx> middles)
     {
         const auto most =

@@ -8,7 +8,7 @@
 namespace taut::impl
 {
 
-/// What a precision means to kernels: f32 or f64 for each of two kinds of numbers.
+/// Scalar types of kernels by precision: f32 or f64 for each of two kinds of numbers.
 struct real_types
 {
     scalar_type position = scalar_type::f64; ///< positions, and what is formed from their differences

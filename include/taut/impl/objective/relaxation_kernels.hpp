@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// The kernels of vertex relaxation for one energy, traced once and good for any number of meshes. Lists are those of
+/// Kernels of vertex relaxation for one energy, traced once and good for any number of meshes. Lists are those of
 /// relaxation_schedule.hpp, of which each launch takes one colour; numbers of entries and rows lie by slots, `stride`
 /// apart, from the colour's first.
 ///
@@ -26,16 +26,17 @@ struct relaxation_kernels
     static constexpr int D = Element::dimension;
 
     /// Multiples of Newton's step that are tried. Near a barrier such as 1/det^2 Newton's step multiplies the distance
-    /// to it by 4/3 only: the long ones get a sliver away in a few sweeps.
+    /// to it by 4/3 only: the long ones relax a sliver in a few sweeps.
     static constexpr std::array<double, 8> step_lengths = {64, 32, 16, 8, 4, 2, 1, 0.25};
-    /// Of Newton's step. Across a sliver the energy is many orders stiffer than along it; undamped, the way along it is
-    /// long and spoils the long multiples, and slivers take three times as many sweeps (docs/explanation/numerics.md).
+    /// Damping of Newton's step. Across a sliver the energy is many orders stiffer than along it; undamped, the way
+    /// along it is long and spoils the long multiples, and slivers take three times as many sweeps
+    /// (docs/explanation/numerics.md).
     static constexpr double damping = 1e-2;
     static constexpr int trials = static_cast<int>(step_lengths.size());
 
-    /// Numbers an entry: value, gradient and upper triangle of the Hessian by the vertex.
+    /// Numbers per entry: value, gradient and upper triangle of the Hessian by the vertex.
     static constexpr int term_count = 1 + D + D * (D + 1) / 2;
-    /// Numbers a row: Newton's step, and the value of the star.
+    /// Numbers per row: Newton's step, and the value of the star.
     static constexpr int step_count = D + 1;
 
     /// element_inputs -> "minus_density" of each cell: the worst is the minimum
@@ -43,17 +44,17 @@ struct relaxation_kernels
 
     // The others take "lists", and where a launch finds its part in them (colour_part).
 
-    /// element_inputs -> "terms"; one work-item an entry
+    /// element_inputs -> "terms"; one work-item per entry
     recorded_kernel terms;
 
-    /// "terms" -> "steps"; one work-item a row
+    /// "terms" -> "steps"; one work-item per row
     recorded_kernel steps;
 
-    /// element_inputs, "steps", "entries" -> "values"; one work-item an entry and step length
+    /// element_inputs, "steps", "entries" -> "values"; one work-item per entry and step length
     recorded_kernel tries;
 
     /// "steps", "values", "x", "vertex_stride": a row's vertex goes to its best trial, if that is better than to stay;
-    /// one work-item a row
+    /// one work-item per row
     recorded_kernel moves;
 
     double rest; ///< density of the identity
@@ -65,7 +66,7 @@ struct relaxation_kernels
     {
     }
 
-    /// From a program with all that record() and record_common() give for this energy.
+    /// Takes the kernels from a program with the texts of record() and record_common() for this energy.
     relaxation_kernels(const traced_program& p, const any_energy& energy)
         : densities(p, "relaxation_densities"),
           terms(p, "relaxation_terms"),
@@ -76,13 +77,13 @@ struct relaxation_kernels
     {
     }
 
-    /// The kernels as text, for a program that others share.
+    /// Texts of the kernels, for a shared program.
     static std::vector<kernel_text> record(const any_energy& energy, const real_types& types, kernel_form form)
     {
         return {record_densities(energy, types, form), record_terms(energy, types, form),
                 record_tries(energy, types, form)};
     }
-    /// Those that are the same for all energies.
+    /// Texts of the kernels that are the same for all energies.
     static std::vector<kernel_text> record_common(const real_types& types, kernel_form form)
     {
         return {record_steps(types, form), record_moves(types, form)};
@@ -216,7 +217,7 @@ private:
 
     static real length(int t) { return step_lengths[static_cast<std::size_t>(t)]; }
 
-    /// One spelling for the trial and for the move: what was measured is what is taken.
+    /// Trial position, computed alike for the trial and for the move, so that they agree bit for bit.
     static real moved_coordinate(real from, real a, real step, const real_types& types)
     {
         return from + cast(types.position, a * step);
@@ -245,7 +246,7 @@ private:
         sym<idx> first_entry, first_row, list_stride, stride;
     };
 
-    /// An element at the vertex of a row. Which corner the vertex is, only the device knows.
+    /// Element at the vertex of a row, whose corner is determined on the device.
     struct star_corner
     {
         sym<idx> entry, row, number, vertex;

@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// Vertices in colours, so that no two of a colour share an element: those can move at once. A row is a vertex, an
+/// Colouring of vertices such that no two of a colour share an element: those can move at once. A row is a vertex, an
 /// entry is an element at it; a colour is a run of rows and the run of their entries.
 struct relaxation_schedule
 {
@@ -35,7 +35,7 @@ template <class Element>
 class relaxation_scheduler
 {
 public:
-    /// still: one flag a vertex in the user's numbers, or none; these stay out like those that are pinned.
+    /// still: one flag per vertex in the user's numbers, or none; these stay out like those that are pinned.
     explicit relaxation_scheduler(const layout<Element>& mesh_layout, const std::vector<bool>& still = {})
         : colour_(static_cast<std::size_t>(mesh_layout.free_count), unlisted)
     {
@@ -44,7 +44,7 @@ public:
             if (still[at(mesh_layout.order.vertices.new_to_old[v])]) colour_[v] = barred;
     }
 
-    /// Greedy colours in the order of the vertices.
+    /// Computes a greedy colouring in the order of the vertices.
     relaxation_schedule operator()(const layout<Element>& mesh_layout, std::span<const idx> cells)
     {
         const auto vertices = free_vertices(mesh_layout, cells);

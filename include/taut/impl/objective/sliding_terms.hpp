@@ -19,8 +19,8 @@ namespace taut::impl
 {
 
 /// Vertices that slide along lines or planes of any direction: vectors are projected there, and so are rows and columns
-/// of element Hessians, so that the matrices of all levels know of it. Kernels run over those vertices, and the
-/// elements at them.
+/// of element Hessians, and with them the matrices of all levels. Kernels run over those vertices, and the elements at
+/// them.
 template <class Element>
 class sliding_terms
 {
@@ -35,7 +35,7 @@ public:
     {
     }
 
-    /// slides: in the user's numbers, at most one a vertex; they take the place of those before.
+    /// Replaces the slides: in the user's numbering, at most one per vertex.
     void slide(const layout<Element>& mesh_layout, std::span<const taut::slide<D>> slides)
     {
         count_ = slides.size();
@@ -72,7 +72,7 @@ public:
 
     bool empty() const noexcept { return count_ == 0; }
 
-    /// v = P v at the vertices that slide.
+    /// Projects v, v = P v, at sliding vertices.
     void project(device_vector& v)
     {
         if (empty()) return;
@@ -98,8 +98,8 @@ public:
             });
     }
 
-    /// H = P H P for the Hessians of elements, packed as hessian_slots say; blocks of a sliding vertex with itself get
-    /// their mean diagonal where P gives 0, so that they can be inverted. No vector sees that.
+    /// Projects the Hessians of elements, H = P H P, packed as in hessian_slots; blocks of a sliding vertex with itself
+    /// get their mean diagonal where P gives 0, so that they can be inverted. No vector depends on that.
     void project_hessian(real_buffer& hessian)
     {
         if (empty()) return;

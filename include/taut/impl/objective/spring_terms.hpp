@@ -22,8 +22,8 @@
 namespace taut::impl
 {
 
-/// Springs at vertices of a mesh on a device, as an addition to what the kernels of elements give. A spring is counted
-/// with one of the elements at its vertex, so that sums, gathers and assemblies of elements carry it along.
+/// Springs at vertices of a mesh on a device, added to the results of the element kernels. A spring belongs to one of
+/// the elements at its vertex, so that sums, gathers and assemblies of elements include it.
 template <class Element>
 class spring_terms
 {
@@ -42,7 +42,7 @@ public:
         set_springs(mesh_layout, springs);
     }
 
-    /// Other springs, in the user's numbers and units. mesh_layout: the same as before.
+    /// Replaces the springs, in the user's numbering and units. mesh_layout: the same as before.
     void set_springs(const layout<Element>& mesh_layout, std::span<const directed_spring<D>> springs)
     {
         struct entry
@@ -86,13 +86,13 @@ public:
         target_ = real_buffer(queue_, types_.position, target);
     }
 
-    /// To the energies of elements at x.
+    /// Adds to the energies of elements at x.
     void add_energy(const device_vector& x, real_buffer& energies)
     {
         launch_energies(x, stiffness_, stiffness_, std::array{0.0}, energies);
     }
 
-    /// To the energies of elements at x + unit[0] a d, `steps.size()` segments of cell_stride each.
+    /// Adds to the energies of elements at x + unit[0] a d, `steps.size()` segments of cell_stride each.
     template <std::size_t N>
     void add_energies(const device_vector& x, const device_vector& d, const real_buffer& unit,
                       const std::array<double, N>& steps, real_buffer& energies)
@@ -100,13 +100,13 @@ public:
         launch_energies(x, d.data(), unit, steps, energies);
     }
 
-    /// To the gradients of corners.
+    /// Adds to the gradients of corners.
     void add_gradient(const device_vector& x, real_buffer& corner_gradients)
     {
         if (count_ > 0) kernels_->gradient(count_, with({{"x", x.data()}, {"corner_gradient", corner_gradients}}));
     }
 
-    /// To the Hessians of elements, packed as hessian_slots say.
+    /// Adds to the Hessians of elements, packed as in hessian_slots.
     void add_hessian(real_buffer& hessian)
     {
         if (count_ > 0) kernels_->hessian(count_, with({{"hessian", hessian}}));
@@ -116,7 +116,7 @@ private:
     using real = sym<double>;
     static constexpr int trials = 4;
 
-    /// The springs as a kernel sees them.
+    /// Springs as arguments of a kernel.
     struct list
     {
         in_array<idx> cell, vertex;
@@ -138,7 +138,7 @@ private:
         auto at_target(sym<idx> i, idx j, idx k) const { return target[i + (j * D + k) * count]; }
     };
 
-    /// One work-item an element that carries springs, or such an element and a step length.
+    /// Range of one work-item per element with springs, or per such element and step length.
     struct kernels
     {
         recorded_kernel energies, gradient, hessian;

@@ -15,22 +15,23 @@
 namespace taut
 {
 
-/// One stage of a run: a start, a reinsertion, a minimisation, on one level. docs/reference/api.md has their names.
+/// Report of one stage of a run: a start, a reinsertion, a minimisation, on one level. docs/reference/api.md has their
+/// names.
 struct stage_report
 {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
     std::string stage;           ///< its name
     std::size_t level = 0;       ///< 0: the mesh itself
-    std::size_t vertices = 0;    ///< of the level
+    std::size_t vertices = 0;    ///< vertices of the level
     int iterations = 0;          ///< accepted steps
-    double energy_before = none; ///< of what it lowers, a mean over the elements of the level; NaN: it lowers nothing
+    double energy_before = none; ///< objective of the stage, a mean over the elements of the level; NaN: it has none
     double energy_after = none;
     double seconds = 0;        ///< wall clock, from the end of the stage before to that of this one
-    std::string stop = {};     ///< why it ended; empty: its work was done
+    std::string stop = {};     ///< reason for its end; empty: its work was done
     int steps_cut = 0;         ///< steps that elements about to flip made shorter, or, in an untangling, any others
     std::vector<idx> cut_by{}; ///< the corners of the elements that cut the last step, the user's numbers, each once
-    double step_median = none; ///< of the lengths of steps; 1: the full step of the method
+    double step_median = none; ///< median length of its steps; 1: the full step of the method
 };
 
 } // namespace taut
@@ -62,7 +63,7 @@ private:
     int cut_ = 0;
 };
 
-/// The stage that a minimisation was.
+/// Stage report of a minimisation.
 inline stage_report stage_of(std::string name, std::size_t level, std::size_t vertices, const solve::report& r)
 {
     stage_report did{.stage = std::move(name),
@@ -78,7 +79,7 @@ inline stage_report stage_of(std::string name, std::size_t level, std::size_t ve
     return did;
 }
 
-/// The corners of chosen cells, each once. numbers: the user's of the vertices of the cells; none: they are the same.
+/// Corners of chosen cells, each once. numbers: the user's numbers of the vertices; none: they are the same.
 template <class Cells>
 std::vector<idx> corners_of(const Cells& cells, const std::vector<int>& chosen, const std::vector<idx>& numbers = {})
 {
@@ -91,11 +92,11 @@ std::vector<idx> corners_of(const Cells& cells, const std::vector<int>& chosen, 
     return corners;
 }
 
-/// The stages of a run in their order in time. Each has the time since the one before, so that none is lost.
+/// Log of the stages of a run in their order in time. Each has the time since the previous one.
 class stage_log
 {
 public:
-    /// A stage that has just ended; its seconds are set.
+    /// Adds a stage that has just ended, and sets its seconds.
     void add(stage_report did)
     {
         const auto now = clock::now();
@@ -103,7 +104,7 @@ public:
         stages_.push_back(std::move(did));
     }
 
-    /// The stages of a part of the run that kept a log of its own and has just ended.
+    /// Adds the stages of a part of the run with its own log that has just ended.
     template <class Stages>
     void append(const Stages& part)
     {

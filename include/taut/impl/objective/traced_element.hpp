@@ -17,11 +17,10 @@
 namespace taut::impl
 {
 
-/// What every kernel of elements reads of a mesh and a map, by the names under which it is bound
-/// (element_arrays::with).
+/// Common inputs of the element kernels, by the names under which it is bound (element_arrays::with).
 struct element_inputs
 {
-    /// energy: says which data of cells and which parameters there are.
+    /// energy: determines the data of cells and the parameters.
     element_inputs(recording& r, const real_types& types, const any_energy& energy)
         : corners(r.in<idx>("corners")),
           inverse(r.in<double>("inverse", types.vector)),
@@ -46,9 +45,9 @@ struct element_inputs
     std::vector<sym<double>> parameters;
 };
 
-/// One element while a kernel is being traced: what its work-item loads and how S comes from it. S is formed in the
-/// type of positions and only then cast to that of the formula: in a thin element it is a small difference of long
-/// edges, and its rounding would be the noise of the gradient (docs/explanation/numerics.md).
+/// Element of a kernel being traced: the loads of its work-item, and S computed from them. S is formed in the type of
+/// positions and only then cast to that of the formula: in a thin element it is a small difference of long edges, and
+/// its rounding would be the noise of the gradient (docs/explanation/numerics.md).
 template <int D>
 class traced_element
 {
@@ -104,10 +103,10 @@ public:
             }
         return S;
     }
-    /// Of the map itself.
+    /// Shape matrix of the map itself.
     matrix shape_matrix() const { return shape_matrix(edges(in_.x)); }
 
-    /// The energy at S, which is in the frame of the ideal element; that of the user is its concern.
+    /// Energy at S, in the frame of the ideal element.
     real density(const any_energy& energy, const matrix& S) const
     {
         matrix seen = S;
@@ -122,7 +121,8 @@ public:
         return energy(element<real, D>{seen, glm::determinant(S), measure(), attributes_, parameters_});
     }
 
-    /// The second derivatives of the density by the entries of S that an energy says itself (any_energy::hessian).
+    /// Second derivatives of the density with respect to the entries of S, as provided by the energy
+    /// (any_energy::hessian).
     auto own_hessian(const any_energy& energy, const matrix& S, const eigenvalue_filter<real>& filter) const
     {
         using found = decltype(energy.hessian(std::declval<element<real, D>>(), filter, formula_));
@@ -141,7 +141,7 @@ public:
     }
     real weighted(const any_energy& energy, const matrix& S) const { return weighted(energy, S, weight()); }
 
-    /// Gradient of weight * energy at S = A W^-1 with respect to the corners, corner 0 first; D entries a corner. An
+    /// Gradient of weight * energy at S = A W^-1 with respect to the corners, corner 0 first; D entries per corner. An
     /// energy of S does not change under translation, so corner 0 takes minus the sum of the others.
     std::array<std::array<real, D>, D + 1> corner_gradients(const any_energy& energy, const matrix& S) const
     {

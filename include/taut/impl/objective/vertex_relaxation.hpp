@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// Which elements are bad, and how long their vertices are moved.
+/// Parameters of a vertex relaxation: the threshold for bad elements, and limits.
 struct relaxation_params
 {
     double threshold = 7.5;  ///< an element is bad if its density is above this many times that of the identity
@@ -25,7 +25,7 @@ struct relaxation_params
     int sweeps = 4;          ///< moves a vertex
 };
 
-/// What a relaxation found and did.
+/// Result of a relaxation.
 struct relaxation_result
 {
     std::size_t elements = 0; ///< bad ones, before
@@ -34,18 +34,18 @@ struct relaxation_result
     double worst = 0; ///< largest density, before
 };
 
-/// Moves the vertices of the few worst elements of a map, each by a Newton step of its own star with all others held,
+/// Moves the vertices of the few worst elements of a map, each by a Newton step of its own star with all others fixed,
 /// so that one sliver does not cap the step of a solver that moves all at once (docs/explanation/numerics.md,
 /// "Vertex relaxation").
 ///
-/// Vertices take turns by colours: no two that move at once share an element. A vertex goes to the best of several
+/// Vertices move colour by colour: no two that move at once share an element. A vertex goes to the best of several
 /// multiples of its step, and only if its star's energy falls; so the energy of the map can only fall, and no element
-/// flips: det is affine along the step of one vertex, and positive at both ends. Pinned vertices and all others stay
-/// bit for bit. The same input gives the same output.
+/// flips: det is affine along the step of one vertex, and positive at both ends. Pinned vertices and all others keep
+/// their positions bit for bit. The same input gives the same output.
 ///
-/// Costs an evaluation of the energy and one wait; and, if something is bad, four short launches a colour and sweep.
-/// Device memory: a number a cell; while elements are bad, 4 indices an entry (an element at a moving vertex) and 11
-/// numbers (14 in space) an entry of the widest colour.
+/// Costs an evaluation of the energy and one wait; and, if there are bad elements, four short launches per colour and
+/// sweep. Device memory: a number per cell; while elements are bad, 4 indices per entry (an element at a moving vertex)
+/// and 11 numbers (14 in space) an entry of the widest colour.
 template <class Element>
 class vertex_relaxation
 {
@@ -56,7 +56,7 @@ public:
     using params = relaxation_params;
     using result = relaxation_result;
 
-    /// With kernels and arrays of its own.
+    /// Makes kernels and arrays of its own.
     vertex_relaxation(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
                       energy::weighting weights, const real_types& types = {})
         : vertex_relaxation(q, mesh_layout, std::make_shared<const kernels>(q, energy, types),
@@ -64,8 +64,8 @@ public:
     {
     }
 
-    /// With kernels that other meshes use, too, and arrays that other evaluations of this mesh read. still: one flag a
-    /// vertex in the user's numbers, or none; these are not moved, as more is asked of them than the energy knows.
+    /// Shares kernels with other meshes, and arrays with other evaluations of this mesh. still: one flag per vertex in
+    /// the user's numbers, or none; these are not moved, as they have constraints besides the energy.
     vertex_relaxation(queue q, std::shared_ptr<const layout<Element>> mesh_layout,
                       std::shared_ptr<const kernels> shared_kernels, std::shared_ptr<const arrays> shared_arrays,
                       const std::vector<bool>& still = {})
@@ -79,10 +79,10 @@ public:
     {
     }
 
-    /// Other vertices that are not moved, as where it was made.
+    /// Replaces the flags of vertices that are not moved, as in the constructor.
     void keep_still(const std::vector<bool>& still) { scheduler_ = relaxation_scheduler<Element>(*layout_, still); }
 
-    /// Relaxes x, coordinates as in layout.hpp. A map on which the energy is not finite stays as it is.
+    /// Relaxes x, coordinates as in layout.hpp. A map of infinite energy is not changed.
     result operator()(device_vector& x, const params& how = {})
     {
         kernels_->densities({layout_->cell_stride, step}, arrays_->with(x.data(), {{"minus_density", densities_}}));
@@ -113,7 +113,7 @@ public:
         return r;
     }
 
-    /// Launches every kernel once, so that what the driver compiles at the first launch is compiled. x stays as it is.
+    /// Launches every kernel once, so that the driver compiles them. x is not changed.
     void warm_up(device_vector& x)
     {
         params none;
@@ -181,7 +181,7 @@ private:
             }
     }
 
-    /// Room for n numbers, and for half as many more if it has to grow.
+    /// Reserves room for n numbers, and for half as many more if it has to grow.
     void require(real_buffer& b, std::size_t n)
     {
         if (b.size() < n) b = real_buffer(queue_, type(), n + n / 2);
@@ -194,7 +194,7 @@ private:
     relaxation_scheduler<Element> scheduler_;
     reductions reductions_;
     real_buffer densities_;
-    real_buffer steps_, numbers_; ///< of one colour; the terms, and then the trial values
+    real_buffer steps_, numbers_; ///< steps of one colour; the terms, and then the trial values
     host_reals host_;             ///< a copy of the densities
 };
 

@@ -17,15 +17,15 @@
 namespace taut
 {
 
-/// What a packing is worth in the coordinates that it was asked about.
+/// Certificate of a packing: overlaps, distances and fill in the given coordinates.
 struct packing_certificate
 {
     chart_overlaps overlaps; ///< exact
-    /// Least distance of two charts in tiles, by borders, and which ones; infinite for a single chart, 0 where borders
-    /// cross. To a few ulps of the coordinates.
+    /// Minimum distance of two charts in tiles, by borders, and their numbers; infinite for a single chart, 0 where
+    /// borders cross. To a few ulps of the coordinates.
     double gap = std::numeric_limits<double>::infinity();
     std::array<idx, 2> nearest{-1, -1};
-    /// Least distance of a chart to the border of its tile, negative where it crosses it, and which one.
+    /// Minimum distance of a chart to the border of its tile, negative where it crosses it, and its number.
     double border = std::numeric_limits<double>::infinity();
     idx outermost = -1;
 
@@ -49,14 +49,14 @@ inline double distance(const vec2& p, const vec2& a, const vec2& b)
     return glm::length(a + t * d - p);
 }
 
-/// Of two segments.
+/// Distance of two segments.
 inline double distance(const vec2& a, const vec2& b, const vec2& c, const vec2& d)
 {
     if (segments_meet(a, b, c, d)) return 0;
     return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
 }
 
-/// certify_packing() of charts whose borders, in these coordinates, are known.
+/// Certifies a packing of charts with known borders in these coordinates.
 inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
                                             const chart_outlines& outlines, std::span<const char> pinned)
 {
@@ -123,13 +123,13 @@ inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<
 namespace taut
 {
 
-/// Certifies charts in unit squares, whoever laid them there: the square of a chart is the one of the middle of its
-/// box, so that tiles may lie side by side or in UDIM's rows of ten. Give it the coordinates as they were written:
-/// rounded to floats or decimals, and read back. O(n log n) for n edges of borders.
+/// Certifies charts in unit squares, from any packer: the square of a chart is that of the middle of its box, so that
+/// tiles may lie side by side or in UDIM's rows of ten. Pass the coordinates as written: rounded to floats or decimals,
+/// and read back. O(n log n) for n edges of borders.
 ///
 /// uv, cells, first_cell, first_vertex: as for pack()
-/// pinned: charts that others were laid around, one flag each: distances of two of them, and of one and the border, do
-/// not count; or empty
+/// pinned: charts with a given place, one flag each: distances of two of them, and of one and the border, do not count;
+/// or empty
 /// Throws packing_error.
 inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
                                            std::span<const idx> first_cell, std::span<const idx> first_vertex,

@@ -21,10 +21,10 @@
 namespace taut
 {
 
-/// Charts that cover each other.
+/// Overlaps of charts.
 struct chart_overlaps
 {
-    std::size_t pairs = 0;            ///< of charts with an area in common
+    std::size_t pairs = 0;            ///< pairs of charts with an area in common
     bool all = true;                  ///< false: there are at least so many
     std::array<idx, 2> first{-1, -1}; ///< charts of the first pair that was found
 };
@@ -34,7 +34,7 @@ struct chart_overlaps
 namespace taut::impl
 {
 
-/// True if the interiors of two triangles have a common point; exact. Whichever way they are turned.
+/// True if the interiors of two triangles have a common point; exact. For either orientation.
 inline bool interiors_meet(std::array<vec2, 3> t, std::array<vec2, 3> s)
 {
     for (auto* k : {&t, &s})
@@ -54,7 +54,7 @@ inline bool interiors_meet(std::array<vec2, 3> t, std::array<vec2, 3> s)
     return !parted(t, s) && !parted(s, t);
 }
 
-/// The search for charts that overlap, each pair counted once.
+/// Search for overlapping charts, each pair counted once.
 class overlap_search
 {
 public:
@@ -81,7 +81,7 @@ public:
             { return spend() && (!edges_meet(outlines_.edges[i], outlines_.edges[j], uv_) || look(i, j)); });
     }
 
-    /// Charts within the triangles of another: one point of each connected part of a border is asked.
+    /// Finds charts inside of others: one point of each connected part of a border is located.
     void nested(const edge_tree& tree)
     {
         const auto within = [&](idx inner, idx outer)
@@ -165,7 +165,7 @@ private:
         return {uv_[u(c[0])], uv_[u(c[1])], uv_[u(c[2])]};
     }
 
-    /// Whether an edge begins in the smallest vertex of a connected part of a border, as one of each part does.
+    /// Returns whether an edge begins in the smallest vertex of a connected part of a border, as one of each part does.
     bool begins_part(std::size_t edge)
     {
         if (begins_part_.empty())
@@ -192,8 +192,8 @@ private:
 
     static constexpr int through = 1 << 20; ///< more than any winding number
 
-    /// What an edge adds to the winding number about p, by the ray upwards; `through` if it goes through p: charts that
-    /// touch were looked at where they do.
+    /// Contribution of an edge to the winding number about p, by the ray upwards; `through` if it contains p: touching
+    /// charts are checked elsewhere.
     int crossing_above(const vec2& p, std::size_t edge) const
     {
         const vec2 &a = uv_[u(outlines_.edges[edge][0])], &b = uv_[u(outlines_.edges[edge][1])];
@@ -211,7 +211,7 @@ private:
     std::size_t most_, tests_;
     std::unordered_set<std::uint64_t> pairs_;
     csr cells_of_vertex_;           // empty until charts touch
-    std::vector<char> begins_part_; // one an edge; empty until boxes of charts meet
+    std::vector<char> begins_part_; // one per edge; empty until boxes of charts meet
     chart_overlaps found_;
 };
 
@@ -220,9 +220,9 @@ private:
 namespace taut
 {
 
-/// Pairs of charts that have an area in common, of any atlas: O(n log n) where few do. Charts that touch along edges or
+/// Finds pairs of charts whose images overlap, in any atlas: O(n log n) where few do. Charts that touch along edges or
 /// in points do not count, nor does a chart in the hole of another. Exact for charts that are injective; of one that is
-/// folded, what its triangles cover is taken. Ends at `most` pairs, or where there is too much to look at.
+/// folded, the union of its triangles counts. Ends at `most` pairs, or at a limit of work.
 ///
 /// uv, cells, first_cell, first_vertex: as for pack()
 /// Throws packing_error.

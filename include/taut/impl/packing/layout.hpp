@@ -19,21 +19,21 @@
 namespace taut::impl
 {
 
-/// Where a piece lies: its pose, the tile, and the cell of the tile that its mask begins at.
+/// Placement of a piece: its pose, the tile, and the cell of the tile that its mask begins at.
 struct spot
 {
     idx pose = -1, tile = 0, x = 0, y = 0;
 };
 
-/// Pieces in tiles of equal width; the last one is as high as it takes.
+/// Layout of pieces in tiles of equal width; the last one is as high as needed.
 struct tile_layout
 {
     std::vector<spot> spots;
-    double width = 0, height = 0; ///< of what is taken, in cells: the most of all tiles; of the last one
+    double width = 0, height = 0; ///< occupied extent in cells: the maximum over all tiles; of the last one
     idx tiles = 1;                ///< in use
     bool complete = false;        ///< false: a piece is wider than a tile, or the budget is over
 
-    /// Lengths from the extents of the pieces as they lie.
+    /// Lengths from the extents of the placed pieces.
     void measure(std::span<const std::vector<pose>> poses)
     {
         width = height = 0;
@@ -52,17 +52,17 @@ struct tile_layout
     }
 };
 
-/// Cells of one tile that are taken before anything is laid.
+/// Cells of one tile that are occupied before packing.
 struct taken_cells
 {
     idx tile = 0;
     cell_rows cells;
 };
 
-/// Lays pieces, in the order given, each in the pose whose top is lowest, as low as there is room for it and then as
-/// far left: in any gap that is left of what lies there.
-/// side:  of a tile in cells; gap: least distance of two pieces in cells; before: what is there already
-/// quick: a piece does not look below where the last one of about its width and height found room
+/// Places pieces, in the order given, each in the pose whose top is lowest, as low as possible and then as far left, in
+/// any gap.
+/// side:  of a tile in cells; gap: minimum distance of two pieces in cells; before: cells occupied already
+/// quick: a piece is not tried below the place of the last one of about its width and height
 inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses,
                            std::span<const idx> order, idx side, idx tiles, double gap, double cells_per_length,
                            bool quick, budget& limits, std::span<const taken_cells> before = {})

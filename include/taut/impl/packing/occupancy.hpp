@@ -37,7 +37,7 @@ struct run_probe
 /// A mask as probes, those first that are most likely to collide.
 struct probe_list
 {
-    idx width = 0, height = 0;      ///< of the mask, which begins at cell (0, 0)
+    idx width = 0, height = 0;      ///< size of the mask, which begins at cell (0, 0)
     idx widest = 0, widest_row = 0; ///< its longest run
     std::vector<run_probe> probes;
 
@@ -231,13 +231,13 @@ struct room_mask
     }
 };
 
-/// Which cells of a strip are taken.
+/// Occupied cells of a strip.
 class occupancy
 {
 public:
     explicit occupancy(idx width) : cells_(width), blocks_((width + 3) / 4) {}
 
-    /// Takes all of a row: a wall between tiles.
+    /// Occupies all of a row: a wall between tiles.
     void block(idx row)
     {
         grow(row + 1);
@@ -245,7 +245,7 @@ public:
         cells_.update(row);
     }
 
-    /// Takes cells, moved by (x, y); what lies outside the strip is left out.
+    /// Occupies cells, moved by (x, y), and ignores those outside the strip.
     void take(const cell_rows& mask, idx x, idx y)
     {
         const idx first = std::max<idx>(0, y + mask.low), last = y + mask.low + mask.rows();
@@ -261,8 +261,8 @@ public:
         for (idx row = first / 4; 4 * row < last; ++row) fill_blocks(row);
     }
 
-    /// The lowest row from y on, up to and with `top`, where a mask has room, and its leftmost place there: {y, x};
-    /// x = -1 if there is none.
+    /// Finds the lowest row from y to `top` where a mask fits, and its leftmost position there: {y, x}; x = -1 if there
+    /// is none.
     std::pair<idx, idx> find(const room_mask& mask, idx y, idx top)
     {
         const auto open = [](std::uint64_t w) { return w != ~std::uint64_t{0}; };

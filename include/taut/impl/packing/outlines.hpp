@@ -19,16 +19,15 @@
 namespace taut::impl
 {
 
-/// The borders of charts: edges as pairs of vertices, chart after chart, so that what winds around is to the left of
-/// them. Triangles that are clockwise are turned first, so what a chart covers has a winding number of at least 1,
-/// whether it is folded or not.
+/// Borders of charts: edges as pairs of vertices, chart after chart, with the inside to the left. Clockwise triangles
+/// are reversed first, so points covered by a chart have a winding number of at least 1, folded or not.
 struct chart_outlines
 {
     std::vector<std::array<idx, 2>> edges;
-    std::vector<idx> cells; ///< the triangle that the edge is from, one an edge
+    std::vector<idx> cells; ///< the triangle that the edge is from, one per edge
     std::vector<idx> first; ///< #charts + 1: of edges
     std::vector<double> areas;
-    bool turned = false; ///< whether a triangle was; if not, borders are the same wherever no triangle is clockwise
+    bool turned = false; ///< whether a triangle was clockwise; if not, borders are the same wherever no triangle is
 
     idx charts() const { return static_cast<idx>(first.size()) - 1; }
 };

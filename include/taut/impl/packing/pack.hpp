@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// Where a chart lies: x -> scale R x + shift, R = (cosine, -sine; sine, cosine), inside the unit square of its tile.
+/// Placement of a chart: x -> scale R x + shift, R = (cosine, -sine; sine, cosine), inside the unit square of its tile.
 struct chart_place
 {
     double cosine = 1, sine = 0;
@@ -27,11 +27,11 @@ struct chart_place
     }
 };
 
-/// Charts laid side by side.
+/// Packing of charts into tiles.
 struct packing
 {
-    std::vector<chart_place> places; ///< one a chart
-    double scale = 0;                ///< of all charts, before their densities
+    std::vector<chart_place> places; ///< one per chart
+    double scale = 0;                ///< scale of all charts, before their densities
     double utilization = 0;          ///< area of the triangles by the area of the tiles
     int layouts = 0;                 ///< that were tried
     bool complete = true;            ///< false: it was ended by the clock or the observer, and could be denser
@@ -56,7 +56,7 @@ namespace taut::impl
 
 struct chart_outlines;
 
-/// pack() of charts whose borders, in these coordinates, are known.
+/// Packs charts with known borders in these coordinates.
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params);
 
 } // namespace taut::impl
@@ -64,15 +64,15 @@ packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, 
 namespace taut
 {
 
-/// Packs charts into squares: all at one scale, as large as is found, turned and shifted, never mirrored, in the gaps,
-/// bays and holes of each other. The same input gives the same layout whatever the number of threads.
+/// Packs charts into squares: all at one scale, as large as is found, rotated and translated, never mirrored, also into
+/// the gaps, concavities and holes of each other. The same input gives the same layout whatever the number of threads.
 ///
 /// uv:           #V points in any one unit, finite
-/// cells:        their triangles; a chart that is folded, or covers itself, keeps all of that free of others
+/// cells:        their triangles; a chart that is folded, or overlaps itself, excludes others from all that it covers
 /// first_cell:   #charts + 1: the triangles of a chart are in one piece
 /// first_vertex: #charts + 1: so are its vertices
 ///
-/// certify_packing() (packing/certificate.hpp) says what the result is worth, whoever made it.
+/// certify_packing() (packing/certificate.hpp) measures the result of any packer.
 /// Throws packing_error, parameter_error.
 packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells, std::span<const idx> first_cell,
              std::span<const idx> first_vertex, const pack_params& params = {});

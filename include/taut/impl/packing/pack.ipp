@@ -89,7 +89,7 @@ private:
         idx tile = 0;
     };
 
-    /// The largest one, about, that is as far from the walls and the border as pieces are to be.
+    /// Approximately largest free square at the distance of pieces from the walls and the border.
     tile_square free_square() const
     {
         constexpr idx cells = 512;
@@ -123,10 +123,10 @@ private:
         }
         if (best.side > 0) return best;
         throw packing_error(packing_fault::no_room, {},
-                            "what is pinned leaves no room for other charts; pin fewer, or ask for more tiles");
+                            "pinned charts leave no room for others; pin fewer, or ask for more tiles");
     }
 
-    /// The cells of the walls, and of what is as near to them as pieces may not be, in tiles of so many cells a side.
+    /// The cells of the walls, and of what is as near to them as pieces may not be, in tiles of so many cells per side.
     std::vector<taken_cells> walls_in(idx side) const
     {
         std::vector<std::vector<std::array<vec2, 2>>> edges(static_cast<std::size_t>(params_.tiles));
@@ -141,8 +141,8 @@ private:
         return taken;
     }
 
-    /// Halves what is between a side of the tiles at which pieces find no room beside the walls, and one at which they
-    /// do: walls grow with the tiles.
+    /// Bisects between a side of the tiles at which pieces do not fit beside the walls, and one at which they do: walls
+    /// grow with the tiles.
     void search_around_walls()
     {
         const bool quick = pieces_.size() > 1500;
@@ -169,8 +169,8 @@ private:
         if (best.complete) keep(best, fits);
     }
 
-    /// Of a tile, in lengths of the pieces: side^2 = (area + gaps around) / density, where a gap is a share of the
-    /// side.
+    /// Estimated side of a tile, in lengths of the pieces: side^2 = (area + gaps around) / density, where a gap is a
+    /// share of the side.
     double estimated_side() const
     {
         const double density = 0.75 * params_.tiles, share = gap_ / (1 - 2 * border_);
@@ -178,8 +178,8 @@ private:
         return half + std::sqrt(half * half + area_ / density);
     }
 
-    /// Tries some layouts, each in tiles of the side that the one before makes likely. What has more pieces has finer
-    /// cells; of very many each gets less time.
+    /// Tries some layouts, each in tiles of the side predicted by the previous one. More pieces have finer cells; of
+    /// very many each gets less time.
     void search(double length, int turns)
     {
         const std::size_t n = pieces_.size();
@@ -214,7 +214,7 @@ private:
         keep(best, least);
     }
 
-    /// Tries other orders near the one that was best, as many as take about as long whatever there is to lay.
+    /// Tries other orders near the best one, in a number of constant total time.
     void reorder(tile_layout& best, double& least)
     {
         const std::size_t n = pieces_.size();
@@ -242,7 +242,7 @@ private:
         }
     }
 
-    /// Draws all pieces in their poses; large ones will be laid first.
+    /// Rasterizes all pieces in their poses; large ones are placed first.
     void draw(double cells_per_length, int turns)
     {
         cells_per_length_ = cells_per_length;
@@ -269,7 +269,7 @@ private:
         std::stable_sort(order_.begin(), order_.end(), [&](idx a, idx b) { return size(a) > size(b); });
     }
 
-    /// Takes a layout in tiles of this side, if it is better.
+    /// Replaces the layout by one in tiles of this side, if it is better.
     void keep(const tile_layout& l, double side)
     {
         const double cell = (1 - 2 * border_) / side, scale = cell * cells_per_length_;

@@ -27,33 +27,33 @@ struct tile_wall
 namespace taut
 {
 
-/// How charts are laid side by side.
+/// Parameters of pack().
 struct pack_params
 {
-    /// Texels along a side of a tile, 1 to 65536. It gives `padding` its length and nothing else.
+    /// Texels along a side of a tile, 1 to 65536: the unit of `padding`.
     int resolution = 1024;
 
-    /// Least distance in texels between two charts, and between a chart and the border of its tile; at least 0.
+    /// Minimum distance in texels between two charts, and between a chart and the border of its tile; at least 0.
     double padding = 2;
 
-    /// Squares to fill, 1 to 1000, as evenly as charts allow. All charts keep one scale.
+    /// Number of tiles, 1 to 1000, filled as evenly as charts allow. All charts have one scale.
     int tiles = 1;
 
-    /// Charts may be turned. Otherwise they are only shifted and scaled, as those who paint or comb them may want.
+    /// True if charts may be rotated. Otherwise they are only translated and scaled.
     bool rotate = true;
 
-    /// Lengths of a chart are first multiplied by its number: more texels for a face, fewer for a sole. One positive
-    /// number a chart; empty: 1 each.
+    /// Relative texel densities: factors of the lengths of charts, more texels for a face, fewer for a sole. One
+    /// positive number per chart; empty: 1 each.
     std::vector<double> densities;
 
-    /// What is in the tiles already and stays. Charts keep the padding from it.
+    /// Obstacles in the tiles, from which charts keep the padding.
     std::vector<impl::tile_wall> walls;
 
-    /// By how much a coordinate in [0, tiles) may be off in the file it is written to; the padding holds there, too.
-    /// Default: floats, tiles up to the eighth. 0 to 0.001.
+    /// Maximum rounding of a coordinate in [0, tiles) in the output file; the padding is kept after it. Default:
+    /// floats, tiles up to the eighth. 0 to 0.001.
     double rounding = 1e-6;
 
-    /// When it is over the best layout so far is returned; one of shelves costs next to nothing and is made first.
+    /// Time limit, after which the best layout so far is returned; a cheap shelf layout is made first.
     impl::budget::seconds time_limit = impl::budget::unlimited;
     taut::observer observer; ///< asked every 8 charts of a layout
 

@@ -11,7 +11,7 @@
 namespace taut
 {
 
-/// Why charts cannot be packed. The comment says what packing_error::ids() holds.
+/// Reasons why charts cannot be packed. The comment says what packing_error::ids() holds.
 enum class packing_fault
 {
     not_finite,   ///< the first such vertex
@@ -22,7 +22,7 @@ enum class packing_fault
     pinned        ///< triangles of the surface whose charts cannot stay where they are
 };
 
-/// Charts that cannot be packed. what() has the reason and the remedy.
+/// Error of charts that cannot be packed. what() has the reason and the remedy.
 class packing_error : public error
 {
 public:

@@ -19,16 +19,16 @@
 namespace taut::impl
 {
 
-/// What the packer knows of a chart. Lengths are its own times its density, points are relative to `centre`.
+/// Chart as the packer sees it. Lengths are its own times its density, points are relative to `centre`.
 struct piece
 {
-    std::span<const std::array<idx, 2>> edges; ///< of the border, as vertices
-    std::span<const vec2> uv;                  ///< of all, in the user's coordinates
+    std::span<const std::array<idx, 2>> edges; ///< edges of the border, as vertices
+    std::span<const vec2> uv;                  ///< coordinates of all charts, in the user's units
     std::vector<vec2> hull;                    ///< counter-clockwise
     vec2 centre{0, 0};                         ///< in the user's coordinates
     vec2 axis{1, 0};                           ///< the long side of the smallest box, unit length
     vec2 box{0, 0};                            ///< its sides along and across `axis`
-    double area = 0, length = 0;               ///< of the triangles, of the border
+    double area = 0, length = 0;               ///< area of the triangles, length of the border
     double density = 1;
     double doubt = 0; ///< bound of the rounding errors of a place
 
@@ -135,16 +135,16 @@ inline std::vector<piece> make_pieces(std::span<const vec2> uv, const chart_outl
     return pieces;
 }
 
-/// A piece turned and drawn: as a mask for cells of one size.
+/// Rotated and rasterized piece: a mask for cells of one size.
 struct pose
 {
-    vec2 axis;   ///< of the chart that lies along x
-    vec2 corner; ///< of the turned chart's box, in cells; it is laid on `inset` within the mask
-    vec2 size;   ///< of that box, in cells
+    vec2 axis;   ///< direction of the chart that is turned to x
+    vec2 corner; ///< lower corner of the turned chart's box, in cells; it is placed at `inset` within the mask
+    vec2 size;   ///< size of that box, in cells
     room_mask mask;
 };
 
-/// How far charts stay away from the borders of their masks, in cells: rounding never carries them across.
+/// Distance of charts from the borders of their masks, in cells: rounding never moves them across.
 inline constexpr double inset = 1e-6;
 
 /// The edges of a piece in a pose, in cells, its box from (inset, inset) on.

@@ -14,10 +14,10 @@
 namespace taut::impl
 {
 
-/// Boxes in rows, the high ones first: corners in tiles of side 1.
+/// Shelf layout of boxes, the high ones first: corners in tiles of side 1.
 struct shelf_layout
 {
-    double scale = 0; ///< of the boxes; 0: there is no room
+    double scale = 0; ///< scale of the boxes; 0: there is no room
     std::vector<vec2> corners;
     std::vector<idx> tiles;
 };
@@ -53,7 +53,7 @@ inline shelf_layout lay_on_shelves(std::span<const vec2> boxes, double scale, id
     return out;
 }
 
-/// A layout that costs next to nothing, to have one: at the largest scale that halving finds.
+/// Computes a cheap shelf layout at the largest scale, by bisection.
 /// Throws packing_error where the gaps alone fill the tiles.
 inline shelf_layout lay_on_shelves(std::span<const piece> pieces, idx tiles, double border, double gap)
 {

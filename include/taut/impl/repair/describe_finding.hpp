@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// Puts a finding in words.
+/// Describes a finding in a sentence.
 inline repair_finding describe_finding(repair_kind kind, std::vector<idx> ids)
 {
     const auto list = [&](const char* thing, const char* things, const char* what)

@@ -35,10 +35,10 @@ inline std::vector<idx> fans(const placed_triangles& t, const side_pairs& pairs)
     return fan;
 }
 
-/// Opens sides so that vertices name edges and triangles: sheets that touch along an edge and hang together around both
-/// its ends have the same two vertices there, as if they were one edge; and a triangle sewn to another at its place all
-/// around has the same three. Fans where that comes from sewing are taken apart again. Where it does not, all sides of
-/// the edge are opened: fans fall apart at each, and a piece between two has these two at most, which run opposite
+/// Opens sides so that vertices name edges and triangles: sheets that touch along an edge and are connected around both
+/// its ends have the same two vertices there, as if they were one edge; and a triangle stitched to another at its place
+/// all around has the same three. Fans where that comes from sewing are taken apart again. Where it does not, all sides
+/// of the edge are opened: fans fall apart at each, and a piece between two has these two at most, which run opposite
 /// ways. As fans only become smaller, nothing of this kind comes anew.
 /// f: facets of t.places. Returns whether anything was opened.
 inline bool part_repeated(const placed_triangles& t, const facet_table& f, const std::vector<idx>& fan,

@@ -22,7 +22,7 @@ struct placed_triangles
     double unit;                                   ///< unit_scale(places)
     std::vector<idx> origins;                      ///< triangles of the input
     std::span<const std::array<idx, 3>> triangles; ///< all of the input; corners keep their places
-    std::span<const idx> polygons = {};            ///< of all of the input; or empty
+    std::span<const idx> polygons = {};            ///< polygon of each triangle of the input; or empty
 
     /// The corners of a triangle, times unit.
     std::array<vec3, 3> rest(idx cell) const { return scaled_rest(places, cell, unit); }
@@ -44,14 +44,14 @@ struct placed_triangles
         const auto [a, b] = ends(side);
         return {std::min(vertex(a), vertex(b)), std::max(vertex(a), vertex(b))};
     }
-    /// Whether two sides are of one polygon: its diagonal, if they are of one edge.
+    /// Returns whether two sides are of one polygon: its diagonal, if they are of one edge.
     bool together(idx side, idx other) const
     {
         const auto polygon = [this](idx s)
         { return polygons[static_cast<std::size_t>(origins[static_cast<std::size_t>(s / 3)])]; };
         return !polygons.empty() && polygon(side) == polygon(other);
     }
-    /// Whether two sides of one edge run the same way.
+    /// Returns whether two sides of one edge run the same way.
     bool clash(idx side, idx other) const { return place(ends(side)[0]) == place(ends(other)[0]); }
 
 private:

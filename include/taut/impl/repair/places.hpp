@@ -14,7 +14,7 @@
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/core/keyed_hash.hpp>
 
-/// Which points are at one place.
+/// Welding of points: finds those at one place.
 namespace taut::impl
 {
 
@@ -25,14 +25,14 @@ inline std::uint64_t hash_place(const vec3& p, idx body)
     return keyed_hash(std::array{x, y, z, static_cast<std::uint64_t>(body)});
 }
 
-/// The body that a point is of. bodies: one a point, or none
+/// The body that a point is of. bodies: one per point, or none
 inline idx body_of(std::span<const idx> bodies, idx point)
 {
     return bodies.empty() ? 0 : bodies[static_cast<std::size_t>(point)];
 }
 
-/// The smallest of the points `some` of the same body with the same coordinates, one a point; the point itself for the
-/// others.
+/// The smallest of the points `some` of the same body with the same coordinates, one per point; the point itself for
+/// the others.
 /// some: points with finite coordinates, increasing
 inline std::vector<idx> equal_places(std::span<const vec3> points, std::span<const idx> bodies,
                                      std::span<const idx> some)
@@ -69,7 +69,7 @@ inline std::vector<idx> equal_places(std::span<const vec3> points, std::span<con
 /// together. Points whose reach is less than half of their distance to a third never meet there.
 /// place: of equal_places()
 /// some:  points with place[i] == i, increasing
-/// reach: one a point; 0 or more, and at most `most`. What is below 1e-9 of that counts as 0
+/// reach: one per point; 0 or more, and at most `most`. What is below 1e-9 of that counts as 0
 inline std::vector<idx> near_places(std::span<const vec3> points, std::span<const idx> bodies, std::vector<idx> place,
                                     std::span<const idx> some, std::span<const double> reach, double most)
 {

@@ -11,8 +11,8 @@
 namespace taut
 {
 
-/// What repair_surface() mends. Where mesh_fault has the same, the word is the same. The comment says what is done, and
-/// what repair_finding::ids holds.
+/// Defects that repair_surface() repairs. Where mesh_fault has the same, the word is the same. The comment names the
+/// remedy, and what repair_finding::ids holds.
 enum class repair_kind
 {
     index_out_of_range,       ///< left out: triangles that name a vertex which does not exist
@@ -29,7 +29,7 @@ enum class repair_kind
     contradicting_normal      ///< nothing, they are named: triangles that all three normals at their corners oppose
 };
 
-/// A word for programs.
+/// Stable identifier of a defect, for programs.
 constexpr const char* to_string(repair_kind kind)
 {
     switch (kind)
@@ -67,7 +67,7 @@ constexpr const char* to_string(repair_kind kind)
 namespace taut::impl
 {
 
-/// How many ids a thing of a kind has: 2 for edges and pairs.
+/// Number of ids of a defect of a kind: 2 for edges and pairs.
 constexpr int ids_each(repair_kind kind)
 {
     return kind == repair_kind::duplicate_cell || kind == repair_kind::coincident_vertex ||
@@ -76,7 +76,7 @@ constexpr int ids_each(repair_kind kind)
                : 1;
 }
 
-/// Whether a mesh with this is none that charts can be made of. What is else mended makes it better.
+/// Returns whether no charts can be made of a mesh with this defect. Other defects are repaired, too.
 constexpr bool is_fault(repair_kind kind)
 {
     return kind != repair_kind::unreferenced_vertex && kind != repair_kind::coincident_vertex &&
@@ -88,7 +88,7 @@ constexpr bool is_fault(repair_kind kind)
 namespace taut
 {
 
-/// One kind with everything it concerns.
+/// Defects of one kind, with the ids they concern.
 struct repair_finding
 {
     repair_kind kind;
@@ -99,7 +99,7 @@ struct repair_finding
     std::string message() const { return problem + "; " + action; }
 };
 
-/// Triangles of which none is left.
+/// Error of an input of which no triangle is left after repair.
 class repair_error : public error
 {
 public:
@@ -108,7 +108,8 @@ public:
     {
     }
 
-    const std::vector<repair_finding>& findings() const noexcept { return findings_; } ///< what all went out for
+    /// Defects for which all triangles were removed.
+    const std::vector<repair_finding>& findings() const noexcept { return findings_; }
 
 private:
     std::vector<repair_finding> findings_;

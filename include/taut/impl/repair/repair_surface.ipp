@@ -31,16 +31,16 @@ void repair_params::validate(std::size_t points, std::size_t triangles) const
         throw parameter_error("weld_tolerance", "must be a length, 0 or more");
     if (!bodies.empty() && bodies.size() != points)
         throw parameter_error("bodies", std::to_string(bodies.size()) + " for " + std::to_string(points) +
-                                            " vertices; give one a vertex");
+                                            " vertices; give one per vertex");
     if (!polygons.empty() && polygons.size() != triangles)
         throw parameter_error("polygons", std::to_string(polygons.size()) + " for " + std::to_string(triangles) +
-                                              " triangles; give one a triangle");
+                                              " triangles; give one per triangle");
     if (!normal_cells.empty() && normal_cells.size() != triangles)
         throw parameter_error("normal_cells", std::to_string(normal_cells.size()) + " for " +
-                                                  std::to_string(triangles) + " triangles; give one a triangle");
+                                                  std::to_string(triangles) + " triangles; give one per triangle");
     if (normal_cells.empty() && !normals.empty() && normals.size() != points)
         throw parameter_error("normals", std::to_string(normals.size()) + " for " + std::to_string(points) +
-                                             " vertices; give one a vertex, or say which corners have which");
+                                             " vertices; give one per vertex, or say which corners have which");
     for (const auto& t : normal_cells)
         for (const idx n : t)
             if (n < -1 || n >= static_cast<idx>(normals.size()))
@@ -53,7 +53,7 @@ void repair_params::validate(std::size_t points, std::size_t triangles) const
 namespace taut::impl
 {
 
-/// One repair, step by step. Each leaves out or decides what those after it need not look at any more.
+/// One repair, step by step.
 class surface_repair
 {
 public:
@@ -126,7 +126,7 @@ private:
     bool is_vertex(idx v) const { return v >= 0 && u(v) < points_.size(); }
     static bool is_repeated(const std::array<idx, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-    /// Finds what is at one place, and leaves out what is flat.
+    /// Finds coincident points, and removes degenerate triangles.
     void bring_to_places()
     {
         std::vector<char> used(points_.size(), 0);
@@ -177,7 +177,7 @@ private:
         return flat;
     }
 
-    /// Leaves out triangles of a list that increases.
+    /// Removes the triangles of an ascending list.
     void leave_out(const std::vector<idx>& some)
     {
         take_out(cells_, [&](idx c) { return std::binary_search(some.begin(), some.end(), c); });
@@ -202,7 +202,7 @@ private:
         return ones_of(open);
     }
 
-    /// How far each place may be from one that it joins: so that no two corners of a triangle meet.
+    /// Maximum distance at which a place may be welded to another, so that no two corners of a triangle meet.
     std::vector<double> reach() const
     {
         std::vector<double> result(points_.size(), params_.weld_tolerance);
@@ -243,7 +243,7 @@ private:
         fan_ = fans(*placed_, pairs_);
         if (part_repeated(*placed_, f_, fan_, pairs_)) fan_ = fans(*placed_, pairs_);
         for (const auto& sides : open) note_crowd(sides);
-        // What is sewn badly is not sewn; the surface is none the worse for it.
+        // What is stitched badly is not stitched; the surface is none the worse for it.
         std::erase_if(way_.cut,
                       [this](idx s) { return f_.twin[u(s)] >= 0 && placed_->edge(s) != placed_->edge(f_.twin[u(s)]); });
     }
@@ -380,9 +380,9 @@ private:
     facet_table f_;                          // of them
     side_pairs pairs_;
     winding way_;
-    std::vector<idx> fan_;     // one a corner
+    std::vector<idx> fan_;     // one per corner
     std::vector<idx> crowded_; // one side of each edge of the input that was parted
-    std::size_t unsewn_ = 0;   // places of edges that might have been sewn
+    std::size_t unsewn_ = 0;   // places of edges that might have been stitched
 };
 
 } // namespace taut::impl

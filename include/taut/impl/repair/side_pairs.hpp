@@ -11,13 +11,13 @@
 
 #include <taut/impl/repair/winding.hpp>
 
-/// Which sides of triangles are the two of an edge of the surface.
+/// Pairing of the sides of triangles that share an edge of the surface.
 namespace taut::impl
 {
 
 struct side_pairs
 {
-    std::vector<idx> twin; ///< one a side; -1: open
+    std::vector<idx> twin; ///< one per side; -1: open
 
     void join(idx s, idx t)
     {

@@ -8,14 +8,14 @@
 
 #include <taut/impl/repair/placed_triangles.hpp>
 
-/// Which triangles are turned over, so that neighbours agree.
+/// Consistent orientation: the triangles to be reversed so that neighbours agree.
 namespace taut::impl
 {
 
 struct winding
 {
-    std::vector<char> turned; ///< one a triangle
-    std::vector<idx> sheet;   ///< one a triangle: what hangs together, by its first triangle
+    std::vector<char> turned; ///< one per triangle
+    std::vector<idx> sheet;   ///< one per triangle: what hangs together, by its first triangle
     std::vector<idx> cut;     ///< one side of each edge where no choice agrees
 };
 
@@ -38,7 +38,7 @@ inline void choose_way(const placed_triangles& t, std::span<const idx> cells, bo
 
 /// Spreads the winding of a triangle over what hangs together with it, breadth first, so that what must be cut of a
 /// one-sided part is where two fronts meet: about as short as can be. What edges of the input join goes before what is
-/// sewn: a part of the input that agrees with itself is turned over as a whole or not at all. Polygons are reached as a
+/// stitched: a part of the input that agrees with itself is flipped as a whole or not at all. Polygons are reached as a
 /// whole, so that none is cut.
 /// twin: the other side of each side, or -1
 inline winding wind(const placed_triangles& t, std::span<const idx> twin)

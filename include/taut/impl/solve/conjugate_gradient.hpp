@@ -9,7 +9,8 @@
 namespace taut::solve
 {
 
-/// beta of Algorithm 1, line 2, as a rule for `descent`. With s = a d_k of the step before, beta d_k = (beta / a) s.
+/// Coefficient beta of Algorithm 1, line 2, as a rule for `descent`. With s = a d_k of the step before, beta d_k =
+/// (beta / a) s.
 ///
 /// The paper prints beta = y'g / y'd, without H. That mixes preconditioned and plain terms and ruins the method; the
 /// consistent form is y'H g / y'd, for which y'd_{k+1} = 0 whatever the line search. Since H_{k+1} y = s, it is

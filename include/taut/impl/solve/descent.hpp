@@ -17,7 +17,7 @@
 namespace taut::solve::impl
 {
 
-/// How a method uses the step before: d = -H g + on_step * s.
+/// Use of the previous step by a method: d = -H g + on_step * s.
 struct momentum
 {
     double on_step = 0;
@@ -68,7 +68,7 @@ public:
     {
     }
 
-    /// Iterates until something says stop. Called once.
+    /// Iterates until a reason to stop. Called once.
     report run()
     {
         std::optional<solve::stop> reason = start();
@@ -150,7 +150,7 @@ private:
         return reason ? reason : monitor_.reason();
     }
 
-    /// Makes the preconditioner that of x_k. H0 must not change under pairs that know it, so they go.
+    /// Renews the preconditioner at x_k. Pairs belong to the old H0, so they are discarded.
     void linearize()
     {
         linearizes_ = f_.linearize(x_, false);
@@ -159,7 +159,7 @@ private:
         linearized_at_ = value_;
     }
 
-    /// Lets the objective spread out what cuts every step short; whether that was worth while.
+    /// Relaxes the elements that cut every step; returns whether that helped.
     bool relax()
     {
         if (!f_.relax(x_)) return false;
@@ -172,8 +172,8 @@ private:
         return before - value_ > least * std::abs(before);
     }
 
-    /// Forget the pairs and go on with steepest descent, in the metric of a preconditioner; if that is what just
-    /// failed, give up.
+    /// Discards the pairs and continues with steepest descent, in the metric of a preconditioner; gives up if that has
+    /// just failed.
     std::optional<solve::stop> restart()
     {
         if (monitor_.reason()) return monitor_.reason();
@@ -185,7 +185,7 @@ private:
         return std::nullopt;
     }
 
-    /// The current iterate into the report, the history, and to the observer.
+    /// Records the current iterate in the report and the history, and calls the observer.
     void record(const line_point& at, bool capped)
     {
         report_.value = value_;

@@ -17,8 +17,8 @@
 namespace taut::solve::impl
 {
 
-/// An objective with every call of the tables in objective.hpp, which is what methods see: one that it lacks is made of
-/// those that it has, or says that there is nothing. Refers to the objective.
+/// Objective with all functions of the tables in objective.hpp, as methods use it: missing ones are composed of the
+/// others, or report that they are missing. Refers to the objective.
 template <objective O>
 class full_objective
 {
@@ -60,7 +60,7 @@ public:
         return at_start;
     }
 
-    /// By what a change of f is judged that has this value.
+    /// Scale of changes of f at this value.
     double size(double value) const
     {
         if constexpr (requires { f_.value_scale(); }) return std::max(std::abs(value), f_.value_scale());
@@ -91,7 +91,7 @@ public:
         return {};
     }
 
-    /// Whether values() takes one pass for all.
+    /// True if values() takes one pass for all.
     static constexpr bool batches =
         requires(O & f, const point& x, const vector& d, std::span<const double> a, std::span<double> out)
     {
@@ -139,21 +139,21 @@ public:
         return std::nullopt;
     }
 
-    /// Whether there is anything to eliminate() with.
+    /// True if there is anything to eliminate() with.
     static constexpr bool eliminates =
         requires(O & f, point& x, const vector& unexpected, const std::function<bool()>& proceed)
     {
         f.eliminate(x, unexpected, proceed);
     };
 
-    /// Whether x was moved.
+    /// Returns whether x was moved.
     bool relax(point& x)
     {
         if constexpr (requires { f_.relax(x); }) return f_.relax(x);
         return false;
     }
 
-    /// Whether x was moved.
+    /// Returns whether x was moved.
     bool eliminate(point& x, const vector& unexpected, const std::function<bool()>& proceed)
     {
         if constexpr (eliminates) return f_.eliminate(x, unexpected, proceed);

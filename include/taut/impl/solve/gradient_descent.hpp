@@ -7,8 +7,8 @@ namespace taut::solve
 {
 
 /// Minimises f from x by steepest descent, d = -gamma g with gamma = s'y / y'y of the last step (Nocedal & Wright,
-/// section 3.3); with the objective's preconditioner d = -gamma H0 g. For comparison, and for preconditioners so good
-/// that nothing else is needed. x ends at the best iterate. Throws parameter_error.
+/// section 3.3); with the objective's preconditioner d = -gamma H0 g. For comparison, and for very good
+/// preconditioners. x ends at the best iterate. Throws parameter_error.
 template <objective Objective>
 report gradient_descent(Objective& f, typename Objective::point& x, const impl::descent_params& common = {},
                         const observer& ask = {})

@@ -245,7 +245,7 @@ private:
     int rows_;
     std::vector<double> gram_;           // rows_ x rows_, symmetric; entries of dropped vectors are stale
     std::vector<double> c_;              // a coefficient a row
-    std::vector<const vector*> vectors_; // a vector a row; the gradients belong to the caller
+    std::vector<const vector*> vectors_; // a vector per row; the gradients belong to the caller
     std::optional<vector> q_, r_;        // with a preconditioner only
     double length_ = 1, step_ = 1, proposed_step_ = 1;
     bool skipped_ = false;

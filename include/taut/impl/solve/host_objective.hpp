@@ -14,7 +14,7 @@
 namespace taut::solve
 {
 
-/// An objective from one function of n variables on the host:
+/// Objective of one function of n variables on the host:
 ///
 ///     host_objective f(2, [](std::span<const double> x, std::span<double> g) { g[0] = ...; return value; });
 ///

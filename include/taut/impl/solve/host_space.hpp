@@ -62,6 +62,7 @@ private:
     std::size_t components_;
 };
 
+/// Vector space of std::vector<double>.
 using host_space = basic_host_space<double>;
 
 static_assert(vector_space<host_space> && vector_space<const basic_host_space<float>>);

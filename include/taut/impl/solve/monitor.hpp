@@ -10,7 +10,7 @@
 namespace taut::solve::impl
 {
 
-/// Why a run ended whose budget is over.
+/// Reason for the end of a run whose budget is over.
 inline stop stop_of(const taut::impl::budget& limits)
 {
     return limits.refused() ? stop::user : stop::time;
@@ -54,7 +54,7 @@ public:
         return budget_.proceed(now_);
     }
 
-    /// stop::time or stop::user once either has spoken.
+    /// stop::time or stop::user once a limit has ended the run.
     std::optional<stop> reason() const
     {
         if (!budget_.over()) return std::nullopt;

@@ -25,9 +25,9 @@ namespace taut::solve::impl
 /// The loop of newton(). Truncated Newton's method with a line search (Nocedal & Wright, Algorithm 7.1): the direction
 /// by preconditioned conjugate gradients, then the best of the trial steps that meets the Armijo condition.
 ///
-/// Where the Hessian is indefinite the stand-in may be much too stiff: its directions are then those of steepest
-/// descent in its metric, and too short. So they are made conjugate to each other, and tried at up to four times their
-/// length.
+/// Where the Hessian is indefinite the projected Hessian may be much too stiff: its directions are then those of
+/// steepest descent in its metric, and too short. So they are made conjugate to each other, and tried at up to four
+/// times their length.
 ///
 /// | here                | meaning                                                     |
 /// |---------------------|-------------------------------------------------------------|
@@ -35,7 +35,7 @@ namespace taut::solve::impl
 /// | `d_`                | d_k                                                         |
 /// | `last_d_, last_g_`  | d_{k-1} and the gradient where it began                     |
 /// | `unit`              | the longest trial step: min(1, fraction of the first flip), |
-/// |                     | 4 in the place of 1 along directions of the stand-in        |
+/// |                     | 4 in the place of 1 along directions of the projected Hessian        |
 ///
 /// Host waits of an iteration, 2: the products of pcg, mostly one look, and the trial steps. Where the decrease is
 /// small enough to expect the end, the norm of the gradient is wanted, too: it comes with the trial steps if the full
@@ -107,7 +107,7 @@ private:
         const bool exact = step_.value_before - value_ < params_.exact_below * f_.size(value_);
         std::swap(d_, last_d_);
         if (auto reason = direction(exact)) return reason;
-        // An indefinite Hessian may have misled; its stand-in does not.
+        // An indefinite Hessian may have misled; its projection does not.
         std::optional<trial> found = search();
         if (!found && exact && !monitor_.reason())
         {
@@ -119,7 +119,7 @@ private:
         return accept(*found);
     }
 
-    /// d_ for the current point; a reason to stop if the norm of the gradient, which comes with it, gives one.
+    /// Computes d_ for the current point; returns a reason to stop by the norm of the gradient, which comes with it.
     std::optional<solve::stop> direction(bool exact)
     {
         f_.linearize(x_, exact);
@@ -136,11 +136,11 @@ private:
         return pending_ ? settle(model_.gradient_squared) : std::nullopt;
     }
 
-    /// Of values near the current one.
+    /// Rounding error of values near the current one.
     double noise() const { return rounding_ * f_.size(value_); }
 
-    /// Makes d_, a direction of the stand-in, conjugate to the last one (Hestenes & Stiefel 1952, with the stand-in as
-    /// preconditioner), as far as the change of the gradient along that one tells.
+    /// Makes d_, a direction of the projected Hessian, conjugate to the last one (Hestenes & Stiefel 1952, with the
+    /// projected Hessian as preconditioner), by the change of the gradient along that one.
     void conjugate()
     {
         const vector* const left[] = {&last_g_, &g_};
@@ -162,8 +162,8 @@ private:
         bool capped;
     };
 
-    /// The step of the lowest value among some, or among ever shorter ones until one meets the Armijo condition; the
-    /// longest of those that rounding cannot tell apart.
+    /// Chooses the step of lowest value among some, or among ever shorter ones until one meets the Armijo condition;
+    /// the longest of those that are equal within rounding.
     std::optional<trial> search()
     {
         if (!(model_.slope < 0)) return std::nullopt;
@@ -269,7 +269,7 @@ private:
         return settle(square);
     }
 
-    /// Minimises by itself what the last step, a share of d_, found far from quadratic: where the gradient is not
+    /// Eliminates the parts that the last step, a fraction of d_, found far from quadratic: where the gradient is not
     /// (1 - share) times the one before, as it is where the model holds. square: of the gradient's norm.
     void eliminate(double share, double& square)
     {
@@ -296,7 +296,7 @@ private:
         }
     }
 
-    /// Books the last step, now that its gradient is known.
+    /// Records the last step, once its gradient is known.
     std::optional<solve::stop> settle(double gradient_squared)
     {
         pending_ = false;
@@ -346,7 +346,7 @@ private:
     std::optional<vector> unexpected_;  // of the last gradient, by the model
     std::optional<double> full_square_; // norm of full_gradient_ squared, if it came with the trial steps
     bool exact_ = false;                // d_ is of the Hessian itself
-    bool along_stand_in_ = false;       // last_d_ is of the stand-in
+    bool along_stand_in_ = false;       // last_d_ is of the projected Hessian
     bool near_end_ = true;              // the norm of the next gradient will be wanted
     bool pending_ = false;              // the last step has no gradient norm yet
     int system_steps_ = 0;              // of PCG at most; more where the Hessian has proved right
@@ -360,7 +360,7 @@ namespace taut::solve::impl
 {
 
 /// Minimises f from x by truncated Newton's method with the preconditioner of the objective. x ends at the best
-/// iterate whatever the reason to stop. Throws parameter_error, and nothing else but what f and the observer do.
+/// iterate whatever the reason to stop. Throws parameter_error, and exceptions of f and the observer.
 template <objective Objective>
     requires has_hessian<Objective> report newton(Objective& f, typename Objective::point& x,
                                                   const newton_params& params = {},

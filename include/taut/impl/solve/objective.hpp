@@ -10,14 +10,15 @@
 namespace taut::solve
 {
 
-/// The vector space of an objective, without the reference but with a const of its own.
+/// Vector space type of an objective, without the reference but with a const of its own.
 template <class O>
 using space_of = std::remove_reference_t<decltype(std::declval<O&>().space())>;
 
+/// Vector type of an objective, for gradients and directions.
 template <class O>
 using vector_of = typename space_of<O>::vector;
 
-/// A function f to minimise. Points and vectors may be of different types: positions in double, gradients and
+/// Objective f to be minimised. Points and vectors may be of different types: positions in double, gradients and
 /// directions in float.
 ///
 /// | call                        | meaning                                                                        |
@@ -71,17 +72,17 @@ concept objective = vector_space<space_of<O>> &&
     f.step(x, a, d, out);
 };
 
-/// Optional: `precondition(v, out)`, out = H0 v with H0 symmetric positive definite, an approximation of the inverse
-/// Hessian up to a factor. It may change between iterations but not within one.
+/// Optional preconditioner: `precondition(v, out)`, out = H0 v with H0 symmetric positive definite, an approximation of
+/// the inverse Hessian up to a factor. It may change between iterations but not within one.
 template <class O>
 concept has_precondition = objective<O> && requires(O& f, const vector_of<O>& v, vector_of<O>& out)
 {
     f.precondition(v, out);
 };
 
-/// What Newton's method needs: `linearize(x, exact)` fixes the point of all that follows; `hessian_product(v, out)`,
-/// out = A v, where A is the Hessian if `exact` and else a positive semi-definite stand-in; `precondition(v, out)`,
-/// out = M v with M an approximate inverse of the stand-in in either case.
+/// Requirements of Newton's method: `linearize(x, exact)` fixes the point of all that follows; `hessian_product(v,
+/// out)`, out = A v, where A is the Hessian if `exact` and else the projected (positive semi-definite) Hessian;
+/// `precondition(v, out)`, out = M v with M an approximate inverse of the projected one in either case.
 template <class O>
 concept has_hessian = has_precondition<O> &&
     requires(O& f, const typename O::point& x, bool exact, const vector_of<O>& v, vector_of<O>& out)
@@ -106,10 +107,11 @@ struct model_change
 namespace taut::solve
 {
 
-/// What it takes to bring coordinates of a point to prescribed values: `linearize_towards(x, share, d, g)` does what
-/// `linearize(x, false)` does, and puts `share` of what x lacks at the prescribed coordinates into d, which is 0
-/// elsewhere, and the gradient of the model at x + d into g, which is 0 at the prescribed ones; it returns f(x) and the
-/// change of the model along d. `put(x)` gives prescribed coordinates their values to the last bit.
+/// Requirements for bringing coordinates of a point to prescribed values: `linearize_towards(x, share, d, g)` does what
+/// `linearize(x, false)` does, and puts the fraction `share` of the remaining displacement of the prescribed
+/// coordinates into d, which is 0 elsewhere, and the gradient of the model at x + d into g, which is 0 at the
+/// prescribed ones; it returns f(x) and the change of the model along d. `put(x)` gives prescribed coordinates their
+/// values to the last bit.
 template <class O>
 concept has_prescribed = has_hessian<O> &&
     requires(O& f, typename O::point& x, double share, vector_of<O>& d, vector_of<O>& g)

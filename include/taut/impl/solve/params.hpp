@@ -14,11 +14,11 @@ namespace taut::solve
 /// Constants of the Wolfe conditions (Nocedal & Wright, Numerical Optimization, 2nd ed., section 3.1).
 struct wolfe_params
 {
-    /// c1: the least decrease, as a part of what the slope promises. Range (0, 0.5). Hardly ever worth a change.
+    /// c1: minimum decrease, as a fraction of that predicted by the slope. Range (0, 0.5). Hardly ever worth a change.
     double sufficient_decrease = 1e-4;
 
-    /// c2: the slope that may remain, as a part of the slope at the start. Range (c1, 1). 0.9 for quasi-Newton
-    /// directions; 0.1 makes searches nearly exact, which plain conjugate gradients like.
+    /// c2: maximum remaining slope, as a fraction of the initial one. Range (c1, 1). 0.9 for quasi-Newton directions;
+    /// 0.1 makes searches nearly exact, which suits plain conjugate gradients.
     double curvature = 0.9;
 
     friend bool operator==(const wolfe_params&, const wolfe_params&) = default;
@@ -34,8 +34,8 @@ struct wolfe_params
 
 enum class line_search_method : int; // solve/line/line_search.hpp has their names, and includes them
 
-/// Of the descent methods. Newton's method has a search of its own, which takes wolfe.sufficient_decrease,
-/// barrier_fraction and rounding alone (newton_search_params).
+/// Line search parameters of the descent methods. Newton's method has a search of its own, which takes
+/// wolfe.sufficient_decrease, barrier_fraction and rounding alone (newton_search_params).
 struct line_search_params
 {
     /// hybrid, the default, where values are cheaper than gradients; strong_wolfe where they come together anyway.
@@ -43,8 +43,8 @@ struct line_search_params
 
     wolfe_params wolfe = {};
 
-    /// No trial step is longer than this part of the step to the barrier (objectives with max_step). Range (0, 1);
-    /// 0.9 to 0.99 are sensible: nearer to 1 the energy at the end of the step explodes.
+    /// Maximum trial step as a fraction of the step to the barrier (objectives with max_step). Range (0, 1); 0.9 to
+    /// 0.99 are sensible: nearer to 1 the energy at the end of the step explodes.
     double barrier_fraction = 0.9;
 
     /// Not for users: what tests and measurements set.
@@ -61,7 +61,7 @@ struct line_search_params
     }
 };
 
-/// When to stop. A tolerance of 0 switches its test off.
+/// Stopping criteria. A tolerance of 0 switches its test off.
 struct stopping_params
 {
     /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
@@ -73,17 +73,15 @@ struct stopping_params
     double gradient_tolerance = 1e-6;
 
     /// Stop after two (tuning.decrease_count) decreases in a row of at most decrease_tolerance * |f - base|. A decrease
-    /// along a step that a barrier cut says nothing and is not counted; one that is lost in rounding is counted only
-    /// where the gradient has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it
-    /// (1e-6) to stop where the value, not the point, matters.
+    /// along a step that a barrier cut is not counted; one that is lost in rounding is counted only where the gradient
+    /// has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop where the
+    /// value, not the point, matters.
     double decrease_tolerance = 1e-14;
 
     /// Newton's method: stop where five steps in a row, each of which ended at a relative gradient of at most 1e-2,
     /// have together gained at most settled_tolerance * |f - base|, unless the last one was a full step along a
-    /// definite Hessian, after which the end is near anyway. Meant for long ways through valleys at the end of which
-    /// next to nothing is gained: 1e-4 left 0.07 % at most of what lies above the energy at rest on 67 maps, most of
-    /// them hard (docs/explanation/numerics.md, "Stopping criteria"). Range [0, 1); off here, on in maps of surfaces
-    /// that say nothing else.
+    /// definite Hessian, after which the end is near anyway. For long valleys with negligible decrease at their end
+    /// (docs/explanation/numerics.md, "Stopping criteria"). Range [0, 1); off here, on by default in maps of surfaces.
     double settled_tolerance = 0;
 
     /// Stop after two uncapped steps in a row of at most step_tolerance * the longest step of the run.
@@ -120,7 +118,7 @@ struct stopping_params
 namespace taut::solve::impl
 {
 
-/// What all descent methods share.
+/// Common parameters of all descent methods.
 struct descent_params
 {
     solve::line_search_params line_search = {};
@@ -130,8 +128,8 @@ struct descent_params
     /// iteration only. Range > 0. Unused with a preconditioner, whose scale is trusted.
     double first_length = 1;
 
-    /// An objective with a Hessian makes its preconditioner anew, and the method forgets its pairs, once the value has
-    /// fallen by more than this part since the last time. Range > 0.
+    /// Relative decrease of the value after which an objective with a Hessian renews its preconditioner, and the method
+    /// discards its pairs. Range > 0.
     double linearize_after = 0.03;
 
     void validate() const
@@ -149,13 +147,14 @@ struct descent_params
 namespace taut::solve
 {
 
-/// The factor gamma of H0 = gamma I (or gamma times the objective's own H0).
+/// Choice of the factor gamma of H0 = gamma I (or gamma times the objective's own H0).
 enum class scaling
 {
     newest, ///< s'y / y'H0 y of the newest pair (Nocedal & Wright, 7.20)
     largest ///< the larger of those of the oldest and the newest pair: the paper's [24] as its authors use it
 };
 
+/// Parameters of the limited memory of L-BFGS and of the preconditioned conjugate gradient method.
 struct memory_params
 {
     /// m: pairs (s, y) kept. Range 0..64; 0 leaves H0. 5 to 20 are usual: more memory, fewer iterations.
@@ -174,7 +173,7 @@ struct memory_params
     }
 };
 
-/// The limited-memory BFGS method.
+/// Parameters of the limited-memory BFGS method.
 struct lbfgs_params
 {
     memory_params memory = {};
@@ -200,7 +199,7 @@ enum class conjugacy
 namespace taut::solve
 {
 
-/// The paper's preconditioned nonlinear conjugate gradient.
+/// Parameters of the paper's preconditioned nonlinear conjugate gradient method.
 struct conjugate_gradient_params
 {
     impl::conjugacy beta = impl::conjugacy::hestenes_stiefel;
@@ -209,8 +208,8 @@ struct conjugate_gradient_params
     /// the plain method.
     memory_params memory = {.pairs = 5, .scaling = scaling::largest};
 
-    /// Forget the step before every so many iterations. Range >= 0; 0: only where the direction does not descend or
-    /// the line search fails. The number of unknowns is the classic choice for the plain method on small problems.
+    /// Number of iterations between restarts. Range >= 0; 0: only where the direction does not descend or the line
+    /// search fails. The number of unknowns is the classic choice for the plain method on small problems.
     int restart_interval = 0;
 
     void validate() const
@@ -225,8 +224,7 @@ struct conjugate_gradient_params
 namespace taut::solve::impl
 {
 
-/// How far Newton's method goes along a direction: the best of the full step and fractions of it. As in
-/// line_search_params.
+/// Line search parameters of Newton's method: the best of the full step and fractions of it. As in line_search_params.
 struct newton_search_params
 {
     double sufficient_decrease = wolfe_params{}.sufficient_decrease;
@@ -234,7 +232,7 @@ struct newton_search_params
     double rounding = line_tuning{}.rounding;
 };
 
-/// What Newton's method has in common with the others.
+/// Common parameters of Newton's method and the others.
 struct newton_common_params
 {
     newton_search_params search = {};
@@ -260,6 +258,7 @@ struct newton_common_params
 namespace taut::solve
 {
 
+/// Minimisation methods.
 enum class method
 {
     automatic,          ///< newton where the objective has a Hessian, else lbfgs
@@ -269,7 +268,7 @@ enum class method
     gradient_descent    ///< steepest descent, for comparison
 };
 
-/// Everything that can be set, by algorithm. Nested aggregates with defaults:
+/// Parameters of minimize(), by algorithm. Nested aggregates with defaults:
 ///
 ///     minimize(f, x, {.method = method::conjugate_gradient, .stopping = {.gradient_tolerance = 1e-8}});
 struct params
@@ -293,7 +292,7 @@ struct params
         if (method == solve::method::newton) require_newton_search();
     }
 
-    /// Throws parameter_error where something is set that Newton's method has no use for.
+    /// Throws parameter_error where a parameter is set that Newton's method does not use.
     void require_newton_search() const
     {
         const impl::descent_params unset;

@@ -13,23 +13,23 @@
 namespace taut::solve::impl
 {
 
-/// What preconditioned conjugate gradients found.
+/// Result of preconditioned conjugate gradients.
 struct pcg_result
 {
     int steps = 0;               ///< dimension of the space where the model was minimised
     int looks = 0;               ///< host waits
     double gradient_squared = 0; ///< |g|^2
     double slope = 0;            ///< g'd
-    double decrease = 0;   ///< of the model g'd + d'A d / 2 on the way to where its curvature turns negative, >= 0
+    double decrease = 0;   ///< decrease of the model g'd + d'A d / 2 up to where its curvature turns negative, >= 0
     bool negative = false; ///< a direction of negative curvature was met, and is a part of d
 };
 
-/// The minimiser d of the model g'd + d'A d / 2 over the Krylov space of M A and M g, which is what k steps of
-/// preconditioned conjugate gradients from 0 reach (Nocedal & Wright, Algorithm 5.3). The s-step form (Chronopoulos &
-/// Gear 1989): a block of s vectors is made without any inner product, then all products come in one wait, and the
-/// small system of the model is solved on the host. A block is conjugate to all before it once it is to the last. The
-/// polynomials of the block are products of M A - theta (a Newton basis: Bai, Hu, Reichel 1994), as powers of M A would
-/// soon be parallel in float; theta runs over where a good M has the spectrum of M A.
+/// Preconditioned conjugate gradients: the minimiser d of the model g'd + d'A d / 2 over the Krylov space of M A and M
+/// g, which is what k steps of preconditioned conjugate gradients from 0 reach (Nocedal & Wright, Algorithm 5.3). The
+/// s-step form (Chronopoulos & Gear 1989): a block of s vectors is made without any inner product, then all products
+/// come in one wait, and the small system of the model is solved on the host. A block is conjugate to all before it
+/// once it is to the last. The polynomials of the block are products of M A - theta (a Newton basis: Bai, Hu, Reichel
+/// 1994), as powers of M A would soon be parallel in float; theta runs over where a good M has the spectrum of M A.
 ///
 /// Where the next direction n of conjugate gradients has a negative curvature, the model has no minimiser, and falls
 /// along n for ever. d is then what was found before and as much of n as makes g'd twice what it was: how far it is to
@@ -59,9 +59,9 @@ public:
     }
 
     /// A(v, out) and M(v, out) are the products, M symmetric positive definite on the space of g. proceed() is asked
-    /// between blocks of steps; where it says no, d is what there is. max_steps: in the place of
-    /// pcg_params::max_steps, unless it is 0. known: a direction that d is likely to have a part of, not d itself; the
-    /// last step of the first block, which takes no preconditioning. Where it brings much, the search goes on.
+    /// between blocks of steps; once it returns false, d is the current direction. max_steps: in the place of
+    /// pcg_params::max_steps, unless it is 0. known: a direction with a likely component in d; the last step of the
+    /// first block, which takes no preconditioning. If it brings much, the iteration continues.
     /// noise: of values; where the model falls by no more, a negative curvature is taken for rounding, too.
     template <class Product, class Preconditioner, class Proceed = always>
     pcg_result solve(const vector& g, const Product& A, const Preconditioner& M, vector& d, Proceed&& proceed = {},
@@ -318,8 +318,8 @@ private:
     }
 
     /// The k-th vector made conjugate to those before it, along which the model falls with a negative curvature; empty
-    /// if rounding may have made that, or where the residual is next to nothing. b: slopes; gained: the decrease so
-    /// far. The first k - 1 rows of K are positive definite.
+    /// if rounding may have made that, or where the residual is negligible. b: slopes; gained: the decrease so far. The
+    /// first k - 1 rows of K are positive definite.
     static std::vector<double> descent(const small& K, const std::vector<double>& b, std::size_t k, double gained)
     {
         constexpr double least = 1e-6; // as in minimiser()

@@ -17,26 +17,25 @@
 namespace taut::solve::impl
 {
 
-/// How prescribed coordinates are brought to their values.
+/// Parameters of incremental loading: how prescribed coordinates are brought to their values.
 struct prescribed_params
 {
-    /// Of the steps of the others: the system is dominated by the neighbours of what moves, so that a small gain does
-    /// not say that what is farther off has followed.
+    /// Conjugate gradients of the steps of free coordinates: the system is dominated by the neighbours of the moving
+    /// ones, so that a small gain does not mean that those farther off have followed.
     pcg_params pcg = {.gain = 0.01};
 
     /// As in line_search_params.
     double barrier_fraction = 0.9;
 
-    /// No step raises f by more than this part of it, or of its scale where that is larger (`value_scale()` in
-    /// objective.hpp): after a steep rise the others are far from where they would be. Range > 0.
+    /// Maximum relative increase of f per step, relative to its scale where that is larger (`value_scale()` in
+    /// objective.hpp): after a steep increase the free coordinates are far from their equilibrium. Range > 0.
     double most_rise = 0.25;
 
-    /// Nor is f above its value at the start of a run by more than this part of that, or of its scale, times the share
-    /// of the gap that is closed: what costs more is a jam, where f grows beyond all bounds and the coordinates come no
-    /// nearer. Range > 0.
+    /// Maximum relative increase of f over a run, times the closed fraction of the gap: beyond that the run has
+    /// stalled, where f grows without bound and the coordinates come no nearer. Range > 0.
     double most_cost = 10;
 
-    /// The objective is asked to relax what cut a step that was shorter. Range [0, 1].
+    /// Step length below which the objective relaxes the elements that cut the step. Range [0, 1].
     double relax_below = 0.5;
 
     /// Throws parameter_error that names the field.
@@ -52,12 +51,12 @@ struct prescribed_params
     }
 };
 
-/// How far prescribed coordinates have come.
+/// Report of incremental loading.
 struct prescribed_report
 {
     bool arrived = false;   ///< they have their values
     bool crawling = false;  ///< the last steps, of this run and those before, have hardly changed anything
-    double left = 0;        ///< of the gap
+    double left = 0;        ///< remaining fraction of the gap
     double value_start = 0; ///< f at the start
     double value = 0;       ///< f at the last trial step that was taken
     int iterations = 0;     ///< steps, those included that were not taken
@@ -69,7 +68,7 @@ struct prescribed_report
 namespace taut::solve::impl
 {
 
-/// Brings coordinates of a point to prescribed values, within the domain of f, while the others follow: Newton's steps
+/// Brings coordinates of a point to prescribed values, within the domain of f, while the others follow: Newton's method
 /// with prescribed displacements (Dirichlet increments),
 ///
 ///     K_ff d_f = -g_f - K_fp d_p,    x <- x + a (d_f, d_p),
@@ -102,7 +101,7 @@ public:
         params.validate();
     }
 
-    /// x: in the domain; moved. gap: the length of what x lacks, in any norm, > 0. proceed() is asked before each step
+    /// x: in the domain; moved. gap: the norm of the remaining displacement, > 0. proceed() is asked before each step
     /// but the first.
     prescribed_report run(point& x, double gap, const std::function<bool(const prescribed_report&)>& proceed)
     {
@@ -163,7 +162,7 @@ private:
         return {taken * length, fallen};
     }
 
-    /// The most that f may be where so much of the gap is left.
+    /// Maximum f for a remaining fraction of the gap.
     double costliest(double left) const { return *start_ + params_.most_cost * (1 - left / gap_) * f_.size(*start_); }
 
     struct trial
@@ -171,8 +170,8 @@ private:
         double step, value;
     };
 
-    /// The trial step of the least merit, 0 if none has less than the point itself. rise: that the model expects of
-    /// the full step.
+    /// Trial step of minimum merit, 0 if none is below that of the point itself. rise: increase predicted by the model
+    /// for the full step.
     trial longest(const point& x, double value, double rise, double share, double left)
     {
         const double noise = f_.rounding() * f_.size(value);

@@ -14,7 +14,7 @@
 namespace taut::solve
 {
 
-/// One accepted iterate; number 0 is the start.
+/// Record of one accepted iterate; number 0 is the start.
 struct history_entry
 {
     int iteration = 0;
@@ -24,10 +24,10 @@ struct history_entry
     bool capped = false;     ///< the barrier cut the step
     int evaluations = 0;     ///< values computed so far
     double seconds = 0;      ///< since the start of the run
-    std::uint64_t waits = 0; ///< of the host for a device, since the start of the run
+    std::uint64_t waits = 0; ///< host waits for a device, since the start of the run
 };
 
-/// What a minimisation did. Values in the history never rise by more than the rounding error of a value.
+/// Report of a minimisation. Values in the history never increase by more than the rounding error of a value.
 struct report
 {
     solve::stop stop = solve::stop::iterations;
@@ -36,14 +36,14 @@ struct report
     int gradients = 0;        ///< gradients computed
     int eliminations = 0;     ///< iterations after which parts were minimised by themselves (Newton's method)
     int products = 0;         ///< Hessian products, nearly all with a preconditioning (Newton's method)
-    int restarts = 0;         ///< times the method forgot what it knew of earlier steps
+    int restarts = 0;         ///< times the method discarded its memory of earlier steps
     int skipped_pairs = 0;    ///< steps without positive curvature, left out of the quasi-Newton memory
     double value_start = 0;   ///< f at the start
     double value = 0;         ///< f at the end
     double gradient_norm = 0; ///< relative norm of the gradient at the end
-    double seconds = 0;       ///< of the whole run
-    std::uint64_t waits = 0;  ///< of the host for a device (Newton's method)
-    std::vector<int> capping; ///< what the last step of Newton's method met first, if a barrier cut it
+    double seconds = 0;       ///< wall-clock seconds of the whole run
+    std::uint64_t waits = 0;  ///< host waits for a device (Newton's method)
+    std::vector<int> capping; ///< parts of the problem whose barrier cut the last step of Newton's method, if one did
     std::vector<history_entry> history;
 };
 

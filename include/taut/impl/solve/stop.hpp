@@ -7,7 +7,8 @@
 namespace taut::solve
 {
 
-/// Why a minimisation ended. All of them are results, none is an exception; the best iterate is kept in each case.
+/// Reasons for which a minimisation ends. All of them are results, none is an exception; the best iterate is kept in
+/// each case.
 enum class stop
 {
     gradient,        ///< the relative gradient fell below its tolerance: converged
@@ -28,7 +29,7 @@ enum class stop
 namespace taut::solve::impl
 {
 
-/// Whether a run ended near a minimum rather than by a limit, a failure or a request.
+/// Returns whether a run ended near a minimum rather than by a limit, a failure or a request.
 constexpr bool converged(stop reason) noexcept
 {
     return reason == stop::gradient || reason == stop::decrement || reason == stop::settled ||
@@ -40,6 +41,7 @@ constexpr bool converged(stop reason) noexcept
 namespace taut::solve
 {
 
+/// Stable name of a reason, for programs.
 constexpr std::string_view to_string(stop reason) noexcept
 {
     switch (reason)

@@ -15,7 +15,7 @@
 namespace taut::solve
 {
 
-/// An accepted step as the stopping tests see it.
+/// Record of an accepted step, for the stopping tests.
 struct step_record
 {
     int iteration = 0;       ///< 1 for the first step
@@ -25,8 +25,8 @@ struct step_record
     double length = 0;       ///< |s_k|
     bool capped = false;     ///< cut by a barrier
 
-    /// Half the square of Newton's decrement: the decrease that the Hessian itself, where it was positive definite,
-    /// promised of a step that was then taken in full.
+    /// Half the square of the Newton decrement: the decrease predicted by the Hessian itself, where it was positive
+    /// definite, for a full step.
     double promised = std::numeric_limits<double>::infinity();
 
     bool newton = false; ///< a step of Newton's method, of which few are worth much
@@ -48,7 +48,7 @@ public:
     {
     }
 
-    /// At the start: is there anything to do?
+    /// Tests the initial point.
     std::optional<stop> start(double gradient)
     {
         lowest_gradient_ = gradient;

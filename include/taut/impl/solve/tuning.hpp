@@ -9,7 +9,7 @@
 namespace taut::solve::impl
 {
 
-/// The exact part of the paper's line search.
+/// Parameters of the exact part of the paper's line search.
 struct exact_params
 {
     /// Relative tolerance of Brent's method on the step. Range (0, 1); below 1.5e-8 it means 1.5e-8.
@@ -42,7 +42,7 @@ struct exact_params
     }
 };
 
-/// Of all line searches.
+/// Tuning of all line searches.
 struct line_tuning
 {
     exact_params exact = {};
@@ -52,14 +52,15 @@ struct line_tuning
     /// Trial steps in one pass where the objective has `values`. Range 1..most_batch.
     int batch = 6;
 
-    /// Gradients that strong_wolfe, or values that backtracking may take. Range >= 1.
+    /// Maximum number of gradients of strong_wolfe, or of values of backtracking. Range >= 1.
     int max_evaluations = 30;
 
     /// Factor between the steps of backtracking. Range (0, 1).
     double shrink = 0.5;
 
-    /// Relative rounding error of a value. A rise by less is no rise, and such small decreases are judged by slopes.
-    /// Range [0, 1e-3). An objective that computes in float says so by its own rounding(), and the larger one holds.
+    /// Relative rounding error of a value. Changes below this are noise; decreases are then tested by the slope
+    /// (approximate Wolfe conditions, Hager and Zhang). Range [0, 1e-3). An objective that computes in float has its
+    /// own rounding(), and the larger one applies.
     double rounding = 1e-14;
 
     friend bool operator==(const line_tuning&, const line_tuning&) = default;
@@ -74,11 +75,10 @@ struct line_tuning
     }
 };
 
-/// Of the stopping tests.
+/// Tuning of the stopping tests.
 struct stopping_tuning
 {
-    /// A value that f cannot fall below, or 0. What is left above it, not the value itself, then tells what a decrease
-    /// is worth.
+    /// Lower bound of f, or 0. Decreases are judged relative to f - base, not to f.
     double base = 0;
 
     /// Range >= 1. One small decrease is often an accident of the line search.
@@ -95,18 +95,18 @@ struct stopping_tuning
     }
 };
 
-/// How exactly a Newton system is solved.
+/// Parameters of conjugate gradients on a Newton system.
 struct pcg_params
 {
-    /// Products with the matrix, and with the preconditioner, at most. Range 1..1000. Newton's method doubles it, up to
-    /// eightfold, after each full step along the Hessian itself whose system took them all.
+    /// Maximum number of products with the matrix, and with the preconditioner. Range 1..1000. Newton's method doubles
+    /// it, up to eightfold, after each full step along the Hessian itself whose system took them all.
     int max_steps = 40;
 
-    /// Steps between two looks at the result, at most; each look is a host wait. The first system is looked at after
-    /// two, each further one after as many as the one before was found to need. Range 1..8.
+    /// Maximum number of steps between two convergence tests, each of which is a host wait. The first system is tested
+    /// after two, each further one after as many as the previous one needed. Range 1..8.
     int block = 6;
 
-    /// Go on while the last step brought more than this part of what the steps brought on average (Nash & Sofer 1990,
+    /// Stop when the last decrease of the model is below this fraction of the mean decrease (Nash & Sofer 1990,
     /// "Assessing a search direction within a truncated-Newton method"); of later blocks, their mean step. Range (0,
     /// 1). Lower it for more exact directions.
     double gain = 0.25;
@@ -119,24 +119,23 @@ struct pcg_params
     }
 };
 
-/// Newton's method with inexact directions.
+/// Parameters of Newton's method with inexact directions.
 struct newton_params
 {
     pcg_params pcg = {};
 
-    /// The Hessian itself takes the place of its positive semi-definite stand-in once an iteration lowers the value by
-    /// less than this part: near a minimum it halves the iterations, far from one it misleads. Range [0, 1).
+    /// Relative decrease of the value per iteration below which the Hessian itself replaces the projected one: near a
+    /// minimum it halves the iterations, far from one it misleads. Range [0, 1).
     double exact_below = 1e-5;
 
-    /// After a step shorter than this the objective is asked to relax what cut it short. Range [0, 1].
+    /// Step length below which the objective relaxes the elements that cut the step. Range [0, 1].
     double relax_below = 0.5;
 
-    /// From this iteration on, and once one lowers the value by less than that part, the objective is asked to minimise
-    /// by itself where a step has brought a gradient that the model did not expect; earlier, the whole is too far from
-    /// where its parts belong. Ranges >= 1 and >= 0; 0: never.
+    /// First iteration, and relative decrease of the value, from which the objective eliminates strongly nonlinear
+    /// parts, whose gradients differ from the model's. Ranges >= 1 and >= 0; 0: never.
     int eliminate_from = 10;
     double eliminate_below = 1e-3;
-    /// And only if what was not expected is longer than this part of the gradient before. Range > 0.
+    /// Minimum length of that difference relative to the previous gradient. Range > 0.
     double eliminate_above = 0.3;
 
     void validate() const
@@ -150,7 +149,7 @@ struct newton_params
     }
 };
 
-/// Of minimize().
+/// Tuning of minimize().
 struct tuning
 {
     newton_params newton = {};

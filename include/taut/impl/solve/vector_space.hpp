@@ -7,8 +7,8 @@
 namespace taut::solve
 {
 
-/// What an algorithm of this layer needs to know about vectors: eight lines of linear algebra and nothing of memory,
-/// devices or meshes. Vectors are opaque and movable; scalars are double on the host whatever the vectors hold.
+/// Vector space of a solver: eight lines of linear algebra and nothing of memory, devices or meshes. Vectors are opaque
+/// and movable; scalars are double on the host whatever the vectors hold.
 ///
 /// On a device each `dot` and `multi_dot` makes the host wait for the queue (tens of microseconds, as much as a small
 /// kernel), while `copy`, `axpby` and `linear_combination` are only enqueued. The algorithms therefore ask for many

@@ -12,7 +12,8 @@
 namespace taut::impl
 {
 
-/// Which entries of element blocks each place of a block matrix sums, made on the host: what block_assembly works by.
+/// Assembly lists: the entries of element blocks that each place of a block matrix sums, made on the host for
+/// block_assembly.
 ///
 /// An element with K corners gives one block for each pair k <= l of its corners, pairs in the order (0,0), (0,1), ..,
 /// (0,K-1), (1,1), ..: a block (k, k) has its upper triangle by rows, D (D + 1) / 2 entries, the others all D * D by
@@ -28,7 +29,7 @@ public:
     {
     }
 
-    /// cells: arrays of corner numbers, in the pattern. fixed: a flag a row, or none; rows and columns that are fixed
+    /// cells: arrays of corner numbers, in the pattern. fixed: a flag per row, or none; rows and columns that are fixed
     /// stay 0, diagonals included. Throws parameter_error.
     template <class Cells>
     assembly_lists(const block_pattern& pattern, int block_size, const Cells& cells, const csr& around,

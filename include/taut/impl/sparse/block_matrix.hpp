@@ -19,7 +19,7 @@
 namespace taut::impl
 {
 
-/// Options of kernels/block_sparse.cl for D x D blocks and interpolations of K weights a row.
+/// Options of kernels/block_sparse.cl for D x D blocks and interpolations of K weights per row.
 inline std::string block_options(scalar_type real, int D, int K, lane_form form)
 {
     const bool wide = real == scalar_type::f64;
@@ -59,7 +59,7 @@ public:
         : block_matrix(q, type, std::move(pattern), D, lane_form::for_device(q.device()))
     {
     }
-    /// The pattern has form.slice rows a slice. Throws parameter_error.
+    /// The pattern has form.slice rows per slice. Throws parameter_error.
     block_matrix(taut::queue& q, scalar_type type, block_pattern pattern, int D, lane_form form)
         : shared_(std::make_shared<structure>(q, type, std::move(pattern), D, form)),
           values_(q, type, shared_->places * blocks()),
@@ -139,7 +139,7 @@ public:
         shared_->invert(items(), {{"stride", pitch()}, {"offsets", offsets()}, {"A", values_}, {"inverse", inverse_}});
     }
 
-    /// Values by place of the pattern, D * D numbers a block, by rows.
+    /// Values by place of the pattern, D * D numbers per block, by rows.
     std::vector<double> download() const
     {
         const auto device = values_.download();
@@ -167,7 +167,7 @@ public:
     const buffer<idx>& offsets() const noexcept { return shared_->offsets; }
     const buffer<idx>& columns() const noexcept { return shared_->columns; }
 
-    /// What one product must move: values, columns, the vector read once and the result written.
+    /// Bytes that one product moves: values, columns, the vector read once and the result written.
     std::size_t product_bytes() const
     {
         return values_.bytes() + columns().bytes() + 2 * d() * stride() * size_of(type());
@@ -190,7 +190,7 @@ private:
                                    {"y", y.data()}});
     }
 
-    /// What matrices of one pattern share.
+    /// Data shared by matrices of one pattern.
     struct structure
     {
         structure(taut::queue& q, scalar_type real, block_pattern pattern, int size, lane_form lanes)
@@ -243,7 +243,7 @@ private:
     idx pitch() const { return static_cast<idx>(stride()); }
     range items() const { return form().items(stride()); }
 
-    /// Where entry at % (D * D) of the block of place at / (D * D) is on the device.
+    /// Device index of entry at % (D * D) of the block at / (D * D).
     std::size_t device_place(std::size_t at) const
     {
         const std::size_t C = static_cast<std::size_t>(form().slice), place = at / blocks(), lane = place % C;

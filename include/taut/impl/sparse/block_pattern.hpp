@@ -18,7 +18,7 @@ namespace taut::impl
 /// are 0 wide.
 struct block_pattern
 {
-    idx slice = 16;              ///< rows a slice
+    idx slice = 16;              ///< rows per slice
     std::size_t count = 0;       ///< rows
     std::vector<idx> offsets{0}; ///< of slices, in places
     std::vector<idx> columns;
@@ -81,7 +81,7 @@ private:
     std::array<idx, most> items_{};
 };
 
-/// A row at hand, to look its columns up.
+/// Row of the pattern, to look up its columns.
 class sliced_row
 {
 public:
@@ -104,7 +104,7 @@ public:
         std::sort(sorted_.begin(), sorted_.end());
     }
 
-    /// Which nonzero column c is. Throws parameter_error if it is none.
+    /// Index of column c among the nonzeros. Throws parameter_error if it is none.
     std::size_t find(idx c) const
     {
         if (const int k = short_.find(c); k >= 0) return static_cast<std::size_t>(k);

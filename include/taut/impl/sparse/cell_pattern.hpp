@@ -48,7 +48,7 @@ csr incidence_of_cells(const Cells& cells, std::size_t rows)
     return around;
 }
 
-/// The pattern of a matrix that is a sum of element matrices, for a device with so many rows a slice.
+/// The pattern of a matrix that is a sum of element matrices, for a device with so many rows per slice.
 template <class Cells>
 block_pattern pattern_of_cells(const Cells& cells, const csr& around, idx slice)
 {

@@ -50,7 +50,7 @@ public:
     bool empty() const noexcept { return size_ == 0; }
     idx size() const noexcept { return size_; }
     idx pitch() const noexcept { return pitch_; }
-    /// Where the unknowns are in vectors of the matrix.
+    /// Indices of the unknowns in vectors of the matrix.
     const buffer<idx>& at() const noexcept { return at_; }
     const real_buffer& inverse() const noexcept { return inverse_; }
 

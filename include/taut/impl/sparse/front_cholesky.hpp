@@ -20,16 +20,16 @@
 namespace taut::impl
 {
 
-/// Direct solver of H x = b for a sum H of positive semi-definite matrices of triangles, two unknowns a vertex: a
+/// Direct solver of H x = b for a sum H of positive semi-definite matrices of triangles, two unknowns per vertex: a
 /// multifrontal Cholesky factorization (L D L^T). A triangle enters with the first of its vertices that is eliminated,
 /// so that H is never assembled. Made for some thousand vertices.
 class front_cholesky
 {
 public:
-    /// Of one triangle, rows and columns (corner 0 x, y, corner 1 x, y, corner 2 x, y); symmetric.
+    /// Element matrix of one triangle, rows and columns (corner 0 x, y, corner 1 x, y, corner 2 x, y); symmetric.
     using block = std::array<std::array<double, 6>, 6>;
 
-    /// fixed: one flag a vertex; a fixed vertex has no unknowns.
+    /// fixed: one flag per vertex; a fixed vertex has no unknowns.
     front_cholesky(std::span<const std::array<idx, 3>> cells, std::span<const char> fixed)
         : cells_(cells), slot_(fixed.size(), -1)
     {
@@ -44,8 +44,8 @@ public:
         share_out();
     }
 
-    /// Factorizes the sum of blocks + relative_shift * its diagonal; one block a triangle. proceed, if given, is asked
-    /// between fronts; once it says no, there are no factors and the answer is false.
+    /// Factorizes the sum of blocks + relative_shift * its diagonal; one block per triangle. proceed, if given, is
+    /// asked between fronts; once it says no, there are no factors and the answer is false.
     bool factorize(std::span<const block> blocks, double relative_shift, const std::function<bool()>& proceed = {})
     {
         const auto entry = [blocks](std::size_t cell, std::size_t r, std::size_t c) { return blocks[cell][r][c]; };
@@ -117,11 +117,11 @@ public:
             0, 2);
     }
 
-    /// Whether the last sum was positive definite, up to rounding: if not, directions without stiffness, or with a
-    /// negative one, were left out.
+    /// Returns whether the last sum was positive definite, up to rounding: if not, directions without stiffness, or
+    /// with a negative one, were left out.
     bool definite() const { return definite_; }
 
-    /// b: one vector a vertex; the result is 0 at fixed vertices.
+    /// b: one vector per vertex; the result is 0 at fixed vertices.
     std::vector<vec2> solve(std::span<const vec2> b) const
     {
         std::vector<double> x(2 * unknown_.size());
@@ -187,7 +187,7 @@ private:
     /// A front, of which the upper triangle counts. Of a pivot: its D, then L^T; below: what is left for its parent.
     struct step
     {
-        std::size_t pivots, width; ///< unknowns, two a vertex
+        std::size_t pivots, width; ///< unknowns, two per vertex
         range variables;           ///< pivots, then the border
         range children, own;       ///< own: triangles that enter with it
         std::size_t rows, rest;    ///< where those of pivots and those below begin
@@ -257,7 +257,7 @@ private:
         for (const idx i : part(variables_, s.variables)) place[u(i)] = next++;
     }
 
-    /// Of the border of a child. place: by unknown vertex, in the parent.
+    /// Index ranges of the border of a child. place: by unknown vertex, in the parent.
     range runs_of(const step& s, const std::vector<idx>& place)
     {
         const range all{runs_.size(), 0};

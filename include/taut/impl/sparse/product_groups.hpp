@@ -12,12 +12,12 @@
 namespace taut::impl
 {
 
-/// How a CPU deals the product P' A P to items: an item sums `size` coarse rows and visits the slices of fine rows that
-/// contribute. Nonzeros of a coarse row are told apart by the colours of their columns.
+/// Distribution of the product P' A P over work-items on a CPU: an item sums `size` coarse rows and visits the slices
+/// of fine rows that contribute. Nonzeros of a coarse row are told apart by the colours of their columns.
 struct product_groups
 {
     static constexpr idx clash = 256;
-    /// Colours of the columns of P' A P, at most, for K weights a row: stars have many more vertices in space.
+    /// Colours of the columns of P' A P, at most, for K weights per row: stars have many more vertices in space.
     static constexpr idx most_colours(std::size_t K) { return K > 3 ? 256 : 64; }
 
     /// coarse: the pattern of the product, t: the transpose of P.
@@ -35,7 +35,7 @@ struct product_groups
     std::vector<idx> colours;    ///< of coarse columns; those of a row differ, or it has the flag `clash` in its own
     std::vector<idx> codes;      ///< colours of the columns of each fine row, a byte each; 0 for those without a weight
     std::vector<double> weights; ///< of each fine row, four places
-    std::vector<idx> offsets, visits; ///< of each group the slices that it visits, and a bit a lane
+    std::vector<idx> offsets, visits; ///< of each group the slices that it visits, and a bit per lane
 
 private:
     /// Greedily, a colouring of the squared graph.

@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// How many rows a thread takes at a time: whole slices, few enough pieces for a scratch array each.
+/// Number of rows per thread takes at a time: whole slices, few enough pieces for a scratch array each.
 inline std::size_t rows_a_chunk(std::size_t rows)
 {
     return std::max<std::size_t>(2048, (rows / 64 + 255) / 256 * 256);

@@ -31,7 +31,7 @@ struct transfer_lists
         groups.emplace(P, t, coarse, size);
     }
 
-    std::size_t K; ///< places a row
+    std::size_t K; ///< places per row
     std::size_t fine_stride, fine_rows, coarse_rows;
     std::vector<idx> columns;    ///< at [k * fine_stride + row], for places k < K
     std::vector<double> weights; ///< alike

@@ -14,23 +14,23 @@
 namespace taut::impl
 {
 
-/// Weights of a linear interpolation from `coarse` rows, at most K a row: K corners of a simplex of the coarse level. A
-/// place with weight 0 does not count. The columns of a row differ where their weights are not 0. It refers to arrays
+/// Weights of a linear interpolation from `coarse` rows, at most K per row: K corners of a simplex of the coarse level.
+/// A place with weight 0 does not count. The columns of a row differ where their weights are not 0. It refers to arrays
 /// of the caller.
 struct transfer_weights
 {
     static constexpr std::size_t most = 4; ///< corners of a tetrahedron
 
-    std::size_t K = 0;                    ///< places a row, at most `most`
+    std::size_t K = 0;                    ///< places per row, at most `most`
     std::span<const idx> columns = {};    ///< at [K * row + k]
     std::span<const double> weights = {}; ///< alike
     std::size_t coarse = 0;               ///< rows of the coarse side
-    std::span<const char> fixed = {}; ///< a flag a coarse row, or none: fixed ones neither give nor take corrections
+    std::span<const char> fixed = {}; ///< a flag per coarse row, or none: fixed ones neither give nor take corrections
     /// The transpose, or none, and it is made: of coarse row J the places `most` * row + k with a weight, ascending, at
     /// places[offsets[J]] and on.
     std::span<const idx> offsets = {}, places = {};
 
-    /// Of rows that are arrays, without the transpose.
+    /// Transfer weights of rows that are arrays, without the transpose.
     template <std::size_t Width>
     static transfer_weights of_rows(const std::vector<std::array<idx, Width>>& columns,
                                     const std::vector<std::array<double, Width>>& weights, std::size_t coarse,

@@ -18,7 +18,7 @@
 namespace taut::impl
 {
 
-/// Largest deviation of an unknown from the mean that its row asks for.
+/// Largest residual of a row: the deviation of an unknown from the mean of its neighbours.
 inline double mean_residual(const barycentric_system& system, std::span<const vec2> x)
 {
     double largest = 0;
@@ -37,9 +37,9 @@ inline double mean_residual(const barycentric_system& system, std::span<const ve
     return largest;
 }
 
-/// Divides each vertex' pull by the stretch of the map back to the surface around it: where the image is too small,
-/// neighbours are drawn away and it grows. Weights stay positive, so the map stays injective (Yoshizawa, Belyaev,
-/// Seidel 2004). The stretch is the root of the area mean of |S|^2 / (2 det^2) over the triangles of the vertex.
+/// Divides each vertex' pull by the stretch of the map back to the surface around it: where the image is too small, it
+/// grows. Weights stay positive, so the map stays injective (Yoshizawa, Belyaev, Seidel 2004). The stretch is the root
+/// of the area mean of |S|^2 / (2 det^2) over the triangles of the vertex.
 inline void weaken_stretched(std::span<double> pull, const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
                              std::span<const vec2> uv)
 {

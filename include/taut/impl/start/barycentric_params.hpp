@@ -4,14 +4,14 @@
 namespace taut
 {
 
-/// Convex outline that the boundary is laid on.
+/// Convex outline of the boundary.
 enum class boundary_shape
 {
     circle,
     square
 };
 
-/// How boundary vertices are spread: all gaps alike, as the boundary edges' lengths, or as the roots of the lengths.
+/// Spacing of boundary vertices: uniform, by the boundary edges' lengths, or by the square roots of the lengths.
 enum class boundary_spacing
 {
     uniform,
@@ -19,7 +19,7 @@ enum class boundary_spacing
     centripetal
 };
 
-/// The fixed boundary of a barycentric map.
+/// Parameters of the fixed boundary of a barycentric map.
 struct boundary_params
 {
     boundary_shape shape = boundary_shape::circle;
@@ -37,13 +37,13 @@ enum class barycentric_weights
     mean_value
 };
 
-/// How to lay a surface on a convex polygon.
+/// Parameters of a barycentric map onto a convex polygon.
 struct barycentric_params
 {
     boundary_params boundary = {};
     barycentric_weights weights = barycentric_weights::mean_value;
 
-    /// At most so many further solves with weights that even out stretch, 0 to 20. Each costs about as much as the map
+    /// Maximum number of further solves with weights that reduce stretch, 0 to 20. Each costs about as much as the map
     /// itself; one to three commonly lower the distortion of a deep surface ten to a hundred times. It ends early when
     /// a round gains less than 5 %, and the best map is kept.
     int stretch_rounds = 0;

@@ -18,7 +18,8 @@
 namespace taut::impl
 {
 
-/// Gaps between consecutive boundary vertices, sum 1: a mix of the wanted spacing and, for `even` of it, equal gaps.
+/// Gaps between consecutive boundary vertices, sum 1: a mix of the given spacing and, for the fraction `even`, equal
+/// gaps.
 inline std::vector<double> boundary_gaps(std::span<const vec3> loop, boundary_spacing spacing, double even)
 {
     const std::size_t n = loop.size();
@@ -66,7 +67,7 @@ inline std::array<std::size_t, 5> square_corners(std::span<const double> gaps, s
     return corner;
 }
 
-/// A side that holds both ends of an interior edge would fold it flat: which of the four do.
+/// Marks the sides of the square with both ends of an interior edge, which would be mapped to the side.
 inline std::array<int, 4> flat_sides(const std::array<std::size_t, 5>& corner,
                                      std::span<const std::pair<std::size_t, std::size_t>> dividing)
 {

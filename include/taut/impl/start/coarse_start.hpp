@@ -12,10 +12,10 @@
 namespace taut::impl
 {
 
-/// How to find a first map through a hierarchy.
+/// Parameters of an initial map through a hierarchy.
 struct coarse_start_params
 {
-    /// robust_start() works on the finest level with at most so many vertices; at least 3.
+    /// Maximum number of vertices of the level that robust_start() works on; at least 3.
     idx vertices = 1000;
 
     robust_start_params coarse = {};
@@ -28,8 +28,8 @@ struct coarse_start_params
     }
 };
 
-/// A map of low distortion without a linear solve on the fine surface: robust_start() on a level of it, from where the
-/// vertices come back level by level. Linear time beyond that level, about 1 us a triangle on one core.
+/// Computes a map of low distortion without a linear solve on the fine surface: robust_start() on a coarse level, then
+/// reinsertion of the vertices level by level. Linear time beyond that level, about 1 us per triangle on one core.
 ///
 /// m: a surface that has passed validate() with `one_boundary` false. h: its hierarchy; with a fixed boundary all
 /// boundary vertices were kept. uv: as of robust_start().

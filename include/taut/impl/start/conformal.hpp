@@ -14,13 +14,13 @@
 namespace taut::impl
 {
 
-/// How to map a surface conformally.
+/// Parameters of a conformal map.
 struct conformal_start_params
 {
     /// Iterations of the eigenvector: 1 to 50. A few suffice.
     int iterations = 6;
 
-    /// Of the map that is returned where the conformal one has flipped triangles. It has a free boundary.
+    /// Parameters of the map that replaces a conformal one with flipped triangles. It has a free boundary.
     coarse_start_params fallback = {};
 
     /// Throws parameter_error with the name of a field outside its domain.
@@ -57,9 +57,10 @@ inline std::vector<front_cholesky::block> conformal_blocks(const ideal_elements<
     return blocks;
 }
 
-/// The map of least conformal energy among those whose boundary has a given moment of inertia: the eigenvector to the
-/// smallest eigenvalue that is not a translation, by inverse iteration (Mullen, Tong, Alliez, Desbrun 2008, "Spectral
-/// conformal parameterization"). It needs no pinned vertices, whose choice would show. It may flip triangles.
+/// Computes the map of minimum conformal energy among those whose boundary has a given moment of inertia: the
+/// eigenvector to the smallest eigenvalue that is not a translation, by inverse iteration (Mullen, Tong, Alliez,
+/// Desbrun 2008, "Spectral conformal parameterization"). It needs no pinned vertices, whose choice would show. It may
+/// flip triangles.
 inline std::vector<vec2> spectral_conformal_map(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
                                                 std::span<const idx> outline, int iterations)
 {
@@ -100,12 +101,11 @@ inline std::vector<vec2> spectral_conformal_map(const mesh<triangle>& m, const i
     return x;
 }
 
-/// Conformal map with a free boundary: angles are kept as well as a linear system can. Where it has flipped triangles,
+/// Computes a conformal map with a free boundary by a linear eigenproblem. Where it has flipped triangles,
 /// coarse_start() of the surface instead, so that the result is valid in either case; start_map::flips tells, exactly.
 ///
-/// Made for those who want a start with little angular distortion. Its isometric energy is lowest only on surfaces that
-/// unroll flat; elsewhere that of coarse_start() is lower, mostly several times, and found sooner, as a direct solver
-/// does the work here (n^1.5).
+/// A start of little angular distortion. Its isometric energy is lowest only on developable surfaces; elsewhere that of
+/// coarse_start() is lower, mostly several times, and found sooner, as this one takes a direct solver (n^1.5).
 ///
 /// m: a surface that has passed validate() with `one_boundary` false; f: its facets. uv: in units of the surface, at
 /// the scale with the least isometric energy. Throws mesh_error (closed_surface, degenerate_cell), parameter_error.

@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// Vertices that a path of edges joins to one whose coordinate k is held.
+/// Marks the vertices of components with a vertex whose coordinate k is fixed.
 template <class Element>
 std::vector<char> anchored(const untangle_problem<Element>& problem, const csr& near, int k)
 {
@@ -34,9 +34,9 @@ std::vector<char> anchored(const untangle_problem<Element>& problem, const csr& 
     return reached;
 }
 
-/// Every coordinate that is not held at the mean of its neighbours; parts of the mesh without a held one stay. With a
-/// convex boundary and nothing held inside this is Tutte's embedding, which is injective.
-/// x: one position a vertex.
+/// Computes the harmonic map: every free coordinate is the mean of its neighbours; components without a fixed one are
+/// unchanged. With a convex boundary and nothing fixed inside this is Tutte's embedding, which is injective.
+/// x: one position per vertex.
 template <class Element>
 std::vector<vec<Element::dimension>> harmonic_start(const untangle_problem<Element>& problem,
                                                     std::vector<vec<Element::dimension>> x)

@@ -15,8 +15,8 @@
 namespace taut::impl
 {
 
-/// An injective map of the surface itself, without regard to what is held: the surface if it is plane, else a
-/// barycentric map. Nothing if the surface has none.
+/// Injective map of the surface that ignores fixed coordinates: the surface if it is planar, else a barycentric map.
+/// None if the surface has none.
 inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
 {
     const auto& points = m.points();
@@ -36,9 +36,8 @@ inline std::optional<std::vector<vec2>> unheld_map(const mesh<triangle>& m)
     }
 }
 
-/// The draft if there is one, else that map, moved by the similarity that brings pinned vertices nearest to their
-/// places in x (least squares). With fewer than two it gets the measure expected. Held coordinates are not put to their
-/// places.
+/// Initial guess if there is one, else that map, moved by the similarity that fits pinned vertices to their targets in
+/// x (least squares). With fewer than two it gets the expected measure. Fixed coordinates are not set to their targets.
 inline std::optional<std::vector<vec2>> laid_start(const untangle_problem<triangle>& problem,
                                                    const std::vector<vec2>& x, const std::vector<vec2>& draft)
 {

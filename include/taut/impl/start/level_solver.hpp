@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// A map without flips, for want of a better one.
+/// Some map without flips, for warm-up launches.
 inline std::vector<vec2> some_map(const mesh<triangle>& m)
 {
     return barycentric_map(m, facets(m), {}).uv;
@@ -46,8 +46,7 @@ public:
     {
     }
 
-    /// Launches every kernel once, on the coarsest level, so that what drivers compile at the first launch is compiled.
-    /// springs: those of springs, too.
+    /// Launches every kernel once, on the coarsest level, so that drivers compile them. springs: those of springs, too.
     void warm_up(bool springs = false)
     {
         const std::size_t coarsest = levels_.size() - 1;
@@ -59,7 +58,7 @@ public:
 
     double energy_at_rest() const { return energy::rest_value<D>(energy_); }
 
-    /// One level at work.
+    /// Solver state of one level.
     class level
     {
     public:
@@ -75,16 +74,16 @@ public:
 
         std::vector<vec<D>> download() const { return objective_.download(x_); }
 
-        /// Another map of the level.
+        /// Replaces the map of the level.
         void move_to(const std::vector<vec<D>>& x) { objective_.upload(x, x_); }
 
-        /// Other constraints, in the level's numbers.
+        /// Replaces the constraints, in the numbering of the level.
         void constrain(const point_constraints<D>& constraints) { objective_.constrain(constraints); }
 
-        /// The same springs with other targets or stiffnesses.
+        /// Changes the targets or stiffnesses of the same springs.
         void set_springs(std::span<const directed_spring<D>> springs) { objective_.set_springs(springs); }
 
-        /// Spreads out what caps the first step: meant for maps that come from a coarser level.
+        /// Relaxes the elements that cap the first step, for maps that come from a coarser level.
         void relax() { objective_.relax(x_); }
 
         solve::report minimize(const solve::params& how, const observer& ask = {})

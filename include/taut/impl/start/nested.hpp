@@ -19,32 +19,33 @@
 namespace taut::impl
 {
 
-/// How the levels above the finest one are solved: roughly, since the next one changes everything a little. Before
-/// each one `start.proceed` is asked, too.
+/// Parameters of the levels above the finest one, which are solved roughly, as the next one changes everything a
+/// little. Before each one `start.proceed` is asked, too.
 struct nested_params
 {
     std::size_t start_vertices = 1000; ///< the start map is made on the finest level with at most so many
     robust_start_params start = {};
-    /// A first map of a level in place of that of robust_start, where it has to obey constraints.
+    /// Initial map of a level in place of that of robust_start, if it has to satisfy constraints.
     std::function<start_map(std::size_t level)> first_map = {};
-    /// Springs on a level, in its numbers; their vertices are on all levels, and move by minimisation alone.
+    /// Springs on a level, in its numbering; their vertices are on all levels, and move by minimisation alone.
     std::function<std::vector<directed_spring<2>>(std::size_t level)> springs = {};
-    /// `base` is set to the energy at rest: surfaces that are nearly developable are worth the digits above it.
+    /// Stopping criteria of a level. `base` is set to the energy at rest, so that nearly developable surfaces are
+    /// solved to enough digits.
     solve::stopping_params stopping = {
         .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .max_iterations = 100, .tuning = {.decrease_count = 1}};
-    /// Levels with at most so many vertices wait for this many small decreases in a row instead: iterations are cheap
-    /// there, and extreme shapes (long tubes) pause on their way.
+    /// Number of consecutive small decreases that end a level of at most so many vertices: iterations are cheap there,
+    /// and extreme shapes (long tubes) pause.
     std::size_t small_vertices = 4000;
     int small_decrease_count = 3;
-    /// A coarse level that takes so many iterations, and ends at an energy of more than `hard_above` times that at
-    /// rest, is hard, and ends the descent; 0: none is. What it says of finer ones is little: levels that grow by
-    /// `patient_factor`, each minimised to `patient_decrease`, take the map further. On meshes with fewer than
-    /// `hard_vertices` they take as long as they save.
+    /// Slow convergence: a coarse level that takes so many iterations, and ends at an energy of more than `hard_above`
+    /// times that at rest, ends the nested iteration; 0: never. It is restarted with the coarsening ratio
+    /// `patient_factor` and levels minimised to `patient_decrease`. On meshes with fewer than `hard_vertices` that
+    /// saves no time.
     int hard_from = 0;
     static constexpr double hard_above = 1.5, patient_decrease = 2e-5, patient_factor = 4;
     static constexpr std::size_t hard_vertices = 30000;
 
-    /// Of hard shapes, for levels that grow by `patient_factor`.
+    /// Parameters for slow convergence: coarsening ratio `patient_factor` and tighter tolerances.
     nested_params patient() const
     {
         nested_params p = *this;
@@ -54,7 +55,7 @@ struct nested_params
         return p;
     }
 
-    /// The level that the start map is made on.
+    /// Level of the start map.
     std::size_t first_level(const mesh_levels<triangle>& levels) const
     {
         std::size_t l = 0;
@@ -77,9 +78,8 @@ public:
         params_.stopping.tuning.base = solver.energy_at_rest();
     }
 
-    /// A map of the mesh itself, minimised down to level 1, in the numbers of level 0; empty where it failed, and
-    /// reason() then says how.
-    /// plan: that of a level; asked for each level but the finest, coarse ones first.
+    /// Computes a map of the finest level, minimised down to level 1, in the numbering of level 0; empty where it
+    /// failed, with a reason(). plan: that of a level; called for each level but the finest, coarse ones first.
     std::vector<vec2> run(const std::function<observer(std::size_t level)>& ask,
                           const std::function<level_solver<triangle>::plan(std::size_t level)>& plan)
     {
@@ -114,7 +114,7 @@ public:
         return uv;
     }
 
-    /// Of the start map; its uv are gone.
+    /// Report of the start map; its uv have been moved from.
     const start_map& start() const { return start_; }
     const std::string& reason() const { return reason_; }
     bool hard() const { return hard_; } ///< it ended for that

@@ -52,7 +52,7 @@ inline void span_hole(const std::vector<idx>& loop, std::vector<vec3>& points, s
     for (std::size_t k = 0; k < loop.size(); ++k) cells.push_back({loop[(k + 1) % loop.size()], loop[k], apex});
 }
 
-/// The loop that becomes the outline.
+/// Boundary loop that becomes the outline.
 inline std::size_t longest_loop(std::span<const vec3> points, std::span<const std::vector<idx>> loops)
 {
     std::size_t best = 0;

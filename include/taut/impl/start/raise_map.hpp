@@ -14,17 +14,17 @@
 namespace taut::impl
 {
 
-/// How to bring a map up a level.
+/// Parameters of prolonging a map to the next finer level.
 struct raise_params
 {
-    std::span<const char> fixed = {}; ///< flags of vertices that stay, one a vertex of the finest level, or none
+    std::span<const char> fixed = {}; ///< flags of vertices that stay, one per vertex of the finest level, or none
     double factor = 3;                ///< triangles with so many times the mean energy are improved afterwards
     int sweeps = 6;                   ///< over their vertices, at most
     unsigned threads = 0;
 };
 
-/// Scales a map of a level, all triangles of which are positive, to the least isometric energy. Where rounding would
-/// turn a triangle over, to the nearest power of two.
+/// Scales a map of a level with positive triangles to minimum isometric energy. Where rounding would flip a triangle,
+/// by the nearest power of two.
 inline void scale_to_fit(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
                          std::vector<vec2>& uv, unsigned threads = 0)
 {
@@ -40,16 +40,16 @@ inline void scale_to_fit(const hierarchy<triangle>& h, std::size_t level, std::s
     for (vec2& p : uv) p *= factor;
 }
 
-/// A map of a level.
+/// Map of a level.
 struct raised_map
 {
     std::vector<vec2> uv;
     relaxed_energy energy; ///< before: as the vertices came back
 };
 
-/// A map of a level from one of the next coarser level: vertices come back, then those of the worst triangles, old and
-/// new, are improved one by one. Where no place is found for some, the coarse map is improved as a whole and it is
-/// tried again; the last attempt is returned.
+/// Prolongs a map of the next coarser level: vertices are reinserted, then those of the worst triangles, old and new,
+/// are improved one by one. Where some have no valid position, the coarse map is improved as a whole and it is tried
+/// again; the last attempt is returned.
 inline raised_map raise_map(const hierarchy<triangle>& h, std::size_t level, std::span<const vec3> points,
                             std::vector<vec2> coarse, const raise_params& params)
 {

@@ -17,25 +17,25 @@
 namespace taut::impl
 {
 
-/// How to find a first map of a small surface.
+/// Parameters of an initial map of a small surface.
 struct robust_start_params
 {
-    /// Outline of the barycentric map that it begins with.
+    /// Outline of the initial barycentric map.
     boundary_params boundary = {};
 
-    /// Whether the boundary stays on that outline; the inside is optimised in any case.
+    /// True if the boundary stays on that outline; the inside is optimised in any case.
     bool fixed_boundary = false;
 
-    /// On each level Newton's method ends once an iteration lowers the energy by less than this part; 1e-6 to 1.
+    /// Relative decrease of the energy per iteration below which Newton's method ends on a level; 1e-6 to 1.
     double tolerance = 0.02;
 
-    /// Isometric energy, as area mean, that is low enough to end at once on any level; 4 is an isometry.
+    /// Isometric energy, as area mean, below which Newton's method ends on any level; 4 is an isometry.
     double enough = 4;
 
-    int iterations = 50;  ///< of Newton's method on each level, at most; 0 to 1000
+    int iterations = 50;  ///< maximum number of Newton iterations on each level; 0 to 1000
     unsigned threads = 0; ///< at most so many; 0: as many as the machine runs at once. The result does not change
 
-    /// Asked before each iteration: go on? Without it every one is made.
+    /// Callback before each iteration; returning false ends the run.
     std::function<bool()> proceed = {};
 
     /// Throws parameter_error with the name of a field outside its domain.
@@ -47,14 +47,14 @@ struct robust_start_params
     }
 };
 
-/// Vertices of a level that a direct solver still serves in fractions of a second.
+/// Vertices of a level that a direct solver handles in fractions of a second.
 constexpr std::size_t largest_direct = 20000;
 
-/// One way down to a coarsest surface and up again.
+/// One hierarchy to a coarsest surface and back.
 struct descent_plan
 {
     double factor;    ///< between levels
-    idx min_vertices; ///< of the coarsest
+    idx min_vertices; ///< vertices of the coarsest level
     barycentric_weights weights;
 };
 
@@ -99,9 +99,9 @@ inline double optimize_level(const hierarchy<triangle>& h, std::size_t level, st
     return energy;
 }
 
-/// A map made on a coarsest surface of a few vertices, optimised and refined in turns. Where a long tube shrinks
-/// beyond the resolution of numbers on the fine surface, it does not on the coarse one, and it is spread out before
-/// the next vertices come back.
+/// Computes a map on a coarsest surface of a few vertices, then optimises and refines it alternately. A long tube that
+/// would shrink below the resolution of numbers on the fine surface does not on the coarse one, and it is expanded
+/// before the next vertices are reinserted.
 inline start_map nested_start(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
                               std::span<const char> fixed, const descent_plan& plan, const robust_start_params& params)
 {
@@ -123,12 +123,12 @@ inline start_map nested_start(const mesh<triangle>& m, const ideal_elements<tria
     return map;
 }
 
-/// A map of low distortion of a small surface, valid on surfaces whose barycentric map is not: tubes a hundred times as
-/// long as wide, closed bodies with a short slit.
+/// Computes a map of low distortion of a small surface, valid on surfaces whose barycentric map is not: tubes a hundred
+/// times as long as wide, closed bodies with a short slit.
 ///
-/// The surface is thinned to a few vertices, mapped there by a barycentric map, and brought back level by level, with
+/// The surface is coarsened to a few vertices, mapped there by a barycentric map, and refined level by level, with
 /// Newton's method on the isometric energy on each (compare Shen, Jiang, Zorin, Panozzo 2019, "Progressive
-/// embedding"). Should that fail, other ways down are tried, then the barycentric map itself; the best is returned.
+/// embedding"). Should that fail, other hierarchies are tried, then the barycentric map itself; the best is returned.
 ///
 /// m: a surface that has passed validate() with `one_boundary` false; 50 to some 1000 vertices are meant, as a direct
 /// solver does the work (n^1.5). uv: in units of the surface, at the scale with the least energy; with a fixed boundary

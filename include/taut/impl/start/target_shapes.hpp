@@ -16,16 +16,16 @@
 namespace taut::impl
 {
 
-/// What an element is wanted to look like, and how much it counts.
+/// Target shape and weight of an element.
 template <int D>
 struct target_shape
 {
-    mat<D> inverse;    ///< of its ideal edge matrix
-    double weight = 0; ///< of all elements they sum to 1
+    mat<D> inverse;    ///< inverse of its ideal edge matrix
+    double weight = 0; ///< weight; those of all elements sum to 1
 };
 
-/// How large the image will be, in the unit of x: its signed measure where the boundary is pinned, and that of the box
-/// around the held vertices or all vertices otherwise.
+/// Estimated size of the image, in the unit of x: its signed measure where the boundary is pinned, and that of the box
+/// around the fixed vertices or all vertices otherwise.
 template <class Element>
 double expected_measure(const untangle_problem<Element>& problem, const std::vector<vec<Element::dimension>>& x)
 {
@@ -58,7 +58,7 @@ double expected_measure(const untangle_problem<Element>& problem, const std::vec
     return 1;
 }
 
-/// Scales the shapes so that they have this measure together.
+/// Scales the shapes to this total measure.
 template <int D>
 void normalize(std::vector<target_shape<D>>& shapes, double measure)
 {
@@ -72,8 +72,7 @@ void normalize(std::vector<target_shape<D>>& shapes, double measure)
     }
 }
 
-/// The elements at rest, weighted by measure. Flat ones are made a little thicker, so that they are stiff and not
-/// without shape.
+/// Rest shapes of the elements, weighted by measure. Flat ones are made a little thicker, so that they are stiff.
 template <class Element>
 std::vector<target_shape<Element::dimension>> rest_shapes(const mesh<Element>& m, double measure)
 {
@@ -102,7 +101,7 @@ std::vector<target_shape<Element::dimension>> rest_shapes(const mesh<Element>& m
     return shapes;
 }
 
-/// What the problem wants: the shapes that it has, or those at rest.
+/// Target shapes of the problem: those given, or those at rest.
 template <class Element>
 std::vector<target_shape<Element::dimension>> shapes_wanted(const untangle_problem<Element>& problem, double measure)
 {
@@ -118,7 +117,7 @@ std::vector<target_shape<Element::dimension>> shapes_wanted(const untangle_probl
     return shapes;
 }
 
-/// Regular elements of the same size.
+/// Regular target shapes of one size.
 template <class Element>
 std::vector<target_shape<Element::dimension>> regular_shapes(const mesh<Element>& m, double measure)
 {

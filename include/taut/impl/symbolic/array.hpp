@@ -139,7 +139,7 @@ private:
 namespace taut
 {
 
-/// cast<float>(y[i]): a template does not convert its argument by itself.
+/// Traced element of an array in another precision, cast<float>(y[i]): a template does not convert its argument.
 template <impl::traceable To, class Sym>
 sym<To> cast(const impl::element_reference<Sym>& x)
 {

@@ -11,10 +11,11 @@
 namespace taut
 {
 
-/// The partial derivatives of f by each x, in reverse mode: a few times the work of f, however many x there are.
+/// Partial derivatives of f by each x, in reverse mode: a few times the work of f, however many x there are.
 ///
-/// The x may be any nodes (variables, loads, intermediate values); each is held independent of the others. The results
-/// are ordinary values, so differentiating them again gives second derivatives. A partial has the type of its x.
+/// The x may be any nodes (variables, loads, intermediate values); each is treated as independent of the others. The
+/// results are ordinary values, so differentiating them again gives second derivatives. A partial has the type of its
+/// x.
 /// At a kink (select, abs) it is the derivative of the branch that the comparison takes. Throws tape_error if f
 /// depends on x through sum_over.
 template <class T, class X>
@@ -43,7 +44,7 @@ std::vector<sym<X>> differentiate(sym<T> f, std::initializer_list<sym<X>> x)
     return differentiate(f, std::span<const sym<X>>(x.begin(), x.size()));
 }
 
-/// The derivative by a single x.
+/// Derivative of f by a single x.
 template <class T, class X>
 sym<X> differentiate(sym<T> f, sym<X> x)
 {

@@ -29,7 +29,7 @@ inline std::string parameter_text(const kernel_argument& a)
     }
 }
 
-/// Whether the statements stand in a loop over indices.
+/// Returns whether the statements stand in a loop over indices.
 inline bool has_loop(kernel_form form)
 {
     return form == kernel_form::run || form == kernel_form::part;

@@ -117,7 +117,7 @@ private:
 namespace taut
 {
 
-/// The value of a traced expression of the current tape: evaluate(f, {{x, 2.0}, {y, 3.0}}).
+/// Value of a traced expression of the current tape: evaluate(f, {{x, 2.0}, {y, 3.0}}).
 template <impl::traceable T>
 T evaluate(sym<T> f, std::initializer_list<impl::binding> bindings = {})
 {

@@ -6,7 +6,7 @@
 #include <taut/impl/symbolic/cast.hpp>
 #include <taut/impl/symbolic/limits.hpp>
 
-/// What GLM's templates miss on traced scalars. Its vectors, matrices, products, determinant(), inverse(),
+/// Completion of GLM's templates for traced scalars. Its vectors, matrices, products, determinant(), inverse(),
 /// transpose(), dot(), cross(), length() and normalize() work as they are.
 ///
 /// GLM deduces one scalar type from both operands, so a host factor needs operators of its own; and its component-wise
@@ -67,18 +67,21 @@ glm::mat<C, R, sym<T>, Q> operator/(const glm::mat<C, R, sym<T>, Q>& m, A a)
     return m / sym<T>(a);
 }
 
+/// Square root of each component of a traced vector.
 template <glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<T>, Q> sqrt(const glm::vec<L, sym<T>, Q>& v)
 {
     return impl::map(v, [](sym<T> x) { return sqrt(x); });
 }
 
+/// Absolute value of each component of a traced vector.
 template <glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<T>, Q> abs(const glm::vec<L, sym<T>, Q>& v)
 {
     return impl::map(v, [](sym<T> x) { return abs(x); });
 }
 
+/// Componentwise minimum of two traced vectors.
 template <glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<T>, Q> min(const glm::vec<L, sym<T>, Q>& v, const glm::vec<L, sym<T>, Q>& w)
 {
@@ -87,6 +90,7 @@ glm::vec<L, sym<T>, Q> min(const glm::vec<L, sym<T>, Q>& v, const glm::vec<L, sy
     return result;
 }
 
+/// Componentwise maximum of two traced vectors.
 template <glm::length_t L, class T, glm::qualifier Q>
 glm::vec<L, sym<T>, Q> max(const glm::vec<L, sym<T>, Q>& v, const glm::vec<L, sym<T>, Q>& w)
 {

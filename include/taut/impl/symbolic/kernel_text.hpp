@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// How a kernel uses an argument.
+/// Use of an argument by a kernel.
 enum class argument_kind : std::uint8_t
 {
     in,     ///< a pointer that is only read
@@ -30,7 +30,7 @@ struct kernel_argument
     friend bool operator==(const kernel_argument&, const kernel_argument&) = default;
 };
 
-/// How the work-items of a kernel share its range of `count` indices along dimension 0.
+/// Distribution of `count` indices along dimension 0 over the work-items of a kernel.
 enum class kernel_form : std::uint8_t
 {
     item,    ///< one index each: the global size is the count
@@ -40,7 +40,7 @@ enum class kernel_form : std::uint8_t
              ///< below taut_last, which are its last three arguments; the loop vectorises where the step is 1
 };
 
-/// How much of a run's time a kernel may take.
+/// Expected share of a kernel in the time of a run.
 enum class kernel_use : std::uint8_t
 {
     often,  ///< the device's compiler does its best

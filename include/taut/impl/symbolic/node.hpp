@@ -9,7 +9,7 @@
 namespace taut::impl
 {
 
-/// What a node of the tape computes. Comparisons that are missing here are spelled with swapped operands.
+/// Operations of the nodes of a tape. Comparisons that are missing here are spelled with swapped operands.
 enum class opcode : std::uint8_t
 {
     // leaves

@@ -26,7 +26,7 @@ namespace taut
 ///     y[i] = a * x[i] + y[i];
 ///     const kernel_text text = r.finish("axpy");
 ///
-/// What the kernel assumes: arguments do not overlap in memory, and no work-item reads what another one writes.
+/// Assumptions of the kernel: arguments do not overlap in memory, and no work-item reads what another one writes.
 /// A loop of the host is unrolled, an `if` of the host decides now; for the device's own there are sum_over and select.
 class recording
 {

@@ -98,7 +98,7 @@ private:
         }
     }
 
-    /// Where m or n holds; none stands for everywhere.
+    /// Disjunction of two conditions; none stands for everywhere.
     node_id either(node_id m, node_id n)
     {
         if (m == no_node || n == no_node) return no_node;
@@ -106,7 +106,7 @@ private:
         return is_constant(t_, mask) ? no_node : mask; // m or not m: everywhere
     }
 
-    /// Where m and n hold.
+    /// Conjunction of two conditions.
     node_id both(node_id m, node_id n) { return m == no_node ? n : boolean(opcode::logical_and, m, n); }
 
     /// Adds the share of a node's operands to their adjoints. `id` itself serves as the value y where a rule needs it.
@@ -202,7 +202,7 @@ private:
     std::vector<bool> depends_;
 };
 
-/// The derivatives of node f by the nodes x, each held independent of the others; no_node for zero.
+/// The derivatives of node f by the nodes x, each treated as independent of the others; no_node for zero.
 inline std::vector<node_id> reverse_sweep(tape& t, node_id f, std::span<const node_id> x)
 {
     for (const node_id id : x) static_cast<void>(t[id]); // throws for a sym without a value

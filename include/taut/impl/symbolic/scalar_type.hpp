@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// The types that a traced value can have. Booleans are results of comparisons; they never live in memory.
+/// Types of traced values. Booleans are results of comparisons; they never live in memory.
 enum class scalar_type : std::uint8_t
 {
     f32,

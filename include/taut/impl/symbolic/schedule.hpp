@@ -49,7 +49,7 @@ public:
     /// The nodes outside of all loops. A loop_sum stands where its loop runs.
     std::span<const node_id> top() const noexcept { return top_; }
 
-    /// How many nodes of the schedule have the node as an operand.
+    /// Number of nodes of the schedule have the node as an operand.
     int uses(node_id id) const { return uses_[static_cast<std::size_t>(id)]; }
 
     /// The index node of the innermost loop that the node varies with, or no_node.

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// What a kernel turned out to need besides its statements.
+/// Requirements of a kernel besides its statements.
 struct kernel_needs
 {
     bool f64 = false;                 ///< computes with doubles

@@ -8,8 +8,8 @@
 namespace taut
 {
 
-/// The result of comparing traced values. It is known only when the kernel runs, so it combines with && || ! and
-/// steers select(), never an `if` of the host.
+/// Result of comparing traced values. It is known only when the kernel runs, so it combines with && || ! and steers
+/// select(), never an `if` of the host.
 class sym_bool
 {
 public:

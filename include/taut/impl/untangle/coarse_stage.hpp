@@ -24,9 +24,9 @@
 namespace taut::impl
 {
 
-/// Untangles a coarse level of the mesh, where steps take milliseconds, and puts the vertices that were left out back
-/// into its map, which flips nothing. What is held is on all levels. Where a level cannot be untangled, or is
-/// infeasible, which the mesh itself need not be, the next finer one is, as long as that is small.
+/// Untangles a coarse level of the mesh, where steps take milliseconds, and reinserts the remaining vertices into its
+/// map, which flips nothing. Fixed vertices are on all levels. Where a level cannot be untangled, or is infeasible,
+/// which the mesh itself need not be, the next finer one is, as long as that is small.
 class coarse_stage final : public untangle_stage<triangle>
 {
 public:
@@ -66,7 +66,7 @@ private:
         return make_hierarchy(problem.rest, keep, {.factor = 4, .proceed = std::move(proceed)});
     }
 
-    /// For a level: where a boundary is free, those that make no branch points.
+    /// Stages for a level: where a boundary is free, those that create no branch points.
     static untangle_stages<triangle> stages(bool outline_pinned)
     {
         untangle_stages<triangle> chosen;
@@ -81,7 +81,7 @@ private:
         return chosen;
     }
 
-    /// A map of a level with few defects, or none at all.
+    /// Computes a map of a level with few defects; empty if there is none.
     std::optional<std::vector<vec2>> untangled(untangle_state<triangle>& state, const hierarchy<triangle>& h,
                                                std::size_t l, int steps)
     {
@@ -118,7 +118,7 @@ private:
         return coarse.best_map();
     }
 
-    /// Carries a map of a level up to the mesh itself.
+    /// Prolongs a map of a level to the finest one.
     void raise(untangle_state<triangle>& state, const hierarchy<triangle>& h, std::size_t l, std::vector<vec2> uv)
     {
         const auto& problem = state.problem();

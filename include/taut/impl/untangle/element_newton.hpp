@@ -22,7 +22,7 @@
 namespace taut::impl
 {
 
-/// Newton's steps in the plane with a direct solver.
+/// Newton's method in the plane with a direct solver.
 class triangle_newton final : public regularized_newton<triangle>
 {
 public:
@@ -133,7 +133,7 @@ private:
         forces_[c] = corner_gradient<2>(-weight * gradient_by_shape(S, psi.by_I, psi.by_d), shapes_[c].inverse);
     }
 
-    /// Makes the equations of held coordinates x = 0; pinned vertices have none.
+    /// Makes the equations of fixed coordinates x = 0; pinned vertices have none.
     void hold(std::vector<vec2>& force)
     {
         for (std::size_t c = 0; c < cells_.size(); ++c)

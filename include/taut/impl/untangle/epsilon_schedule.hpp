@@ -9,13 +9,12 @@
 namespace taut::impl
 {
 
-/// The regularisation parameter, lowered after every minimisation as by Garanzha et al. 2021 (section 3.2): chi of the
-/// worst element falls by a part sigma, which is what the energy fell by, and a least part where it fell less.
-///
-/// They take 1/10 as the least part. Here it depends on the length t of the Newton step, pace * sqrt(t): a step that
-/// was cut short says that the present epsilon is not done with. The pace is high at first, which solves most problems
-/// in a third of the steps; it can leave a few elements inverted at an epsilon where nothing moves any more. Hence
-/// restarts, each with a large epsilon again, half the pace and twice the steps.
+/// Schedule of the regularisation parameter, lowered after every minimisation as by Garanzha et al. 2021 (section 3.2):
+/// chi of the worst element decreases by a fraction sigma, the relative decrease of the energy, with a minimum. They
+/// take 1/10 as the minimum. Here it depends on the length t of the Newton step, pace * sqrt(t): after a shortened step
+/// the minimisation for the current epsilon is not finished. The pace is high at first, which solves most problems in a
+/// third of the steps; it can leave a few elements inverted at an epsilon where the method stagnates. Hence restarts,
+/// each with a large epsilon again, half the pace and twice the steps.
 class epsilon_schedule
 {
 public:

@@ -8,8 +8,8 @@
 namespace taut::impl
 {
 
-/// Whether a stage comes nearer to an injective map: fewer inverted elements than ever, or a hundredth less of their
-/// measure. Energies are no sign of that, as they fall with every epsilon.
+/// Progress test of a stage towards an injective map: fewer inverted elements than ever, or a hundredth less of their
+/// measure. Energies do not show it, as they fall with every epsilon.
 class gain_watch
 {
 public:
@@ -22,8 +22,7 @@ public:
         idle_ = gained ? 0 : idle_ + 1;
     }
 
-    /// Nothing came of so many steps that epsilon was large again at least once. Of some sixty problems, nearly all in
-    /// the plane, that these steps solved, none had ten in a row without a gain.
+    /// Returns whether there was no gain in so many steps that epsilon was large again at least once.
     bool stuck() const { return idle_ >= 60; }
 
 private:

@@ -8,8 +8,8 @@
 namespace taut::impl
 {
 
-/// Each free coordinate at the mean of its neighbours': one sparse solve. Ends the matter where the boundary is convex
-/// and nothing inside is held, and is often a better start than the initial map where there is more.
+/// Harmonic map: each free coordinate at the mean of its neighbours', by one sparse solve. It is injective where the
+/// boundary is convex and nothing inside is fixed, and else often a better start than the initial map.
 template <class Element>
 class harmonic_stage final : public untangle_stage<Element>
 {

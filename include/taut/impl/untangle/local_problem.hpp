@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// A problem on a part of a mesh, whose rim stays where it is.
+/// Untangling problem on a part of a mesh with a fixed rim.
 template <class Element>
 struct local_problem
 {
@@ -21,7 +21,7 @@ struct local_problem
     std::vector<idx> vertices; ///< in the mesh
 };
 
-/// The part of the problem between vertices that are `inside`; none where that is more than half of the mesh.
+/// Restricts a problem to the vertices that are `inside`; none where these are more than half of the mesh.
 template <class Element>
 std::optional<local_problem<Element>> part_of(const untangle_problem<Element>& p, const std::vector<char>& inside)
 {

@@ -10,8 +10,8 @@
 namespace taut::impl
 {
 
-/// Moves the injective map of the state away from the edge of what is injective, so that an energy with a barrier can
-/// start from it: at most `steps` of Newton's method on |S|^2 / det S + det S + 1 / det S, which keep all determinants
+/// Moves the injective map of the state away from the boundary of the feasible set, so that a barrier energy can start
+/// from it: at most `steps` of Newton's method on |S|^2 / det S + det S + 1 / det S, which keep all determinants
 /// positive, until one gains less than 1 %.
 inline void improve_margin(untangle_state<triangle>& state, int steps)
 {

@@ -18,12 +18,12 @@
 namespace taut::impl
 {
 
-/// Where a stage starts.
+/// Initial maps of a stage.
 enum class untangle_start
 {
     best,     ///< the better of the initial map and the best so far
     harmonic, ///< each free coordinate the mean of its neighbours'
-    laid      ///< an injective map that ignores what is held, brought near to it; for few held vertices
+    laid      ///< an injective map that ignores fixed coordinates, brought near to it; for few fixed vertices
 };
 
 /// Variants of the stage below.
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// False if there is no such start.
+    /// Starts the stage; returns false if there is no such start.
     bool start(untangle_state<Element>& state)
     {
         const auto& problem = state.problem();
@@ -94,7 +94,7 @@ private:
         return true;
     }
 
-    /// False if there is no such map.
+    /// Starts from an injective map that ignores fixed coordinates; returns false if there is none.
     bool lay(untangle_state<Element>& state)
     {
         if constexpr (D == 2)

@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// How to untangle. Every field has a sensible default.
+/// Parameters of untangle(). Every field has a sensible default.
 struct untangle_params
 {
     /// Time and observer of the whole call. iteration, value (fewest inverted elements so far) and seconds are set.
@@ -23,7 +23,7 @@ struct untangle_params
     /// (stages.hpp).
     std::vector<std::string> stages = {};
 
-    /// After so many rounds without success it gives up, whatever time is left. Range >= 1.
+    /// Maximum number of rounds, after which it gives up, whatever time is left. Range >= 1.
     int rounds = 5;
 
     /// Not for users: what tests and measurements set.

@@ -28,15 +28,15 @@ struct pull_stage_params
     std::string name;
     wanted_shapes shapes = wanted_shapes::rest; ///< rest: as they are in the map that it starts from
     double area_weight = 1;                     ///< of det + 1 / det against the shape of a triangle; 0: shape alone
-    /// Where the springs have jammed, go on with weak ones: held vertices that are not at their places go to random
-    /// ones first, so that those that block each other's way get past each other.
+    /// Continues with weak springs once strong ones have jammed: fixed vertices that are not at their targets go to
+    /// random positions first, so that those that block each other get past each other.
     bool detours = false;
     int share = 1; ///< it makes so many times the iterations of a round
 };
 
-/// Starts from an injective map and stays injective: springs pull the held vertices to their places, stronger with
-/// every step, against an energy with a barrier. No triangle flattens on the way, so no branch point comes about
-/// either. The start holds the boundary alone, where that is injective, and nothing otherwise.
+/// Penalty method from an injective map: springs pull the fixed vertices to their targets, stronger with every step,
+/// against a barrier energy. No triangle becomes flat, so no branch point is created. The start fixes the boundary
+/// alone, where that is injective, and nothing otherwise.
 class pull_stage final : public untangle_stage<triangle>
 {
 public:
@@ -53,7 +53,7 @@ public:
             for (auto& s : newton_->springs) s.stiffness *= growth;
             const double before = newton_->value(x_), after = newton_->step(x_, before);
             state.stepped(before, after, newton_->last_length());
-            if (state.offer(x_)) return false; // injective with the held vertices at their places
+            if (state.offer(x_)) return false; // injective with the fixed vertices at their targets
             if (!state.proceed() || !std::isfinite(after)) return false;
             standing_ = after < before ? 0 : standing_ + 1;
             ++pulled_;
@@ -67,7 +67,7 @@ public:
 private:
     static constexpr double growth = 1.2;
 
-    /// False if there is no injective map to start from.
+    /// Starts the stage; returns false if there is no injective map to start from.
     bool start(untangle_state<triangle>& state)
     {
         const auto& problem = state.problem();
@@ -100,7 +100,7 @@ private:
         return true;
     }
 
-    /// The harmonic map within the held part of the boundary, if it is injective.
+    /// Harmonic map within the fixed part of the boundary, if it is injective.
     bool hold_boundary(const untangle_state<triangle>& state)
     {
         untangle_problem<triangle> rim = state.problem();
@@ -129,7 +129,7 @@ private:
         return static_cast<bool>(certify<2>(m.cells(), std::span<const vec2>(x_)));
     }
 
-    /// Turns from the places to detours, or back.
+    /// Switches from the targets to detours, or back.
     void turn()
     {
         standing_ = pulled_ = 0;

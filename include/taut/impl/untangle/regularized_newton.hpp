@@ -19,8 +19,7 @@
 namespace taut::impl
 {
 
-/// What Newton's method lowers while a map is untangled: the sum over elements of weight * energy::regularized, plus
-/// springs.
+/// Objective of Newton's method in untangling: the sum over elements of weight * energy::regularized, plus springs.
 template <class Element>
 struct regularized_problem
 {
@@ -28,7 +27,7 @@ struct regularized_problem
 
     const mesh<Element>& rest;                   ///< referred to
     const held_marks<D>& held;                   ///< these coordinates are not moved; referred to
-    std::vector<impl::target_shape<D>> shapes{}; ///< one an element
+    std::vector<impl::target_shape<D>> shapes{}; ///< one per element
     double area_weight = 1;                      ///< of det + 1 / det against the shape
     std::vector<directed_spring<D>> springs{};
     std::span<const idx> owners{}; ///< as in untangle_problem, which the state fills in; referred to
@@ -83,7 +82,7 @@ public:
         return least;
     }
 
-    /// Of the inverted elements, as a share of the measure that is wanted of all.
+    /// Measure of the inverted elements as a fraction of the target measure of all.
     double inverted_measure(const map& x) const
     {
         double sum = 0;
@@ -104,7 +103,7 @@ protected:
     double length_ = 0;
 };
 
-/// Who makes them. Null where there is none for the element.
+/// Factory of device objectives. Null where there is none for the element.
 template <class Element>
 using newton_maker = std::function<std::unique_ptr<regularized_newton<Element>>(regularized_problem<Element> problem)>;
 

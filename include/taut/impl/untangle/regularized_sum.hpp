@@ -40,9 +40,9 @@ public:
 
     double eps = 1;
     double area_weight = 1;
-    std::vector<target_shape<D>> shapes; ///< one an element
+    std::vector<target_shape<D>> shapes; ///< one per element
 
-    /// x, gradient: D numbers a vertex; the gradient is 0 where a coordinate is held.
+    /// x, gradient: D numbers per vertex; the gradient is 0 where a coordinate is fixed.
     double value_gradient(std::span<const double> x, std::span<double> gradient)
     {
         parallel_for(

@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// What became of an untangling problem.
+/// Outcome of untangling.
 enum class untangle_outcome
 {
     injective,  ///< no element is inverted and there is no branch point, in exact arithmetic
@@ -21,6 +21,7 @@ enum class untangle_outcome
     gave_up     ///< none was found, and none is known not to exist
 };
 
+/// Stable name of an outcome, for programs.
 constexpr std::string_view to_string(untangle_outcome outcome) noexcept
 {
     switch (outcome)
@@ -45,7 +46,7 @@ inline std::ostream& operator<<(std::ostream& out, untangle_outcome outcome)
 namespace taut::impl
 {
 
-/// What one stage of an untangling did. Energies are the regularised ones of its first and last step.
+/// Report of one stage of an untangling. Energies are the regularised ones of its first and last step.
 struct untangle_stage_report : stage_report
 {
     std::size_t inverted = 0; ///< elements inverted in the best map when it ended
@@ -57,7 +58,7 @@ struct untangle_stage_report : stage_report
 namespace taut
 {
 
-/// The outcome, the best map and how it came about.
+/// Result of untangle(): the outcome, the best map and its stages.
 template <class Element>
 struct untangle_result
 {
@@ -67,12 +68,12 @@ struct untangle_result
     std::string reason;      ///< why there is no injective map; empty if there is one
     std::vector<idx> ids;    ///< infeasible: what the proof names; gave_up: the inverted elements of the map, or its
                              ///< branch points where none is inverted
-    std::vector<vec<D>> map; ///< with the fewest defects that were seen; held coordinates as in the problem
-    certificate flips;       ///< of the map, exact; det in the units of the map, not divided by anything
+    std::vector<vec<D>> map; ///< map with the fewest defects found; fixed coordinates as in the problem
+    certificate flips;       ///< certificate of the map, exact; det in the units of the map, not divided by anything
     double least_relative_det = 0; ///< smallest mapped / rest measure, divided by that of the whole; 1: a dilation
-    std::string stage;             ///< that found the injective map; "initial" if there was nothing to do
+    std::string stage;             ///< stage that found the injective map; "initial" if there was nothing to do
     std::vector<impl::untangle_stage_report> stages; ///< those that ran, in their order, proofs and margin included
-    double seconds = 0;                              ///< of the whole run
+    double seconds = 0;                              ///< wall-clock seconds of the whole run
 
     /// True if the map is certified.
     explicit operator bool() const { return outcome == untangle_outcome::injective; }

@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// Runs stages in turn until the state is injective, has a proof that no map is, or none has anything left to try.
-/// Returns the name of the one that found the map, or nothing.
+/// Runs stages alternately until the state is injective, has a proof that no map is, or no stage can continue. Returns
+/// the name of the one that found the map, or nothing.
 template <class Element>
 std::string run_stages(untangle_state<Element>& state, const untangle_stages<Element>& stages,
                        const untangle_params& params)

@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// One way to make a map injective. A stage keeps where it stands, so that it can go on in a later round.
+/// Method of making a map injective. A stage keeps its state, so that it can continue in a later round.
 template <class Element>
 class untangle_stage
 {
@@ -18,8 +18,8 @@ public:
     virtual ~untangle_stage() = default;
     virtual std::string_view name() const = 0;
 
-    /// Works for about `iterations` iterations, until the state has an injective map or says stop. It offers its maps
-    /// to the state and calls proceed() after each iteration. False: it has nothing more to try.
+    /// Works for about `iterations` iterations, until the state has an injective map or ends the run. It offers its
+    /// maps to the state and calls proceed() after each iteration. Returns false if it cannot continue.
     virtual bool run(untangle_state<Element>& state, int iterations) = 0;
 };
 

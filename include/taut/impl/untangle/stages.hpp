@@ -21,19 +21,15 @@ namespace taut::impl
 
 /// The stages of the plane that need no device:
 ///
-/// coarse    a coarse level alone, and the map of it carried up
-/// harmonic  the harmonic map alone
-/// newton    from the harmonic map, towards the shapes at rest
-/// pull      from an injective map, whose elements stay positive while springs pull it to what is held
-/// stretch   the same towards regular triangles, with detours where the springs have jammed
-/// regular   from the harmonic map, towards regular triangles
-/// best      from the best map so far, towards the shapes at rest
-/// laid      from an injective map that ignores what is held, towards the shapes at rest
-/// shape     from the harmonic map, shape only
-/// lbfgs     as newton, without second derivatives
+/// coarse a coarse level alone, and its map prolonged harmonic the harmonic map alone newton from the harmonic map,
+/// towards the shapes at rest pull from an injective map, whose elements stay positive while springs pull it to the
+/// fixed coordinates stretch the same towards regular triangles, with detours where the springs have jammed regular
+/// from the harmonic map, towards regular triangles best from the best map so far, towards the shapes at rest laid from
+/// an injective map that ignores fixed coordinates, towards the shapes at rest shape from the harmonic map, shape only
+/// lbfgs as newton, without second derivatives
 ///
-/// in the order that pays where all of the outline is pinned, so that a map without flips has no branch points; else
-/// those come first that make none.
+/// In the best order for an entirely pinned outline, with which a map without flips has no branch points; else those
+/// that create none come first.
 inline untangle_stages<triangle> host_stages(bool outline_pinned)
 {
     using enum untangle_start;

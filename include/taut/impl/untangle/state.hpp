@@ -25,10 +25,10 @@
 namespace taut::impl
 {
 
-/// What the stages of an untangling share: the problem, the best map so far, the clock and the observer.
+/// Shared state of the stages of an untangling: the problem, the best map so far, the clock and the observer.
 ///
-/// Stages see positions in a unit of length in which the largest coordinate of the initial map is in [1, 2). It is a
-/// power of two, so changing units is exact.
+/// Stages work in a unit of length in which the largest coordinate of the initial map is in [1, 2). It is a power of
+/// two, so changing units is exact.
 template <class Element>
 class untangle_state
 {
@@ -36,7 +36,7 @@ public:
     static constexpr int D = Element::dimension;
     using map = std::vector<vec<D>>;
 
-    /// The problem is referred to.
+    /// Refers to the problem.
     untangle_state(const untangle_problem<Element>& problem, const untangle_params& params,
                    newton_maker<Element> newton)
         : problem_(problem),
@@ -57,7 +57,7 @@ public:
     const auto& cells() const { return problem_.rest.cells(); }
     const map& initial() const { return initial_; } ///< in the unit of the stages
     const map& draft() const { return draft_; }     ///< of the problem, in the unit of the stages; may be empty
-    /// The harmonic map that keeps what is held, in the unit of the stages.
+    /// The harmonic map that keeps fixed coordinates, in the unit of the stages.
     const map& harmonic()
     {
         if (harmonic_.empty()) harmonic_ = impl::harmonic_start(problem_, initial_);
@@ -76,14 +76,14 @@ public:
         return newton_(std::move(p));
     }
 
-    /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its held coordinates are replaced
+    /// Takes x, in the unit of the stages, as the best map if it has fewer defects; its fixed coordinates are replaced
     /// by those of the problem before they are counted. Returns what was counted.
     certificate offer(std::span<const vec<D>> x) { return keep(restored(x, unit_)); }
 
     /// The same with x in the unit of the problem.
     certificate take(std::span<const vec<D>> x) { return keep(restored(x, 1)); }
 
-    /// Replaces an injective map by another one; false, and nothing happens, if x is not injective.
+    /// Replaces an injective map by another one; returns false, without effect, if x is not injective.
     bool replace(std::span<const vec<D>> x)
     {
         map trial = restored(x, unit_);
@@ -94,21 +94,22 @@ public:
         return true;
     }
 
-    /// Takes over a proof that there is no injective map.
+    /// Takes a proof that there is no injective map.
     void disprove(infeasibility_finding proof) { proof_ = std::move(proof); }
     const std::optional<infeasibility_finding>& proof() const { return proof_; }
 
-    /// To be called after each iteration: go on? False from the time limit or the observer's refusal on.
+    /// Checks the limits after each iteration. Returns false once the time limit is reached or the observer has
+    /// returned false.
     bool proceed(int iterations = 1)
     {
         iterations_ += iterations;
         return budget_.proceed({.iteration = iterations_, .value = static_cast<double>(flips_.defects())});
     }
 
-    /// The report of the stage at work, which may tell what others cannot know.
+    /// Report of the current stage, to which it may add.
     stage_report& now() { return now_; }
 
-    /// Books a step of Newton's method for the report of the stage at work.
+    /// Records a Newton step for the report of the current stage.
     void stepped(double before, double after, double length)
     {
         if (!(now_.energy_before < std::numeric_limits<double>::infinity())) now_.energy_before = before;
@@ -116,7 +117,7 @@ public:
         if (length > 0) steps_.add(length, length < 1);
     }
 
-    /// Books what has happened since the last stage ended.
+    /// Records the stage that has just ended.
     void ended(std::string name, std::string stop)
     {
         untangle_stage_report did{std::exchange(now_, {}), flips_.flipped, flips_.branched};
@@ -129,7 +130,7 @@ public:
         stages_.push_back(std::move(did));
     }
 
-    /// Books the stages of a coarser level, whose iterations count as those of this one.
+    /// Records the stages of a coarser level, whose iterations count as those of this one.
     void append(const std::vector<untangle_stage_report>& coarser, std::size_t level)
     {
         for (const auto& s : coarser)
@@ -144,7 +145,7 @@ public:
 
     const std::vector<untangle_stage_report>& stages() const { return stages_; } ///< that have ended
 
-    /// The same within a part of the work that has a state of its own. part: where that stands.
+    /// The same within a part of the work with a state of its own, `part`.
     bool proceed(progress part)
     {
         part.iteration += iterations_;

@@ -9,12 +9,12 @@ namespace taut::impl
 /// Numbers of untangling that no user has a reason to set.
 struct untangle_tuning
 {
-    /// The stages take turns, with so many iterations each in the first round and twice as many in each further one.
-    /// Range >= 1.
+    /// Iterations of each stage in the first round; stages alternate, with twice as many in each further round. Range
+    /// >= 1.
     int first_round = 150;
 
-    /// After success at most so many steps of Newton's method on a barrier energy, to move the map away from the edge
-    /// of what is injective; 0 leaves it there. Range >= 0.
+    /// Maximum number of Newton steps on a barrier energy after success, to move the map away from the boundary of the
+    /// feasible set; 0: none. Range >= 0.
     int margin_steps = 20;
 
     void validate() const

@@ -9,14 +9,14 @@
 namespace taut
 {
 
-/// Moves what is not held until every element is positive, with stages that take turns (untangle_params::stages). The
-/// outcome is injective only with a certificate in exact arithmetic, infeasible only with a proof; a map that was not
-/// found to be either comes with the reason and the inverted elements. Held coordinates are those of `problem.initial`,
-/// bit for bit, in all cases.
+/// Untangles a map: moves free coordinates until every element is positive, by a sequence of stages
+/// (untangle_params::stages). The outcome is injective only with a certificate in exact arithmetic, infeasible only
+/// with a proof; a map that was not found to be either comes with the reason and the inverted elements. Fixed
+/// coordinates are those of `problem.initial`, bit for bit, in all cases.
 ///
-/// It is untangle() of untangle_host.hpp with Newton's steps made on the device, on all but small meshes of the plane,
-/// and the paper's operator as a further stage. In the plane that one comes last, as the others are surer, and in space
-/// early; untangle_params::stages gives another order.
+/// Newton's method runs on the device, except on small planar meshes, and the paper's operator is a further stage. In
+/// the plane that one comes last, as the others are more reliable, and in space early; untangle_params::stages gives
+/// another order.
 /// Throws parameter_error for a problem or parameters that are not valid, device_error.
 template <class Element>
 untangle_result<Element> untangle(const queue& q, const untangle_problem<Element>& problem,

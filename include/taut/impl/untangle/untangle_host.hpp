@@ -54,10 +54,10 @@ double least_relative_det(const untangle_problem<Element>& problem, const std::v
 namespace taut
 {
 
-/// Moves what is not held until every element is positive, with stages that take turns (untangle_params::stages), each
-/// from where it is best at beginning (stages.hpp). The outcome is injective only with a certificate in exact
-/// arithmetic, infeasible only with a proof; a map that was not found to be either comes with the reason and the
-/// inverted elements. Held coordinates are those of `problem.initial`, bit for bit, in all cases.
+/// Untangles a map: moves free coordinates until every element is positive, by a sequence of stages
+/// (untangle_params::stages), each from its own initial map (stages.hpp). The outcome is injective only with a
+/// certificate in exact arithmetic, infeasible only with a proof; a map that was not found to be either comes with the
+/// reason and the inverted elements. Fixed coordinates are those of `problem.initial`, bit for bit, in all cases.
 /// Throws parameter_error for a problem or parameters that are not valid.
 template <class Element>
 untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl::untangle_stages<Element> stages,
@@ -116,7 +116,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
     return result;
 }
 
-/// The same with all stages that need no device.
+/// Untangles a map with all stages that need no device.
 inline untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {})
 {
     return untangle(problem, impl::host_stages(problem.outline_pinned()),

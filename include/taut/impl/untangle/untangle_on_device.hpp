@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// Newton's steps by multigrid on a device. In the plane small meshes go to the direct solver of the host, which is as
-/// quick there and needs no kernels compiled.
+/// Newton's method by multigrid on a device. Small planar meshes use the direct solver of the host, which is as fast
+/// there and needs no kernels.
 template <class Element>
 newton_maker<Element> newton_on_device(const queue& q)
 {

@@ -21,13 +21,13 @@
 namespace taut
 {
 
-/// How much a mesh may be refined. Every field has a sensible default.
+/// Limits of the refinement of a mesh. Every field has a sensible default.
 struct refine_params
 {
-    /// So often at most elements are split and the problem is looked at again. Range >= 0.
+    /// Maximum number of rounds of splits. Range >= 0.
     int rounds = 8;
 
-    /// The refined mesh has no more elements than this times those of the mesh. Range >= 1.
+    /// Maximum ratio of elements of the refined mesh to those of the mesh. Range >= 1.
     double most_growth = 4;
 
     /// Throws parameter_error that names the field.
@@ -43,14 +43,14 @@ struct refine_params
 namespace taut::impl
 {
 
-/// A problem on a mesh some of whose elements are split.
+/// Problem on a refined mesh.
 template <class Element>
 struct refined_problem
 {
     untangle_problem<Element> problem;
-    impl::subdivision how = {};  ///< of the mesh that it was; empty: it is the same
-    std::vector<idx> cells = {}; ///< of each element, that of the mesh that it was
-    int rounds = 0;              ///< of splits
+    impl::subdivision how = {};  ///< subdivision of the original mesh; empty: none
+    std::vector<idx> cells = {}; ///< element of the original mesh that contains each element
+    int rounds = 0;              ///< rounds of splits
     std::string obstacle = {};   ///< the proof that no split refutes, or which limit was met; empty: none
 };
 
@@ -59,7 +59,7 @@ struct refined_problem
 namespace taut
 {
 
-/// What untangling came to, and on which mesh.
+/// Result of untangle_refined(): the untangling, and the refined mesh.
 template <class Element>
 struct refined_untangling
 {
@@ -72,8 +72,8 @@ struct refined_untangling
 namespace taut::impl
 {
 
-/// The same problem on a refined mesh: new vertices are free and lie in the middle of what they split, elements want to
-/// look like those that they are parts of.
+/// Transfers a problem to a refined mesh: new vertices are free and at the centres of the split simplices, target
+/// shapes are those of the parent elements.
 /// Throws parameter_error for cells that are corners of others (owners), which cannot be split.
 template <class Element>
 refined_problem<Element> refine_problem(const untangle_problem<Element>& p, const subdivision& how)
@@ -103,7 +103,7 @@ refined_problem<Element> refine_problem(const untangle_problem<Element>& p, cons
     return result;
 }
 
-/// Splits simplices of the problem as it is by now; nothing happens, and false, where that makes too many elements.
+/// Splits simplices of the current problem; returns false, without effect, if that makes too many elements.
 template <class Element>
 bool split_further(refined_problem<Element>& now, const std::vector<std::vector<idx>>& simplices,
                    const refine_params& params)
@@ -122,8 +122,8 @@ bool split_further(refined_problem<Element>& now, const std::vector<std::vector<
     return true;
 }
 
-/// Splits what is in the way of a problem that is proved to have no solution, until nothing proves that any more. Where
-/// that cannot be, `obstacle` says why. Nothing is solved, and nothing happens to a problem without a proof.
+/// Refines an infeasible problem until no proof of infeasibility is found. Where that fails, `obstacle` says why.
+/// Nothing is solved, and a problem without a proof is not changed.
 template <class Element>
 refined_problem<Element> refine_infeasible(const untangle_problem<Element>& problem, const refine_params& params = {})
 {
@@ -145,7 +145,7 @@ refined_problem<Element> refine_infeasible(const untangle_problem<Element>& prob
     }
 }
 
-/// The vertices within so many edges of cells. A flag a vertex.
+/// Marks the vertices within a number of edges of cells. One flag per vertex.
 template <class Element>
 std::vector<char> within_rings(const mesh<Element>& m, std::span<const idx> cells, int rings)
 {
@@ -163,7 +163,7 @@ std::vector<char> within_rings(const mesh<Element>& m, std::span<const idx> cell
     return inside;
 }
 
-/// Takes another map as the best one, if it has fewer defects.
+/// Replaces the best map, if another one has fewer defects.
 template <class Element>
 void take_better(const untangle_problem<Element>& p, std::vector<vec<Element::dimension>> map, const std::string& stage,
                  untangle_result<Element>& found)
@@ -177,14 +177,14 @@ void take_better(const untangle_problem<Element>& p, std::vector<vec<Element::di
     found.stage = stage;
 }
 
-/// The stages of a short try: in space those that end soon.
+/// Stages of a short attempt: in space those that end soon.
 template <class Element>
 std::vector<std::string> quick_stages(const untangle_params& params, std::vector<std::string> in_space)
 {
     return params.stages.empty() && Element::dimension == 3 ? std::move(in_space) : params.stages;
 }
 
-/// Untangles once more from the best map so far.
+/// Untangles again from the best map so far.
 template <class Element>
 void untangle_again(const queue& q, refined_problem<Element>& now, const untangle_params& how,
                     untangle_result<Element>& found)
@@ -196,7 +196,7 @@ void untangle_again(const queue& q, refined_problem<Element>& now, const untangl
     found = std::move(next);
 }
 
-/// Untangles around the elements that are left inverted, with the rest of the map where it is.
+/// Untangles around the elements that are still inverted, with the rest of the map fixed.
 template <class Element>
 void untangle_around(const queue& q, untangle_problem<Element> p, untangle_params how, const budget& clock,
                      untangle_result<Element>& found)
@@ -224,12 +224,12 @@ void untangle_around(const queue& q, untangle_problem<Element> p, untangle_param
 namespace taut
 {
 
-/// untangle(), and where it is proved that no map is injective, or none was found, elements are split and it is tried
-/// again: the edges inside between held vertices of what the proofs name, else of or around the elements left inverted
-/// (proofs/mending_splits.hpp), where it is untangled then. Held vertices stay where they are, the boundary is not
-/// split, and the certificate is of all elements of the refined mesh. Tries but the last, which is of the whole mesh,
-/// are short ones, in space by the operator and one round of Newton's steps. `infeasible`: what is proved is not mended
-/// by splits inside the mesh; reason says what.
+/// Untangles a map with refinement: where it is proved that no map is injective, or none was found, elements are split
+/// and it is tried again. Split are the inner edges between fixed vertices that the proofs name, else those of or
+/// around the elements left inverted (proofs/mending_splits.hpp). Fixed vertices keep their positions, the boundary is
+/// not split, and the certificate is of all elements of the refined mesh. Attempts other than the last one, which is of
+/// the whole mesh, are short, in space by the operator and one round of Newton's method. `infeasible`: the proof holds
+/// for all splits inside the mesh; reason says what.
 /// Throws parameter_error as untangle() and refine_problem() do, device_error.
 template <class Element>
 refined_untangling<Element> untangle_refined(const queue& q, const untangle_problem<Element>& problem,

@@ -12,7 +12,7 @@
 namespace taut::impl
 {
 
-/// The inner edges around vertices, as the sides that start there. A side and its twin start at its two ends.
+/// Inner edges around vertices, as the sides that start there. A side and its twin start at its two ends.
 inline idx first_vertex(const mesh<triangle>& m, idx side)
 {
     return m.cells()[static_cast<std::size_t>(side / 3)][static_cast<std::size_t>((side + 1) % 3)];
@@ -26,9 +26,9 @@ inline csr starting_sides(const mesh<triangle>& m)
     return sides;
 }
 
-/// The seams of a surface as arcs between nodes, vertices at which they end, branch, or meet the boundary. An arc is a
+/// Seams of a surface as arcs between nodes, vertices at which they end, branch, or meet the boundary. An arc is a
 /// chain of sides, each beginning where the one before ends; arcs that are closed and have no node are left out.
-/// sides: starting_sides(m); seam: one flag a side
+/// sides: starting_sides(m); seam: one flag per side
 inline csr seam_arcs(const mesh<triangle>& m, const facet_table& f, const csr& sides, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };

@@ -10,7 +10,7 @@
 namespace taut::impl
 {
 
-/// What a seam along each side weighs: the length of the edge, less along creases, where it is hardly seen. The same
+/// Cost of a seam along each side: the length of the edge, less along creases, where it is hardly visible. The same
 /// on both sides of an edge.
 inline std::vector<double> seam_weights(const mesh<triangle>& m, const facet_table& f)
 {

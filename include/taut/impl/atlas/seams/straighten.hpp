@@ -59,7 +59,7 @@ public:
                 for (const idx v : side_vertices(m, static_cast<idx>(s))) on_seam_[u(v)] = 1;
     }
 
-    /// limits: asked now and then; where it says no, the other seams stay
+    /// limits: asked periodically; once it refuses, the other seams are kept
     void run(budget& limits)
     {
         // Piece by piece, since the shortest way between the ends of a long arc may be another one altogether: around
@@ -130,7 +130,7 @@ private:
         for (const idx s : arc) seam_[u(s)] = seam_[u(facets_.twin[u(s)])] = value;
     }
 
-    /// Whether an edge runs through the inside of the charts beside the arc.
+    /// Returns whether an edge runs through the inside of the charts beside the arc.
     bool inside(idx side) const
     {
         const idx t = facets_.twin[u(side)];
@@ -139,7 +139,7 @@ private:
         return (a == left_ || a == right_) && (b == left_ || b == right_);
     }
 
-    /// The edges around the start of a side, as far as no seam is between.
+    /// Edges around the start of a side, up to the next seams.
     std::vector<idx> sector(idx side) const
     {
         const auto turned = [](idx s, idx by) { return s / 3 * 3 + (s + by) % 3; };
@@ -159,7 +159,7 @@ private:
         return result;
     }
 
-    /// The vertices within some rings of an arc that a way may lead through, and its ends.
+    /// Vertices within some rings of an arc that a path may use, and its ends.
     void gather_band(std::span<const idx> arc, idx to)
     {
         constexpr idx rings = 3; // of triangles: seams that lead over the tip of a finger are to stay there
@@ -189,7 +189,7 @@ private:
         }
     }
 
-    /// Dijkstra's algorithm in the band, from one of the sides `starts` to the start of one of `ends`.
+    /// Runs Dijkstra's algorithm in the band, from one of the sides `starts` to the start of one of `ends`.
     double find_way(idx from, idx to, std::span<const idx> starts, std::span<const idx> ends)
     {
         using entry = std::pair<double, idx>;
@@ -222,7 +222,7 @@ private:
         return infinite;
     }
 
-    /// Triangles between an old and a new way change charts.
+    /// Moves triangles between an old and a new path to the other chart.
     void relabel(std::span<const idx> way)
     {
         std::vector<idx> front;

@@ -21,7 +21,7 @@
 namespace taut::impl
 {
 
-/// The search for a plane of symmetry.
+/// Search for a plane of symmetry.
 class symmetry_search
 {
 public:
@@ -43,7 +43,7 @@ public:
             [&](std::size_t c, std::size_t position) { triangles_.items[position] = static_cast<idx>(c); });
     }
 
-    /// Planes across the axes first, then all that take one of a few vertices to another as far from the middle.
+    /// Tries planes across the axes first, then all that map one of a few vertices to another as far from the centre.
     mirror_symmetry run()
     {
         for (const vec3& axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)})
@@ -80,7 +80,7 @@ private:
     const vec3& at(idx v) const { return mesh_.points()[u(v)]; }
     double distance_to_middle(idx v) const { return glm::distance(at(v), middle_); }
 
-    /// A few vertices, the farthest first: on the plane, which takes a vertex to itself, lie few of all.
+    /// Chooses a few vertices, the farthest first, as few of all lie on the plane.
     std::vector<idx> pivots() const
     {
         constexpr idx count = 4;
@@ -94,10 +94,10 @@ private:
         return result;
     }
 
-    /// Whether a side is a diagonal of a polygon.
+    /// Returns whether a side is a diagonal of a polygon.
     bool inner(std::size_t side) const { return !together_.empty() && together_[side] != 0 && facets_.twin[side] >= 0; }
 
-    /// True if it is one of symmetry, which is then in found_.
+    /// Returns whether it is a plane of symmetry, which is then in found_.
     bool try_plane(const vec3& normal, double offset)
     {
         const auto image = [&](std::size_t v)
@@ -186,7 +186,7 @@ private:
     vec3 middle_{0.0};
     double reach_;
     point_grid grid_;
-    std::vector<idx> polygon_; // one a triangle
+    std::vector<idx> polygon_; // one per triangle
     csr triangles_;            // of each polygon
     std::optional<mirror_symmetry> found_;
     double best_share_ = -1;   // of the samples that had images

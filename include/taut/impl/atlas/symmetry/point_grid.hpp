@@ -14,11 +14,11 @@
 namespace taut::impl
 {
 
-/// Points in cells of a grid, to find those near a place.
+/// Grid of points for nearest neighbour search.
 class point_grid
 {
 public:
-    /// reach: how far from a place its points are at most
+    /// reach: maximum search distance
     point_grid(std::span<const vec3> points, double reach) : points_(points), reach_(reach), near_(points.size())
     {
         start_ = counting_sort(

@@ -13,8 +13,8 @@
 namespace taut::impl
 {
 
-/// One of the halves of a surface that is its own mirror image, and with it what lies across the plane. What becomes of
-/// it becomes of the whole: charts of the half have images, and what lies across is in charts of its own.
+/// Half of a symmetric surface, with the polygons across the plane. Its charts determine those of the whole: charts of
+/// the half have images, and polygons across the plane are in charts of their own.
 class symmetric_half
 {
 public:
@@ -27,7 +27,7 @@ public:
 
     const mesh<triangle>& surface() const { return part_.charts.surface; }
 
-    /// What is asked of the half. seams, together: for what they refer to
+    /// Parameters for the half. seams, together: storage that they refer to
     atlas_params params(const atlas_params& of_whole, std::vector<char>& seams, std::vector<char>& together) const
     {
         atlas_params params = of_whole;
@@ -47,7 +47,7 @@ public:
         return params;
     }
 
-    /// Seams of the whole: those of the half, their images, and where the half ends. One flag a side.
+    /// Seams of the whole surface: those of the half, their images, and the border of the half. One flag per side.
     std::vector<char> seams(std::span<const char> of_half) const
     {
         std::vector<char> seam(facets_.twin.size(), 0);
@@ -75,7 +75,7 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    /// One a triangle: 1 in the half, -1 in its image, 0 across the plane.
+    /// One per triangle: 1 in the half, -1 in its image, 0 across the plane.
     std::vector<signed char> sides_of_plane() const
     {
         std::vector<double> above(mirror_.image.size(), 0); // of polygons
@@ -91,7 +91,7 @@ private:
         return side;
     }
 
-    /// Whether what lies across, the half and its image meet at a side.
+    /// Returns whether the half, its image and the polygons across the plane meet at a side.
     bool parts(std::size_t s) const { return facets_.twin[s] >= 0 && of_[s / 3] != of_[u(facets_.twin[s]) / 3]; }
 
     surface_part part() const
@@ -105,7 +105,7 @@ private:
     const mesh<triangle>& mesh_;
     const facet_table& facets_;
     const mirror_symmetry& mirror_;
-    std::vector<signed char> of_; // one a triangle
+    std::vector<signed char> of_; // one per triangle
     surface_part part_;
     std::vector<idx> place_; // of each triangle in the half, or -1
 };

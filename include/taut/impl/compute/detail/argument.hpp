@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// What one launch passes for one argument of a kernel: memory or a number, with the OpenCL C name of its type.
+/// Argument of a kernel in one launch: memory or a number, with the OpenCL C name of its type.
 /// Numbers of type double are narrowed where the kernel is known to take float: precision is data.
 class argument
 {

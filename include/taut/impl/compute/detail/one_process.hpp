@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// Whether a parent of this process has used OpenCL before it called fork(). Drivers have threads, which the child has
-/// not: it would wait for them for ever. The first call says which process uses OpenCL.
+/// Returns whether a parent of this process has used OpenCL before it called fork(). Drivers have threads, which the
+/// child has not: it would wait for them for ever. The first call says which process uses OpenCL.
 inline bool made_by_fork()
 {
 #if defined(__unix__) || defined(__APPLE__)

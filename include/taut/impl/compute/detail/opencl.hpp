@@ -3,7 +3,7 @@
 
 #include <taut/impl/compute/detail/cl.hpp>
 
-// The one door to OpenCL and Boost.Compute. As a system header it keeps their warnings out of the user's build.
+// The one include of OpenCL and Boost.Compute. As a system header it keeps their warnings out of the user's build.
 #if defined(__GNUC__)
 #pragma GCC system_header
 #endif

@@ -30,7 +30,7 @@ std::invoke_result_t<Wrap> adopt(Wrap&& wrap)
     }
 }
 
-/// Whether the environment asks for kernels without optimisations.
+/// Returns whether the environment asks for kernels without optimisations.
 inline bool wants_quick_builds()
 {
     const char* wish = std::getenv("TAUT_BUILD");

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// What a queue and its buffers and kernels share. It lives as long as any of them.
+/// State that a queue shares with its buffers and kernels. It lives as long as any of them.
 struct queue_state
 {
     queue_state(taut::device d, boost::compute::context c, boost::compute::command_queue q, bool quick,
@@ -61,7 +61,7 @@ struct queue_state
         between_builds();
     }
 
-    /// Until nobody else is compiling.
+    /// Waits for kernel builds of other processes.
     void await(const build_under_way& elsewhere)
     {
         do ask_between_builds();

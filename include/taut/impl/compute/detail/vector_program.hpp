@@ -13,7 +13,7 @@
 namespace taut::impl
 {
 
-/// What vectors need, as one program: kernels/blas.cl, gather.cl and reduce.cl. Drivers read OpenCL's header at each
+/// Vector operations as one program: kernels/blas.cl, gather.cl and reduce.cl. Drivers read OpenCL's header at each
 /// build, and PoCL does even where its cache holds the program, for some 50 ms.
 inline const std::string& vector_program()
 {

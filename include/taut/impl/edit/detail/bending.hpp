@@ -14,7 +14,7 @@
 namespace taut::impl
 {
 
-/// At most `most` of these, evenly chosen.
+/// Chooses at most `most` of these, evenly.
 inline std::vector<idx> some_of(std::span<const idx> all, idx most)
 {
     const std::size_t n = std::min(all.size(), static_cast<std::size_t>(most));
@@ -23,14 +23,14 @@ inline std::vector<idx> some_of(std::span<const idx> all, idx most)
     return some;
 }
 
-/// A field of displacements of points: some control points move, others stay. Factored once; a displacement costs a
+/// Displacement field of points with moving and fixed control points. Factored once; a displacement costs a
 /// back-substitution and a kernel.
 class bending
 {
 public:
     bending() = default; ///< of no point
 
-    /// moving, staying: control points; bent: what is displaced.
+    /// moving, staying: control points; bent: points to be displaced.
     bending(queue& q, std::vector<vec3> moving, std::span<const vec3> staying, std::span<const vec3> bent,
             rbf_basis basis)
         : moving_(moving.size()),
@@ -40,7 +40,7 @@ public:
     {
     }
 
-    /// The field where the moving controls go so far. Throws as rbf::solve.
+    /// Computes the field for displacements of the moving controls. Throws as rbf::solve.
     rbf_field field(std::span<const vec3> moves) const
     {
         std::vector<vec3> values(moves.begin(), moves.end());
@@ -48,7 +48,7 @@ public:
         return solver_->solve(values);
     }
 
-    /// How far each point goes.
+    /// Displacement of each point.
     std::vector<vec3> operator()(const rbf_field& field) { return evaluate_(field); }
 
     explicit operator bool() const { return solver_.has_value(); }

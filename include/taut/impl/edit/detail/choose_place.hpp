@@ -54,7 +54,7 @@ inline landing_place make_place(queue& q, const mesh<triangle>& target, idx onto
     return place;
 }
 
-/// All that putting a feature on a target needs to know of it.
+/// Site of a paste: the target region, its map and the image of the rim.
 struct site
 {
     landing_place place;
@@ -62,8 +62,8 @@ struct site
     seam room;
 };
 
-/// The site with the reach that is asked for, or else with larger and smaller ones, as far as they leave room for the
-/// rim. Throws what was wrong with the first: region_error, paste_error.
+/// Chooses the site with the given reach, or else with larger and smaller ones, as far as they leave room for the rim.
+/// Throws the error of the first: region_error, paste_error.
 inline site choose_site(queue& q, const mesh<triangle>& target, const feature& part, idx onto,
                         const paste_params& params, paste_report& report)
 {

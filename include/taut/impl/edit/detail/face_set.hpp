@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// A set of triangles of a surface, and what its shape is like. It refers to the surface and its facets.
+/// Set of triangles of a surface, with tests and corrections of its topology. It refers to the surface and its facets.
 class face_set
 {
 public:
@@ -58,7 +58,7 @@ public:
         return first;
     }
 
-    /// Leaves out all but the part of triangle f.
+    /// Keeps only the part of triangle f.
     void keep_component(idx f)
     {
         const auto part = label(1, [](idx, std::size_t) {});
@@ -96,8 +96,8 @@ public:
         return any;
     }
 
-    /// Makes the rim less jagged: leaves out triangles with two sides on it, and adds those that have two from outside.
-    /// Triangle `start` stays.
+    /// Smooths the rim: removes triangles with two sides on it, and adds those that have two from outside. Triangle
+    /// `start` is kept.
     void smooth_rim(idx start)
     {
         for (const char of : {char(1), char(0)})
@@ -135,8 +135,8 @@ public:
         return result;
     }
 
-    /// At each pinched vertex leaves out all fans but the largest, or that of triangle `start`. Returns whether there
-    /// was any.
+    /// At each pinched vertex removes all fans but the largest, or that of triangle `start`. Returns whether there was
+    /// any.
     bool trim_pinches(idx start)
     {
         bool any = false;

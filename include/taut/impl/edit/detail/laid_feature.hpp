@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// The rim of a feature pinned to its correspondences in the map of a target.
+/// Pins the rim of a feature to its correspondences in the map of a target.
 inline constraints<triangle> rim_pins(const surface_region& region, std::span<const vec2> rim_uv)
 {
     constraints<triangle> pins(region.surface);
@@ -23,15 +23,15 @@ inline constraints<triangle> rim_pins(const surface_region& region, std::span<co
     return pins;
 }
 
-/// A feature laid on the surface of the target by a map that pins its rim to its correspondences. Where the seam is
-/// soft, a band along the rim follows it there.
+/// Feature mapped to the surface of the target, with its rim pinned to the correspondences. With a soft seam, a band
+/// along the rim is blended to it.
 struct laid_feature
 {
     std::vector<idx> vertices;   ///< of the feature, but for the rim
     std::vector<vec3> on_target; ///< where they lie
     std::vector<double> from_rim;
 
-    /// How far a vertex follows: 1 at the rim and 0 at the end of the band, flat at both ends.
+    /// Blend weight of a vertex: 1 at the rim and 0 at the end of the band, with zero slope at both ends.
     double share(std::size_t i, double width) const
     {
         const double d = std::min(1.0, from_rim[i] / width);

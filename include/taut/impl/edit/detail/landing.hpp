@@ -21,16 +21,16 @@
 namespace taut::impl
 {
 
-/// The surroundings of a place on the target, mapped to the plane.
+/// Neighbourhood of a point of the target, mapped to the plane.
 struct landing_place
 {
     surface_region region;
-    std::vector<vec2> uv; ///< one a vertex of the region
+    std::vector<vec2> uv; ///< one per vertex of the region
     idx centre;           ///< in numbers of the region
     vec3 normal;          ///< mean over what the feature will cover, of length 1
 };
 
-/// Where the rim of a feature meets the target.
+/// Image of the rim of a feature on the target.
 struct landing
 {
     similarity_transform transform; ///< of the feature
@@ -46,7 +46,7 @@ inline std::vector<vec2> rim_of(const landing_place& place)
     return rim;
 }
 
-/// Whether a polygon is simple, counter-clockwise and within the map of a place.
+/// Returns whether a polygon is simple, counter-clockwise and within the map of a place.
 inline bool fits(const landing_place& place, std::span<const vec2> polygon)
 {
     double area = 0;
@@ -67,8 +67,8 @@ inline bool fits(const landing_place& place, std::span<const vec2> polygon)
     return area > 0 && within && boundary_crossings(loops, x) == 0;
 }
 
-/// Lays the rim of a feature on a place. Tried in turn: each point of the rim goes to the nearest one of the surface;
-/// the rim as its base has it is laid in the map (as an exponential map would), then smoothed; a circle of its area.
+/// Maps the rim of a feature to the target. Tried in this order: projection of each point to the nearest one of the
+/// surface; the rim projected to its base, in the map (as an exponential map), then smoothed; a circle of its area.
 /// Throws paste_error where none is a simple polygon within the map.
 inline landing land(const feature& f, const landing_place& place, double scale, double turn)
 {

@@ -86,7 +86,7 @@ private:
     idx corner(idx t, idx k) const { return cells_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
     idx& across(idx t, idx k) { return across_[static_cast<std::size_t>(t)][static_cast<std::size_t>(k % 3)]; }
 
-    /// Which side of triangle t leads to triangle u.
+    /// Finds the side of triangle t that is adjacent to triangle u.
     idx side_to(idx t, idx u)
     {
         for (idx k = 0; k < 2; ++k)
@@ -139,7 +139,7 @@ private:
         make_delaunay({t, u, s, w});
     }
 
-    /// Whether the angles opposite side k of t and of its neighbour exceed 180 degrees by more than rounding.
+    /// Returns whether the angles opposite side k of t and of its neighbour exceed 180 degrees by more than rounding.
     bool wants_flip(idx t, idx k)
     {
         const idx s = across(t, k);

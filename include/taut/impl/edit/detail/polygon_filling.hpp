@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// Whether a simple polygon has p inside or on it; exact.
+/// Returns whether a simple polygon has p inside or on it; exact.
 inline bool encloses(std::span<const vec2> polygon, const vec2& p)
 {
     bool inside = false;

@@ -16,7 +16,8 @@
 namespace taut::impl
 {
 
-/// What is taken out of a place to make room for a polygon, and the triangles between what is left and the polygon.
+/// Seam of a paste: the triangles removed to make room for a polygon, and those between the remaining ones and the
+/// polygon.
 struct seam
 {
     std::vector<char> removed;               ///< of the triangles of the place, flags

@@ -13,8 +13,8 @@ namespace taut::impl
 {
 
 /// Halves the edges inside a region that join two vertices of its rim, with a vertex that is none of the whole surface
-/// (-1). Without them no triangle hangs on rim vertices alone, which a pinned rim may turn over, and no edge of another
-/// filling of the rim is there twice.
+/// (-1). Without them no triangle has rim vertices only, which a pinned rim may flip, and no edge is duplicated by
+/// another filling of the rim.
 inline surface_region split_chords(surface_region region)
 {
     using edge = std::array<idx, 2>;

@@ -21,7 +21,7 @@ struct surface_place
     vec3 weights{0.0}; ///< of its corners, which sum to 1
     double distance = std::numeric_limits<double>::infinity();
 
-    /// What the corners have, interpolated.
+    /// Interpolates values at the corners.
     template <class Value>
     Value of(const std::vector<std::array<idx, 3>>& cells, const std::vector<Value>& values) const
     {

@@ -22,7 +22,7 @@
 namespace taut::io::impl
 {
 
-/// How a VTU file has the bytes of an array: as they are or in base64, after a header. That says how many bytes follow;
+/// Encoding of the bytes of an array in a VTU file: raw or in base64, after a header. That says how many bytes follow;
 /// of a compressed array, whose bytes are cut into blocks, how many blocks there are, how many bytes each stands for,
 /// how many the last one does (0: as many), and how many bytes each takes.
 struct array_code
@@ -42,7 +42,7 @@ struct array_code
     }
 };
 
-/// What is wrong with a code.
+/// Error of a malformed encoding.
 struct bad_code
 {
     std::string what;

@@ -27,7 +27,7 @@
 namespace taut::io::impl
 {
 
-/// What VTK compresses blocks of bytes with.
+/// Compressors of VTK for blocks of bytes.
 enum class compressor
 {
     none,
@@ -84,7 +84,7 @@ public:
 #endif
     }
 
-    /// Whether `from` is a stream of as many bytes as `to` has, which are then there.
+    /// Returns whether `from` is a stream of as many bytes as `to` has, which are then there.
     bool unpack([[maybe_unused]] std::string_view from, [[maybe_unused]] std::span<char> to)
     {
         switch (kind_)
@@ -195,7 +195,7 @@ private:
 #endif
 
 #ifdef TAUT_WITH_LZMA
-    /// What unpacking takes for the greatest dictionary that VTK asks for, and a little more.
+    /// Memory limit of decompression: the greatest dictionary that VTK uses, and a little more.
     static constexpr std::uint64_t most_lzma = std::uint64_t{80} << 20;
 
     static const std::uint8_t* octets(const char* text)

@@ -13,10 +13,10 @@ namespace taut::io::impl
 {
 
 /// Gives the corners of faces that have no texture coordinate one, where others of the face have: a face has them at
-/// all corners or at none. Such corners lie on flat triangles of a polygon, so they get what lies between those before
-/// and after them, by the way along the face; a corner at the place of one of these gets the same.
-/// texcoords: one a corner of `faces`, into uv; -1: none. What is new is appended to uv.
-/// points:    one a vertex
+/// all corners or at none. Such corners lie on flat triangles of a polygon, so they are interpolated between those
+/// before and after them, by arc length along the face; a corner at the position of one of these gets the same.
+/// texcoords: one per corner of `faces`, into uv; -1: none. What is new is appended to uv.
+/// points:    one per vertex
 inline void complete_texcoords(const file_faces& faces, std::span<const vec3> points, std::vector<idx>& texcoords,
                                std::vector<vec2>& uv)
 {

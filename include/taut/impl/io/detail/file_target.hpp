@@ -33,7 +33,7 @@ inline int open_file_number(const std::filesystem::path& path)
     return std::stoi(name);
 }
 
-/// What a path to write comes to when its links are followed.
+/// Target of a path to be written, with its links resolved.
 struct file_target
 {
     std::filesystem::path path;

@@ -168,7 +168,7 @@ inline void append_rewritten(std::string& out, std::string_view statements, cons
 }
 
 /// An OBJ file byte by byte, but for the vt lines, which stand where the first vt or f stood, and what faces say of
-/// them. texcoords: one a corner.
+/// them. texcoords: one per corner.
 template <class Out>
 void write_rewritten(Out& out, const obj_text& obj, std::span<const idx> texcoords, std::span<const vec2> uv)
 {
@@ -196,8 +196,8 @@ inline std::span<const vec3> points_of(const surface_soup& file)
     return file.points;
 }
 
-/// What an OFF or PLY file has, as OBJ: comments, vertices with their colours, normals, and the faces as they are.
-/// texcoords: one a corner, or -1.
+/// Writes the content of an OFF or PLY file as OBJ: comments, vertices with their colours, normals, and the faces.
+/// texcoords: one per corner, or -1.
 template <class Out, class File>
 void write_converted(Out& out, const File& file, std::span<const idx> texcoords, std::span<const vec2> uv)
 {
@@ -244,7 +244,7 @@ void write_converted(Out& out, const File& file, std::span<const idx> texcoords,
                 });
 }
 
-/// A file of a surface with other texture coordinates. texcoords: one a corner, into uv, or -1.
+/// A file of a surface with other texture coordinates. texcoords: one per corner, into uv, or -1.
 template <class Out, class File>
 void write_with_texcoords(Out& out, const File& file, std::span<const idx> texcoords, std::span<const vec2> uv)
 {

@@ -9,12 +9,12 @@
 
 #include <taut/impl/io/detail/scanner.hpp>
 
-/// How OBJ text falls into statements and faces into corners, for who reads it and who writes it anew.
+/// Splits OBJ text into statements and faces into corners, for reading and for rewriting.
 namespace taut::io::impl
 {
 
-/// Whether a backslash at the end of its line joins the next one to a statement: to numbers, as of vertices, faces and
-/// curves. What names something ends with its line, as do comments: names may end with a backslash.
+/// Returns whether a backslash at the end of its line joins the next one to a statement: to numbers, as of vertices,
+/// faces and curves. What names something ends with its line, as do comments: names may end with a backslash.
 inline bool joins_lines(std::string_view key)
 {
     static constexpr std::array<std::string_view, 23> known = {
@@ -23,7 +23,7 @@ inline bool joins_lines(std::string_view key)
     return std::find(known.begin(), known.end(), key) != known.end();
 }
 
-/// Whether a statement is a face: f, or fo of the format's first version, which is read as f.
+/// Returns whether a statement is a face: f, or fo of the format's first version, which is read as f.
 inline bool is_face(std::string_view key)
 {
     return !key.empty() && key[0] == 'f' && (key.size() == 1 || (key.size() == 2 && key[1] == 'o'));

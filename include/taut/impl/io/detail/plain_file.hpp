@@ -16,7 +16,7 @@
 namespace taut::io::impl
 {
 
-/// What atomic_file asks of the system, by the standard library alone: unfinished files have a hidden name.
+/// File operations of atomic_file by the standard library alone: unfinished files have a hidden name.
 class plain_file
 {
 public:

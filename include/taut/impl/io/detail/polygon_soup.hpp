@@ -19,7 +19,7 @@
 namespace taut::io::impl
 {
 
-/// What the readers collect, and what they share in turning it into a surface.
+/// Polygons collected by the readers, and their conversion to a surface.
 struct polygon_soup
 {
     std::vector<vec3> points;

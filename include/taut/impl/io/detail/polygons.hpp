@@ -20,7 +20,7 @@ namespace taut::io::impl
 /// those whose triangle faces as the polygon does and has nothing of the outline inside, as they are seen along the
 /// main axis of the polygon's normal; exact. A quad is thus cut along its shorter inner diagonal. An outline may touch
 /// itself, as one does that runs in to a hole along a slit and out again; where it comes back to a vertex at once there
-/// is nothing to cut off. Polygons that cross themselves are split somehow. O(n log n) for n corners, and the product
+/// is nothing to cut off. Self-intersecting polygons are split arbitrarily. O(n log n) for n corners, and the product
 /// of corners and reflex ones.
 class ear_clipper
 {
@@ -29,9 +29,9 @@ public:
     static constexpr std::size_t most_steps = 1 << 22;
 
     /// Calls triangle(a, b, c) with positions in the polygon, n - 2 times at most. The orientation is kept.
-    /// vertices: the number of each corner's vertex; what names one vertex twice is no triangle
-    /// crowded(a, c): whether a diagonal should not be there. Such ones are taken where nothing else is left.
-    /// Returns false if there was too much to look at.
+    /// vertices: the number of each corner's vertex; triangles with a repeated vertex are dropped; crowded(a, c):
+    ///           whether to avoid a diagonal, which is used only as a last resort.
+    /// Returns false at the limit of work.
     template <class Crowded, class Triangle>
     bool split(std::span<const vec3> polygon, std::span<const idx> vertices, Crowded crowded, Triangle triangle)
     {
@@ -129,9 +129,8 @@ private:
         }
     }
 
-    /// Leaves out corners of the vertex of the one before, and ways out of the polygon and back. Of the rest, finds
-    /// those that may lie in an ear: corners that are not convex, and those at the place of another. Returns how many
-    /// corners are left.
+    /// Removes repeated vertices and spikes. Of the rest, finds those that may lie in an ear: corners that are not
+    /// convex, and those at the place of another. Returns how many corners are left.
     std::size_t left_without_repeats()
     {
         std::size_t left = p_.size();
@@ -177,7 +176,7 @@ private:
         return left;
     }
 
-    /// Where the outline leaves for corner i, from which it comes back the same way, and where it does: the first and
+    /// Foot of a spike of the outline with tip i, at which the outline goes out and back the same way: the first and
     /// the last corner of that way.
     std::array<std::size_t, 2> foot(std::size_t i) const
     {
@@ -187,7 +186,7 @@ private:
         return {l, r};
     }
 
-    /// Whether a way out and back, from corner l to corner r of one vertex, leads into the polygon.
+    /// Returns whether a way out and back, from corner l to corner r of one vertex, leads into the polygon.
     bool leads_in(std::size_t l, std::size_t r) const
     {
         const vec2 &a = x_[before_[l]], &b = x_[l], &c = x_[after_[r]], &x = x_[after_[l]];
@@ -202,7 +201,7 @@ private:
         return glm::dot(d, d);
     }
 
-    /// Whether the outline goes to corner i and back.
+    /// Returns whether the outline goes to corner i and back.
     bool returns(std::size_t i) const { return vertices_[before_[i]] == vertices_[after_[i]]; }
 
     /// 0: corner i is an ear. 1: one that is thin, or leaves corners on its diagonal. Those with a crowded diagonal
@@ -235,7 +234,7 @@ private:
         return rank;
     }
 
-    /// Whether a segment has a point inside a triangle: no line along one of their sides parts them.
+    /// Returns whether a segment has a point inside a triangle: no line along one of their sides parts them.
     static bool enters(const std::array<vec2, 3>& t, const vec2& p, const vec2& q)
     {
         for (std::size_t k = 0; k < 3; ++k)

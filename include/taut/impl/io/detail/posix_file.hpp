@@ -58,7 +58,7 @@ struct removable_name
 inline std::array<removable_name, 64> removable_names;
 static_assert(std::atomic<int>::is_always_lock_free); // as handlers demand
 
-/// Whether hidden names may still be given, and how many are being given now.
+/// True once no hidden names may be given any more; and the number of names being given.
 inline std::atomic<bool> naming_is_over{false};
 inline std::atomic<int> being_named{0};
 
@@ -130,8 +130,8 @@ private:
     bool gone_ = false;
 };
 
-/// What atomic_file asks of the system, by POSIX. The new file has no name while it is written, where the system has
-/// such files (Linux), so that nothing can be left of it; else a hidden one.
+/// File operations of atomic_file by POSIX. The new file has no name while it is written, where the system has such
+/// files (Linux), so that nothing can be left of it; else a hidden one.
 class posix_file
 {
 public:

@@ -26,7 +26,7 @@ inline void refuse_utf16(std::string_view text, const std::string& path)
         throw io_error(path, "a text in UTF-16; save it as UTF-8");
 }
 
-/// Whether two words are the same but for the case of their letters.
+/// Returns whether two words are the same but for the case of their letters.
 inline bool same_letters(std::string_view a, std::string_view b)
 {
     const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
@@ -65,17 +65,17 @@ public:
         }
     }
 
-    /// Whether nothing but blanks is left on the line.
+    /// Returns whether nothing but blanks is left on the line.
     bool line_ends()
     {
         skip_blanks();
         return done() || is_line_end(*at_);
     }
 
-    /// Whether no more than blanks and a comment from # on are left on the line.
+    /// Returns whether no more than blanks and a comment from # on are left on the line.
     bool content_ends() { return line_ends() || at('#'); }
 
-    /// What is left on the line, which is taken, without blanks before it.
+    /// Takes the rest of the line, without leading blanks.
     std::string_view rest_of_line()
     {
         while (at_ != end_ && is_blank(*at_)) ++at_;
@@ -114,15 +114,15 @@ public:
         return {first, static_cast<std::size_t>(p - first)};
     }
 
-    /// Whether the next character is c.
+    /// Returns whether the next character is c.
     bool at(char c) const { return !done() && *at_ == c; }
 
     bool at_digit() const { return !done() && *at_ >= '0' && *at_ <= '9'; }
 
-    /// Whether the word ends here.
+    /// Returns whether the word ends here.
     bool word_ends() const { return ends_word(at_); }
 
-    /// Whether the next character is c; if so it is taken.
+    /// Returns whether the next character is c; if so it is taken.
     bool take(char c)
     {
         if (done() || *at_ != c) return false;
@@ -196,7 +196,7 @@ public:
     /// Goes to a position in the text.
     void go_to(const char* position) { at_ = position; }
 
-    /// What stands between an earlier position and this one.
+    /// Text between an earlier position and this one.
     std::string_view since(const char* position) const { return {position, static_cast<std::size_t>(at_ - position)}; }
 
     /// Fails if this is a binary file.
@@ -243,14 +243,14 @@ private:
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-    /// Whether p is the end, a blank, a line end, or the backslash of one, or starts a comment.
+    /// Returns whether p is the end, a blank, a line end, or the backslash of one, or starts a comment.
     bool ends_word(const char* p) const
     {
         return p == end_ || is_blank(*p) || is_line_end(*p) || (*p == '\\' && p + 1 != end_ && is_line_end(p[1])) ||
                (comments_ && *p == '#');
     }
 
-    /// Where the digits start: behind a plus sign that no minus sign follows.
+    /// Start of the digits: behind a plus sign that no minus sign follows.
     const char* after_plus() const { return end_ - at_ > 1 && *at_ == '+' && at_[1] != '-' ? at_ + 1 : at_; }
 
     void skip_line_end()
@@ -331,7 +331,7 @@ private:
         return true;
     }
 
-    /// What a number that fits no double stands for: 0 if it is below 1, else infinity.
+    /// Value of a number beyond the range of double: 0 if it is below 1, else infinity.
     static double beyond_range(std::string_view digits)
     {
         const auto e = std::min(digits.find_first_of("eE"), digits.size());

@@ -34,7 +34,7 @@ struct face_triangles
 class face_splitting
 {
 public:
-    /// points:  some of them may be no numbers
+    /// points:  some of them may be non-finite
     /// corners: vertices of all faces, one after the other, some of which may not be there
     face_splitting(std::span<const vec3> points, std::span<const idx> corners, std::span<const idx> sizes)
         : points_(points), corners_(corners), sizes_(sizes)

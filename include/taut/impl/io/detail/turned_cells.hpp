@@ -17,8 +17,8 @@
 namespace taut::io::impl
 {
 
-/// Of each cell the sum of the determinants at its corners, where the shape at rest has about the size of 1. All 0 of a
-/// surface in space, which has no sign.
+/// Sum of the determinants at the corners of each cell, for a rest shape of about size 1. All 0 for a surface in space,
+/// which has no sign.
 template <class Element>
 std::vector<double> corner_measures(const volume_file& file)
 {
@@ -51,10 +51,10 @@ std::vector<double> corner_measures(const volume_file& file)
     return measures;
 }
 
-/// Cells whose corners a file has in the other order than it should, ascending. Which cells differ is asked of the
-/// sides that they share, not of their shape, as inverted cells are for untangling: of the two orders that neighbours
-/// have, the one that makes the measure of their component positive stays. A component whose cells agree has the
-/// other order where nine of ten are negative, or more. What no turning makes agree is left as it is.
+/// Finds cells with reversed orientation in a file, ascending. They are determined by the faces that neighbours share,
+/// not by shapes, as inverted cells are for untangling: of the two orientations, the one that makes the measure of a
+/// component positive is kept. A consistently oriented component is reversed where nine of ten cells or more are
+/// negative. Non-orientable components are not changed.
 inline std::vector<idx> cells_to_turn(const volume_file& file)
 {
     const auto sides = cell_faces_of(file);

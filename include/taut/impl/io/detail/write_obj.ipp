@@ -23,7 +23,7 @@ inline void require_texcoords(std::span<const vec2> uv, const mesh<triangle>& su
 {
     if (uv.size() != surface.points().size())
         throw parameter_error("uv", std::to_string(uv.size()) + " texture coordinates for " +
-                                        std::to_string(surface.points().size()) + " vertices; give one a vertex");
+                                        std::to_string(surface.points().size()) + " vertices; give one per vertex");
 }
 
 /// The text of an OBJ file with other coordinates in its v statements; what follows them there stays.
@@ -85,7 +85,7 @@ void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> 
     if (texcoords.size() != file.faces.corners.size())
         throw parameter_error("texcoords", std::to_string(texcoords.size()) + " for " +
                                                std::to_string(file.faces.corners.size()) +
-                                               " corners of faces; give one a corner");
+                                               " corners of faces; give one per corner");
     for (const idx t : texcoords)
         if (t < -1 || t >= static_cast<idx>(uv.size()))
             throw parameter_error("texcoords", std::to_string(t) + " of " + std::to_string(uv.size()) +
@@ -101,7 +101,7 @@ void write_moved(atomic_file& out, const surface_file& file, std::span<const vec
     if (points.size() != file.surface.points().size())
         throw parameter_error("points", std::to_string(points.size()) + " positions for " +
                                             std::to_string(file.surface.points().size()) +
-                                            " vertices; give one a vertex");
+                                            " vertices; give one per vertex");
     if (!file.obj.bytes.empty()) return impl::write_with_points(out, file.obj.bytes, points);
     impl::write_items(out, points.size(),
                       [&](std::string& text, std::size_t v)

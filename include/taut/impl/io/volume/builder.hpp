@@ -21,7 +21,7 @@ namespace taut::io::impl
 /// The other of the two orders of a wedge's corners: VTK's, and that of gmsh and MEDIT.
 constexpr std::array<std::size_t, 6> turned_wedge = {0, 2, 1, 3, 5, 4};
 
-/// What the readers of volumes have in common: they fill a file that has its bytes.
+/// Common base of the readers of volumes, which fill a volume_file.
 class volume_builder
 {
 public:
@@ -108,7 +108,7 @@ public:
         add_vtk_cell(kind, turned);
     }
 
-    /// What can be said once all is read.
+    /// Validates the file once all is read.
     void finish()
     {
         make_names_unique(file_.groups);

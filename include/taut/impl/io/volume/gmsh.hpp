@@ -19,8 +19,8 @@
 namespace taut::io::impl
 {
 
-/// What all versions of gmsh's .msh have in common: sections from $NAME to $EndNAME, names of physical groups, kinds
-/// of elements (gmsh reference manual, "MSH file format").
+/// Common parts of all versions of gmsh's .msh: sections from $NAME to $EndNAME, names of physical groups, kinds of
+/// elements (gmsh reference manual, "MSH file format").
 class gmsh_sections
 {
 public:
@@ -90,7 +90,7 @@ public:
         entities_[static_cast<std::size_t>(dimension)].add(tag, dimension, corners);
     }
 
-    /// Of its cells, ascending, each once.
+    /// Vertices of the cells of an entity, ascending, each once.
     std::vector<idx> vertices_of_entity(int dimension, long long tag) const
     {
         return entities_[static_cast<std::size_t>(dimension)].vertices_of(tag, to_.file().points.size());

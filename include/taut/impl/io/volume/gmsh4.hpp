@@ -14,7 +14,7 @@
 namespace taut::io::impl
 {
 
-/// Entities, nodes and elements of version 4.1: nodes and elements come in blocks, one a geometric entity, and it is
+/// Entities, nodes and elements of version 4.1: nodes and elements come in blocks, one per geometric entity, and it is
 /// entities that physical groups name. Coordinates of entities (points of the geometry, boxes) are none of the mesh.
 class gmsh4_reader
 {
@@ -133,8 +133,8 @@ private:
         }
     }
 
-    /// What an entity has is in all its physical groups. A tag takes few bytes of the file and stands for all vertices
-    /// of the entity: there are no groups where these are many times what the mesh has.
+    /// Adds the vertices of entities to their physical groups. A tag takes few bytes of the file and stands for all
+    /// vertices of the entity: there are no groups where these are many times what the mesh has.
     void add_physical_groups()
     {
         auto& file = to_.file();

@@ -49,7 +49,7 @@ constexpr bool is_real(number_type t)
     return t == number_type::float32 || t == number_type::float64;
 }
 
-/// How the numbers of a file stand there.
+/// Encoding of the numbers of a file.
 struct number_encoding
 {
     bool text = true;
@@ -57,7 +57,7 @@ struct number_encoding
     char comment = '\0';                     ///< of text: what starts a comment
 };
 
-/// What numbers that are no part of the file itself were decoded from.
+/// Origin of numbers decoded from an encoded part of a file.
 struct number_origin
 {
     const scanner* file;

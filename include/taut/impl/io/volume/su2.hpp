@@ -16,7 +16,7 @@
 namespace taut::io::impl
 {
 
-/// Reads SU2's .su2: lines KEY= VALUE, behind some of which items follow, one a line; comments from %. Kinds and
+/// Reads SU2's .su2: lines KEY= VALUE, behind some of which items follow, one per line; comments from %. Kinds and
 /// corners are VTK's. What stands behind the numbers of an item is passed over. A file of several zones (NZONE=) has
 /// a mesh behind each IZONE=, of which volume_file::zone says the one to be read.
 class su2_reader

@@ -24,7 +24,7 @@
 namespace taut::io::impl
 {
 
-/// What a mesh says in any format, cells and labels of a subdivided one.
+/// Mesh independent of its file format: points, cells and labels of a subdivided one.
 struct plain_mesh
 {
     const volume_file& of;

@@ -192,7 +192,7 @@ private:
         }
     }
 
-    /// Whether the next word is OFFSETS. Binary numbers have blanks where they like.
+    /// Returns whether the next word is OFFSETS. Binary numbers have blanks where they like.
     bool starts_offsets()
     {
         const char* const begin = in_.position();

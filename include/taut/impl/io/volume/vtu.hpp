@@ -99,7 +99,7 @@ private:
             if (c.name == compressor_) packed_ = &c;
     }
 
-    /// Which of two words an attribute is, the first where there is none.
+    /// Index of an attribute's value among two words, the first if it is missing.
     int one_of(const xml_tag& tag, std::string_view key, std::string_view first, std::string_view second) const
     {
         const auto word = tag.attribute_or(key, first);
@@ -204,7 +204,7 @@ private:
         return begin;
     }
 
-    /// Work and memory that go beyond this are for more than the file says, whatever packed it.
+    /// Charges work and memory against a limit in proportion to the file.
     void charge(std::size_t n)
     {
         spent_ += n;

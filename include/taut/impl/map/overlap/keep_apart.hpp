@@ -18,14 +18,14 @@
 namespace taut::impl
 {
 
-/// Minimises the energy of a run once more, through maps whose boundary nowhere meets itself: rounds of Newton's steps
-/// of the map with a scaffold around it, which is made anew before each.
+/// Minimises the energy of a run once more, through maps with a simple boundary: rounds of Newton's method on the map
+/// with a scaffold around it, which is rebuilt before each.
 class apart_rounds
 {
 public:
     using map = std::vector<vec2>;
 
-    /// places: a map with held coordinates at their places. Refers to its arguments.
+    /// places: a map with fixed coordinates at their targets. Refers to its arguments.
     apart_rounds(const map_run& run, const std::vector<std::vector<idx>>& loops, const map& places)
         : run_(run), scaffolded_(run, loops, places), left_(run.params.solve.stopping.max_iterations)
     {
@@ -51,13 +51,13 @@ public:
     solve::stop stop() const { return stop_; }
     bool places_held() const { return farthest_ < 0; }
     idx farthest() const { return farthest_; }    ///< the vertex that is farthest from its place
-    double distance() const { return distance_; } ///< of that one, in lengths of the run
+    double distance() const { return distance_; } ///< of that one, in normalised units
 
 private:
     static constexpr int most_rounds = 100, most_steps = 20;
     static constexpr double tolerance = 1e-4; ///< of the energy, by it
 
-    /// Whether it made a difference.
+    /// Returns whether it changed the map.
     bool round()
     {
         auto [plane, how] = scaffolded_.around(x_);
@@ -102,7 +102,7 @@ private:
         return false;
     }
 
-    /// The user's, who sees the vertices of the surface alone.
+    /// Wraps the user's observer, which sees the vertices of the surface alone.
     taut::observer observer() const
     {
         return [this](progress p)
@@ -129,7 +129,7 @@ private:
     double distance_ = std::numeric_limits<double>::infinity();
 };
 
-/// The ends of two edges of the boundary that meet, of those whose vertices all are held; none if no two do.
+/// End vertices of two crossing boundary edges whose vertices are all fixed; none if there are none.
 inline std::vector<idx> held_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
                                     const std::vector<vec2>& x)
 {
@@ -149,8 +149,8 @@ inline std::vector<idx> held_across(const map_run& run, const std::vector<std::v
     return ends;
 }
 
-/// A solved map without crossings of its boundary: as it is where it has none, else minimised once more from a map that
-/// has none.
+/// Returns a solved map without crossings of its boundary: unchanged where it has none, else minimised once more from a
+/// map that has none.
 inline map_result kept_apart(const map_run& run, map_result r)
 {
     if (!r) return r;
@@ -165,7 +165,7 @@ inline map_result kept_apart(const map_run& run, map_result r)
         return refused(std::move(r), {outcome::infeasible,
                                       "edges " + std::to_string(ends[0]) + '-' + std::to_string(ends[1]) + " and " +
                                           std::to_string(ends[2]) + '-' + std::to_string(ends[3]) +
-                                          " of the boundary are held across each other",
+                                          " of the boundary are fixed across each other",
                                       ends});
     start_map start = start_apart(run, loops);
     run.clock.stages.add({.stage = "start", .vertices = run.vertices()});
@@ -187,9 +187,10 @@ inline map_result kept_apart(const map_run& run, map_result r)
     solved.iterations += rounds.steps();
     solved.stop = rounds.stop();
     if (rounds.rounds() == 0 && !run.held.marks().empty())
-        return refused(
-            std::move(r),
-            {outcome::gave_up, "no way was found from a map whose boundary does not cross itself to what is held", {}});
+        return refused(std::move(r), {outcome::gave_up,
+                                      "no path was found from a map whose boundary does not cross itself to the fixed "
+                                      "vertices",
+                                      {}});
     if (!rounds.places_held())
         return refused(std::move(r), {outcome::gave_up,
                                       "without crossings of the boundary vertex " + std::to_string(rounds.farthest()) +
@@ -208,7 +209,7 @@ inline map_result kept_apart(const map_run& run, map_result r)
     return r;
 }
 
-/// Counts the crossings of a map that was to have none, at its place and in the user's lengths.
+/// Counts the crossings of a map after its placement, in the user's units.
 inline map_result certified_apart(const map_run& run, map_result r)
 {
     if (!r) return r;

@@ -12,9 +12,9 @@
 namespace taut::impl
 {
 
-/// Triangles that fill what the image of a surface leaves of a rectangle around it, holes too. A map of the surface and
-/// these in which none is flipped has a boundary that nowhere meets itself (Jiang, Schaefer, Panozzo 2017,
-/// "Simplicial complex augmentation framework for bijective maps").
+/// Scaffold: triangles that fill the complement of the image of a surface in a rectangle around it, holes too. A map of
+/// the surface and these without flips has a simple boundary (Jiang, Schaefer, Panozzo 2017, "Simplicial complex
+/// augmentation framework for bijective maps").
 struct scaffold
 {
     std::vector<vec2> points;              ///< that follow those of the map; first the rectangle's four corners
@@ -22,7 +22,7 @@ struct scaffold
 };
 
 /// Adds the vertices of loops, each begun where its neighbour lies: every 2^k-th of a loop, for less and less k, so
-/// that a long way along a curve is no bad case. numbers: one a point of x, set where a loop has it.
+/// that a long curve is no worst case. numbers: one per point of x, set where a loop has it.
 inline void add_loops(planar_triangulation& t, std::span<const std::vector<idx>> loops, std::span<const vec2> x,
                       std::vector<idx>& numbers)
 {
@@ -59,8 +59,8 @@ inline std::vector<char> triangles_within(const planar_triangulation& t, std::sp
     return within;
 }
 
-/// The scaffold between an image whose boundary nowhere meets itself and a rectangle around it.
-/// loops: the boundary, with the image to the left; x: one point a vertex of the map.
+/// Makes the scaffold between an image with a simple boundary and a rectangle around it.
+/// loops: the boundary, with the image to the left; x: one point per vertex of the map.
 inline scaffold make_scaffold(std::span<const std::vector<idx>> loops, std::span<const vec2> x, const vec2& low,
                               const vec2& high)
 {

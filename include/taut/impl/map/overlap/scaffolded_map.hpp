@@ -16,7 +16,7 @@
 namespace taut::impl
 {
 
-/// The edges of a triangle, made thicker across its longest one where it is lower than `least`.
+/// Edges of a triangle, with its height over the longest one raised to `least` at least.
 inline mat2 thickened(mat2 edges, double least)
 {
     vec2 longest = edges[0];
@@ -29,9 +29,9 @@ inline mat2 thickened(mat2 edges, double least)
     return edges;
 }
 
-/// The map of a run with a scaffold around it, as a shape in the plane that deforms. What the scaffold is wanted to
-/// look like is what it looks like, so that it moves nothing by itself; it resists, and where parts of the boundary
-/// come nearer to each other than a gap it draws them apart. Lengths are those of the run.
+/// Map of a run with a scaffold around it, as a planar mesh that deforms. The target shapes of the scaffold are its
+/// current ones, so that it exerts no force by itself; it resists, and where parts of the boundary come nearer to each
+/// other than a gap it pushes them apart. In normalised units.
 class scaffolded_map
 {
 public:
@@ -43,7 +43,7 @@ public:
         deform_params<triangle> how;
     };
 
-    /// places: a map with held coordinates at their places. Refers to its arguments.
+    /// places: a map with fixed coordinates at their targets. Refers to its arguments.
     scaffolded_map(const map_run& run, const std::vector<std::vector<idx>>& loops, const map& places)
         : run_(run), loops_(loops), places_(places), springs_(run.held.beyond_pins(vec2(0)).springs)
     {
@@ -61,7 +61,7 @@ public:
         gap_ *= 0.05 / static_cast<double>(edges);
     }
 
-    /// What is minimised: the mean over the triangles of the surface, and springs.
+    /// Objective: the mean over the triangles of the surface, and springs.
     double energy(const map& x) const
     {
         const auto& data = run_.params.data;
@@ -122,8 +122,8 @@ public:
     }
 
 private:
-    /// How much the scaffold counts, by the surface. Where that is much distorted it goes far, and were lighter
-    /// scaffolds torn.
+    /// Weight of the scaffold relative to the surface. It grows with the distortion of the surface, which would tear
+    /// lighter scaffolds.
     double scaffold_part(const map& x) const
     {
         const double e = mean_over<triangle>(run_.in.surface, run_.in.ideal, x, energy::isometric{}).measure;

@@ -15,7 +15,7 @@ namespace taut::impl
 {
 
 /// A map of the run's surface whose boundary nowhere meets itself: the user's, if it is one, else one on a convex
-/// polygon, brought near to what is held. Empty where none was found.
+/// polygon, brought near to fixed coordinates. Empty where none was found.
 inline start_map start_apart(const map_run& run, const std::vector<std::vector<idx>>& loops)
 {
     const auto& in = run.in;

@@ -16,14 +16,14 @@
 namespace taut::impl
 {
 
-/// The problem of a draft on a coarser volume.
+/// Untangling problem of an initial guess on a coarser volume.
 struct coarse_problem
 {
-    coarser_volume thinned;                ///< of the shape at hand
-    untangle_problem<tetrahedron> problem; ///< of the places of held vertices, that shape at rest
+    coarser_volume thinned;                ///< of the current shape
+    untangle_problem<tetrahedron> problem; ///< of the targets of fixed vertices, that shape at rest
 };
 
-/// Nothing where the mesh is too small for that, where its cells overlap, or where it cannot be thinned well.
+/// None where the mesh is too small, its cells overlap, or it cannot be coarsened well.
 inline std::optional<coarse_problem> coarser(const untangle_problem<tetrahedron>& p, const budget& clock)
 {
     constexpr double factor = 8, least = 1000; // free vertices on the coarser one: with fewer limbs get lost
@@ -45,7 +45,7 @@ inline std::optional<coarse_problem> coarser(const untangle_problem<tetrahedron>
     return coarse_problem{std::move(thinned), std::move(q)};
 }
 
-/// Gradients of a shape of m at its vertices: the means of those of their cells, by measure.
+/// Gradients of a shape of m at its vertices: means of those of their cells, weighted by measure.
 inline std::vector<mat3> vertex_gradients(const mesh<tetrahedron>& m, const std::vector<vec3>& x)
 {
     const auto at = [](idx v) { return static_cast<std::size_t>(v); };
@@ -71,9 +71,9 @@ inline std::vector<mat3> vertex_gradients(const mesh<tetrahedron>& m, const std:
     return sums;
 }
 
-/// x, a shape of the coarser volume, on the mesh m that it was thinned from: gradients are those of the coarser one at
-/// its vertices, smooth in between, and the shape is the one whose gradients are nearest to them. Held coordinates have
-/// the places `to`.
+/// Prolongs x, a shape of the coarser volume, to the mesh m: gradients are those of the coarser one at its vertices,
+/// smooth in between, and the shape is the one whose gradients are nearest to them. Fixed coordinates have the targets
+/// `to`.
 inline std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                                     const coarser_volume& coarse, const std::vector<vec3>& x, const held_marks<3>& held,
                                     const std::vector<vec3>& to)
@@ -110,7 +110,7 @@ inline std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, co
                          }
                      });
     }
-    constexpr double enough = 1e-2; // a draft
+    constexpr double enough = 1e-2; // an initial guess
     const auto wanted = [&](std::size_t c)
     {
         mat3 mean(0.0);

@@ -18,7 +18,7 @@
 namespace taut::impl
 {
 
-/// The map of a session on the device, in the lengths of the run, and what is held of it.
+/// Map of a session on the device, in normalised units, with its fixed coordinates.
 template <class Element>
 class held_map : public session_body<Element>
 {
@@ -31,15 +31,15 @@ protected:
 
     explicit held_map(queue q) : queue_(std::move(q)) {}
 
-    /// The mesh at rest, in the lengths of the run, and its ideal elements' measures.
+    /// The mesh at rest, in normalised units, and its ideal elements' measures.
     virtual const mesh<Element>& rest() const = 0;
     virtual std::span<const double> rest_measure() const = 0;
 
-    /// What an untangling wants elements to look like, and what they are corners of, as in an untangle_problem.
+    /// Target shapes for untangling, and the owners of elements, as in an untangle_problem.
     virtual std::vector<mat<D>> wanted_elements() const { return {}; }
     virtual std::vector<idx> owners() const { return {}; }
 
-    /// Tells the map on the device who is held, if that has changed, and where.
+    /// Tells the map on the device which coordinates are fixed, if that has changed, and where.
     void constrain()
     {
         auto springs = point_constraints<D>{{}, directed(wanted.springs())}.scaled(lengths_).springs;
@@ -53,7 +53,7 @@ protected:
         on_way_ = held_.gap(last.x).vertex >= 0;
     }
 
-    /// Takes another map in the place of the one on the device.
+    /// Replaces the map on the device.
     void load(const map& run_lengths)
     {
         live_->load(run_lengths);
@@ -61,7 +61,7 @@ protected:
         live_->aim(scaled(held_.places()));
     }
 
-    /// A map with held coordinates at their places, whatever flips. draft: it is injective as it is.
+    /// Map with fixed coordinates at their targets, regardless of flips. draft: injective map without these.
     untangle_problem<Element> problem(const map& x, bool draft) const
     {
         map there = x;
@@ -77,7 +77,7 @@ protected:
                 owners(), std::move(sliding)};
     }
 
-    /// Flips and branch points of a map in the user's lengths, with det of the elements in these lengths, too.
+    /// Certifies a map in the user's lengths, with det of the elements in these lengths, too.
     virtual certificate certified(const map& x) const
     {
         auto flips = certify<D>(rest().cells(), std::span<const vec<D>>(x), rest_measure(), 16, owners());
@@ -85,7 +85,7 @@ protected:
         return flips;
     }
 
-    /// What an observer sees of the map.
+    /// Progress for the observer.
     progress seen() const
     {
         if constexpr (D == 2)
@@ -94,12 +94,12 @@ protected:
             return {.positions = [this] { return user_coordinates(); }};
     }
 
-    /// One a vertex, also where nothing is held.
+    /// One per vertex, also where nothing is fixed.
     held_marks<D> marks() const { return held_.marks().empty() ? held_marks<D>(last.x.size()) : held_.marks(); }
 
     map user_coordinates() const { return unscaled(live_->coordinates()); }
 
-    /// The same with what is at its place there to the last bit.
+    /// The same, with coordinates that equal their targets there set to the last bit.
     map placed() const
     {
         auto x = user_coordinates();
@@ -114,7 +114,7 @@ protected:
         return x;
     }
 
-    /// In the lengths of the run.
+    /// In normalised units.
     map scaled(map x) const
     {
         for (vec<D>& p : x) p *= lengths_;
@@ -125,10 +125,10 @@ protected:
     double lengths_ = 1; ///< of the run by those of the map
     std::optional<live_map<Element>> live_;
     held_places<Element> held_;
-    bool on_way_ = false; ///< held coordinates of the map on the device are not at their places
+    bool on_way_ = false; ///< fixed coordinates of the map on the device are not at their places
 
 private:
-    std::vector<directed_spring<D>> springs_; ///< in the lengths of the run
+    std::vector<directed_spring<D>> springs_; ///< in normalised units
 };
 
 } // namespace taut::impl

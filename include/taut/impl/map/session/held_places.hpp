@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// Who is held in a map that stays open, and where: pins, and the vertices of a fixed boundary. Lengths are those of
-/// the map.
+/// Fixed vertices of a session and their targets: pins, and the vertices of a fixed boundary. Lengths are those of the
+/// map.
 template <class Element>
 class held_places
 {
@@ -22,13 +22,13 @@ public:
     using map = std::vector<vec<D>>;
 
     held_places() = default; ///< of no map
-    /// fixed: vertices that stay where `start` has them, unless they are pinned. slides: from there.
+    /// fixed: vertices that keep their positions in `start`, unless they are pinned. slides: relative to it.
     held_places(const map& start, std::vector<idx> fixed, std::vector<slide<D>> slides = {})
         : start_(start), places_(start), fixed_(std::move(fixed)), slides_(std::move(slides))
     {
     }
 
-    /// Takes the pins in the place of those before; whether other coordinates are held than before.
+    /// Replaces the pins; returns whether the set of fixed coordinates has changed.
     bool take(const constraints<Element>& wanted)
     {
         held_marks<D> marks(places_.size());
@@ -50,7 +50,7 @@ public:
 
     const held_marks<D>& marks() const { return marks_; }
     const std::vector<slide<D>>& slides() const { return slides_; }
-    const map& places() const { return places_; } ///< of held coordinates; the others mean nothing
+    const map& places() const { return places_; } ///< of fixed coordinates; the others mean nothing
 
     struct farthest
     {
@@ -58,10 +58,10 @@ public:
         double distance = 0;
     };
 
-    /// The vertex whose held coordinates are farthest from their places in a map.
+    /// Finds the vertex whose fixed coordinates are farthest from their targets in a map.
     farthest gap(const map& x) const { return gap(x, places_); }
 
-    /// The same from where they are in another map.
+    /// The same relative to their positions in another map.
     farthest gap(const map& x, const map& places) const
     {
         farthest f;
@@ -76,10 +76,10 @@ public:
         return f;
     }
 
-    /// Puts held coordinates to their places.
+    /// Sets fixed coordinates to their targets.
     void impose(map& x) const { impose(x, x); }
 
-    /// The same where they are as in `rounded`, which is what arithmetic makes of the places.
+    /// The same where they are as in `rounded`, the targets after rounding.
     void impose(map& x, const map& rounded) const
     {
         for (std::size_t v = 0; v < marks_.size(); ++v)

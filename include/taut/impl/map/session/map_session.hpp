@@ -11,9 +11,9 @@
 namespace taut::impl
 {
 
-/// What session.hpp declares; include that one.
-///
-/// A session of a map of a surface: it begins as parameterize() does.
+// Implementation of session.hpp; include that one.
+
+/// Session of a map of a surface, with the start of parameterize().
 template <class Element>
 class map_session final : public session_steps<Element>
 {

@@ -19,8 +19,8 @@
 namespace taut::impl
 {
 
-/// The vertices around those held ones that are not at their places yet: as far as they have to go, and three edges,
-/// `width` times that. A flag a vertex.
+/// Marks the vertices around fixed ones that have not reached their targets: within `width` times their remaining
+/// distance plus three edges. A flag per vertex.
 template <class Element>
 std::vector<char> around_moved(const untangle_problem<Element>& p, double width)
 {
@@ -52,7 +52,7 @@ std::vector<char> around_moved(const untangle_problem<Element>& p, double width)
     return near;
 }
 
-/// How an untangling in a session is bounded.
+/// Limits of an untangling in a session.
 struct repair_limits
 {
     bool whole = false; ///< the whole mesh may be untangled, too
@@ -60,9 +60,9 @@ struct repair_limits
     observer ask;
 };
 
-/// A map whose held vertices could not be brought to their places by steps, with them there; none where that fails. It
-/// differs from the one at hand around these vertices alone, if that will do. problem: the held vertices at their
-/// places in `initial`, the injective map at hand as `draft`.
+/// Untangles a map whose fixed vertices could not be brought to their targets by steps; none where that fails. It
+/// differs from the current one around these vertices alone, if that suffices. problem: the fixed vertices at their
+/// targets in `initial`, the current injective map as `draft`.
 template <class Element>
 std::optional<std::vector<vec<Element::dimension>>> repaired(const queue& q, const untangle_problem<Element>& problem,
                                                              untangle_params how, const repair_limits& limits)

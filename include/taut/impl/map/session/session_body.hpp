@@ -14,8 +14,8 @@
 namespace taut::impl
 {
 
-/// What a session knows without a device: what is asked, and the last map. How it goes on is for a derived class, which
-/// only files that make a session compile.
+/// State of a session without a device: constraints, and the last map. Derived classes, compiled only where a session
+/// is constructed, advance it.
 template <class Element>
 class session_body
 {
@@ -29,11 +29,10 @@ public:
 
     virtual session_result<Element> solve(const session_budget& budget) = 0;
 
-    /// Puts other constraints and another map in the place of the last ones. Throws parameter_error, constraint_error,
-    /// and nothing has changed.
+    /// Replaces the constraints and the map. Throws parameter_error, constraint_error; then nothing has changed.
     virtual void restore(const constraints<Element>& asked, const map& x) = 0;
 
-    /// Where the last map has vertices. Throws constraint_error.
+    /// Positions of vertices in the last map. Throws constraint_error.
     map places_of(std::span<const idx> vertices) const
     {
         if (last.x.empty())

@@ -25,8 +25,8 @@
 namespace taut::impl
 {
 
-/// A session at work: the map on the device goes from the last map to what is asked. How the first map comes about is
-/// for derived classes. A template, as parameterize() is, so that only files that make a session compile it.
+/// Session with a device: advances the map on the device to the current constraints. Derived classes make the first
+/// map. A template, as parameterize() is, so that only files that make a session compile it.
 template <class Element>
 class session_steps : public held_map<Element>
 {
@@ -67,7 +67,7 @@ public:
         last.x = x;
         last.report.flips = std::move(flips);
         last.report.converged = false;
-        changed = true; // so that the next solve() sees who is held
+        changed = true; // so that the next solve() sees which coordinates are fixed
         load(scaled(x));
     }
 
@@ -90,16 +90,16 @@ protected:
             throw parameter_error("solve.method", "must be automatic or newton: a session makes Newton's steps");
     }
 
-    /// Puts the map at hand on the device in double; false where it is so already, or may not be.
+    /// Moves the current map to the device in double; returns false where it is so already, or may not be.
     virtual bool in_double() { return false; }
 
-    /// Whether in_double() would do so.
+    /// Returns whether in_double() would do so.
     virtual bool may_be_doubled() const { return false; }
 
-    /// Makes the first map, and puts it on the device; called again where there was none to be put there.
+    /// Makes the first map and moves it to the device; called again after a failure.
     virtual void begin(run_clock& clock) = 0;
 
-    /// From the last map on.
+    /// Continues from the last map.
     void advance(run_clock& clock)
     {
         session_report& r = last.report;
@@ -126,7 +126,7 @@ protected:
         return steps_left_ > 0 && clock.left().count() > step_seconds_ && clock.proceed();
     }
 
-    /// Brings held coordinates nearer to their places.
+    /// Brings fixed coordinates nearer to their targets.
     void follow(run_clock& clock)
     {
         drafted_ = false;
@@ -155,19 +155,19 @@ protected:
         }
     }
 
-    /// In space, where the budget lasts for some twenty steps.
+    /// Returns whether an initial guess is worth its cost: in space, with a budget of some twenty steps.
     bool may_draft(const run_clock& clock) const
     {
         return D == 3 && Element::oriented && held_.slides().empty() && lasts(clock, 20);
     }
 
-    /// Whether bodies of held vertices turn on the way.
+    /// Returns whether bodies of fixed vertices rotate on the path.
     bool turns() const
     {
         return held_paths<D>(rest().cells(), marks(), scaled(last.x), scaled(held_.places())).parts() > 1;
     }
 
-    /// Takes a shape with held vertices at their places that is made at once, if there is one. Whether it did.
+    /// Tries an initial guess with fixed vertices at their targets. Returns whether it was taken.
     bool draft(run_clock& clock)
     {
         drafted_ = true;
@@ -194,7 +194,8 @@ protected:
             return false;
     }
 
-    /// From a map, in parts where bodies of held vertices turn; whether they have arrived.
+    /// Brings fixed vertices of a map to their targets, in parts where bodies of them rotate; returns whether they have
+    /// arrived.
     bool follow_parts(run_clock& clock, const map& from)
     {
         const held_paths<D> paths(rest().cells(), marks(), from, held_.places());
@@ -218,7 +219,7 @@ protected:
         return goes_on;
     }
 
-    /// One part of the way from a map; whether it has been gone. stuck_: steps do not help.
+    /// Follows one part of the path from a map; returns whether its end was reached. stuck_: steps do not help.
     bool follow(run_clock& clock, const map& from, const map& way)
     {
         const double gap = std::max(held_.gap(from, way).distance * lengths_, std::numeric_limits<double>::min());
@@ -252,7 +253,7 @@ protected:
         return found.arrived;
     }
 
-    /// Whether it is proved that no map has the held coordinates at their places; x: any map.
+    /// Returns whether it is proved that no map has the fixed coordinates at their targets; x: any map.
     bool proved(const map& x)
     {
         if constexpr (Element::oriented)
@@ -268,7 +269,7 @@ protected:
             return false;
     }
 
-    /// A map with held coordinates at their places and no defect, if untangling finds one.
+    /// Untangles to a map with fixed coordinates at their targets and no defect, if there is one.
     untangle_result<Element> untangled(run_clock& clock, const map& x)
     {
         auto how = untangling_;
@@ -279,15 +280,15 @@ protected:
         return found;
     }
 
-    /// Whether the budget would last for so many steps.
+    /// Returns whether the budget would last for so many steps.
     bool lasts(const run_clock& clock, int steps) const
     {
         return steps_left_ >= steps && clock.left().count() >= steps * step_seconds_;
     }
 
-    /// Untangling, where steps do not bring held coordinates any nearer, if the budget would last for some twenty steps
-    /// more, or a hundred for the whole mesh; no longer than a thousand take. Its iterations count as steps. Whether
-    /// it did.
+    /// Untangles where steps bring fixed coordinates no nearer, if the budget would last for some twenty steps more, or
+    /// a hundred for the whole mesh, for the time of a thousand steps at most. Its iterations count as steps. Returns
+    /// whether it succeeded.
     bool repair(run_clock& clock)
     {
         if (!lasts(clock, 20)) return false;
@@ -310,7 +311,7 @@ protected:
         return true;
     }
 
-    /// With what is held where it is.
+    /// Minimises with fixed coordinates where they are.
     void minimise(run_clock& clock)
     {
         auto found = minimised(clock);
@@ -345,7 +346,7 @@ protected:
         return found;
     }
 
-    /// Whether it ended by rounding, and not where it should.
+    /// Returns whether it ended by rounding, above the tolerance.
     bool stalled(const solve::report& r) const
     {
         constexpr double of_rounding = 1e-8;                      // a tolerance that is larger is meant
@@ -355,7 +356,7 @@ protected:
                 (r.stop == solve::stop::decrease && solve_.stopping.decrease_tolerance < of_rounding));
     }
 
-    /// Makes the map on the device the last one, if it is certified; else goes back to the last one.
+    /// Accepts the map on the device if it is certified; else restores the last one.
     void take(run_clock& clock)
     {
         session_report& r = last.report;
@@ -378,7 +379,7 @@ protected:
         book(clock, &session_seconds::certificate, {.stage = "certify"});
     }
 
-    /// How far held coordinates of the last map are from their places.
+    /// Notes the distance of fixed coordinates of the last map from their targets.
     void note_gap()
     {
         const auto gap = held_.gap(last.x);
@@ -387,7 +388,7 @@ protected:
         last.report.distance = gap.distance;
     }
 
-    /// The time since the last stage ended is that of this one.
+    /// Attributes the time since the end of the last stage to this one.
     void book(run_clock& clock, double session_seconds::*phase, stage_report did)
     {
         seconds_.*phase += clock.lap();
@@ -404,11 +405,11 @@ private:
     untangle_params untangling_;
     taut::observer observer_;
     std::chrono::duration<double> limit_;
-    stage_report followed_;     ///< what bringing held coordinates to their places came to so far
+    stage_report followed_;     ///< report of the incremental loading so far
     bool proof_sought_ = false; ///< that what is asked now cannot be
-    bool drafted_ = false;      ///< a draft was tried on this way
-    bool hard_ = false;         ///< the way is one to draft: the first step came less than a quarter of it
-    bool stuck_ = false;        ///< steps bring held coordinates no nearer to their places
+    bool drafted_ = false;      ///< an initial guess was tried on this path
+    bool hard_ = false;         ///< the path needs an initial guess: the first step came less than a quarter of it
+    bool stuck_ = false;        ///< steps bring fixed coordinates no nearer to their places
     double step_seconds_ = 0;   ///< of the last step
     int steps_left_ = 0;
 };

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// The parameters with the energy that the data and parameters make of the user's. Throws parameter_error.
+/// Binds the data and parameters to the user's energy. Throws parameter_error.
 template <class Element>
 deform_params<Element> validated(deform_params<Element> p)
 {
@@ -27,7 +27,7 @@ deform_params<Element> validated(deform_params<Element> p)
     return p;
 }
 
-/// A session of a shape: it begins with the shape that is given, untangled if need be.
+/// Session of a deforming shape, from the given shape, untangled if need be.
 template <class Element>
 class shape_session : public session_steps<Element>
 {
@@ -86,7 +86,7 @@ private:
         r.notes.insert(r.notes.begin(), notes.begin(), notes.end());
     }
 
-    /// Untangles the shape to begin with, of which `flips` says what is wrong; what has no orientation is not.
+    /// Untangles the initial shape with the defects `flips`, unless its elements have no orientation.
     bool mended(run_clock& clock, certificate& flips)
     {
         session_report& r = last.report;
@@ -126,7 +126,7 @@ private:
         return true;
     }
 
-    /// Of a shape without inverted elements, by the host.
+    /// Energy of a shape without inverted elements, computed on the host.
     double energy_of(const map& x) const
     {
         const map run_lengths = this->scaled(x);
@@ -135,7 +135,7 @@ private:
         return params_.weights == energy::weighting::measure ? e.measure : e.uniform;
     }
 
-    /// Puts a map on the device, with what is held.
+    /// Puts a map on the device, with fixed coordinates.
     void put(precision how, const map& run_lengths)
     {
         this->live_.emplace(this->queue_, rest_, params_, how, run_lengths,
@@ -153,8 +153,8 @@ private:
                         "that the mesh does not have, or that is pinned, among the slides; leave it out");
     }
 
-    /// The mesh, which may have any number of components, holes and handles; vertices without cells stay where they
-    /// are. Throws mesh_error, and parameter_error for parameters that are not of this mesh.
+    /// Validates the mesh, which may have any number of components, holes and handles; vertices without cells keep
+    /// their positions. Throws mesh_error, and parameter_error for parameters that are not of this mesh.
     static mesh<Element> deformable(mesh<Element> m, const deform_params<Element>& params)
     {
         params.data.validate(m.cells().size());
@@ -186,7 +186,7 @@ private:
                     throw parameter_error("mesh", "a surface in space has no shape in the plane; parameterize it");
     }
 
-    /// unit: length of the run by that of the parameters.
+    /// unit: normalised unit by that of the parameters.
     static ideal_elements<Element> ideals(const mesh<Element>& m, const deform_params<Element>& params, double unit)
     {
         if constexpr (!Element::oriented)
@@ -258,7 +258,7 @@ private:
 
     deform_params<Element> params_; ///< validated
     map start_;
-    mesh<Element> rest_; ///< in the lengths of the run
+    mesh<Element> rest_; ///< in normalised units
     ideal_elements<Element> ideal_;
 };
 

@@ -11,9 +11,9 @@
 namespace taut::impl
 {
 
-/// What session.hpp declares; include that one.
-///
-/// A session of a thin shell: a shape of hinges, certified by the triangles of the surface. A template, so that only
+// Implementation of session.hpp; include that one.
+
+/// Session of a thin shell: a shape of hinges, certified by the triangles of the surface. A template, so that only
 /// files that make a session compile it.
 template <class Element>
 class shell_session final : public shape_session<Element>

@@ -24,10 +24,11 @@
 namespace taut::impl
 {
 
-/// A shape whose held coordinates are at their places, where bodies of held vertices turn on the way: turns, axis times
-/// angle, are harmonic between those of the bodies, and gradients nearest to the turns of the elements (Zayer et al.
-/// 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns change fast.
-/// from: the shape at hand, no element inverted; to: the places, of which held coordinates are read.
+/// Initial guess with fixed coordinates at their targets, where bodies of fixed vertices rotate, by harmonic guidance:
+/// rotations, axis times angle, are harmonic between those of the bodies, and gradients nearest to the rotations of the
+/// elements (Zayer et al. 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns
+/// change fast.
+/// from: the current shape, no element inverted; to: the targets, of which fixed coordinates are read.
 inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                                       const held_paths<3>& paths, const held_marks<3>& marks,
                                       const std::vector<vec3>& from, const std::vector<vec3>& to)
@@ -53,7 +54,7 @@ inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, 
             told[v] = told.every;
         }
     }
-    constexpr double enough = 1e-2; // a draft
+    constexpr double enough = 1e-2; // an initial guess
     poisson.fit([](std::size_t) { return mat3(0.0); }, told, enough, turns);
     const auto wanted = [&](std::size_t c)
     {
@@ -65,7 +66,7 @@ inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, 
     return x;
 }
 
-/// A shape with held coordinates at their places, and what it took.
+/// Shape with fixed coordinates at their targets, and its report.
 struct mended_draft
 {
     std::vector<vec3> x;                       ///< certified; empty: none was found
@@ -74,14 +75,14 @@ struct mended_draft
     std::vector<untangle_stage_report> stages; ///< of untanglings
 };
 
-/// Whether a gradient inverts, or shrinks to less than `least` in some direction.
+/// Returns whether a gradient inverts, or shrinks to less than `least` in some direction.
 inline bool shrinks(const mat3& F, double least)
 {
     return !(glm::determinant(F) > 0 && norm2(glm::inverse(F)) < 2 + 1 / (least * least));
 }
 
-/// One flag a vertex: it is at most four edges from an element that is inverted, or has shrunk to less than 0.3 in some
-/// direction; nothing where there is no such element.
+/// One flag per vertex: it is at most four edges from an element that is inverted, or has shrunk to less than 0.3 in
+/// some direction; nothing where there is no such element.
 inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
                                        const std::vector<vec3>& x)
 {
@@ -107,7 +108,7 @@ inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson,
     return inside;
 }
 
-/// A draft of one problem, and what all levels of that have in common.
+/// Initial guess of one problem, and what its levels share.
 class draft_maker
 {
 public:
@@ -120,10 +121,10 @@ public:
         how_.stages = {"lead"}; // others leave elements next to flat, which cut the steps that follow
     }
 
-    /// The shape at hand, which is injective (`draft` of the problem), with held vertices at their places (`initial`),
-    /// to which they move: that of a coarser volume, where there is one, or else a turned_draft, where bodies of them
-    /// turn. What has shrunk there, with its neighbours, is untangled and minimised by itself, with the shape at hand
-    /// as that at rest: else such elements, though few, would cut the steps of all.
+    /// Predicts a shape from the current one, which is injective (`draft` of the problem), with fixed vertices at their
+    /// targets (`initial`), to which they move: that of a coarser volume, where there is one, or else harmonic
+    /// guidance, where bodies of them rotate. Shrunk elements, with their neighbours, are untangled and minimised
+    /// separately, with the current shape as rest shape: else such elements, though few, would cut the steps of all.
     mended_draft draft(const problem& p) const
     {
         const mesh<tetrahedron> here(p.draft, p.rest.cells());
@@ -148,8 +149,8 @@ private:
         return bool(certify<3>(p.rest.cells(), std::span<const vec3>(x), {}, 0, p.owners));
     }
 
-    /// The minimum on a coarser volume, carried up: there limbs decide which way they buckle, which takes many steps,
-    /// whatever the size.
+    /// Prolongs the minimum on a coarser volume: the buckling direction of limbs is decided there, which takes many
+    /// steps, whatever the size.
     mended_draft from_coarser(const problem& p, const mesh<tetrahedron>& here,
                               const gradient_fit<tetrahedron>& poisson) const
     {
@@ -166,7 +167,7 @@ private:
         return found;
     }
 
-    /// Untangles and minimises what has shrunk; whether the shape is a good one then.
+    /// Untangles and minimises shrunk elements; returns whether the shape is good then.
     bool mend(const problem& p, const mesh<tetrahedron>& here, const gradient_fit<tetrahedron>& poisson,
               mended_draft& found) const
     {
@@ -192,7 +193,7 @@ private:
         return certified(p, found.x);
     }
 
-    /// An injective map, or none.
+    /// Untangles to an injective map, or none.
     std::vector<vec3> untangled(const problem& p, mended_draft& booked) const
     {
         auto how = how_;
@@ -202,7 +203,7 @@ private:
         return result ? std::move(result.map) : std::vector<vec3>();
     }
 
-    /// From the shape found on, to a relative gradient, with so many steps at most.
+    /// Minimises the shape to a relative gradient, with a maximum number of steps.
     void minimise(const problem& p, double gradient, int steps, mended_draft& found) const
     {
         live_map<tetrahedron> live(queue_, p.rest, deform_params<tetrahedron>{}, arithmetic_, found.x);

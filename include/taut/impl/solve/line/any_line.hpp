@@ -8,8 +8,8 @@
 namespace taut::solve
 {
 
-/// Any line function behind one type, so that the line searches are compiled once, whatever the objectives: a call
-/// costs nothing beside an evaluation. Refers to the line.
+/// Type-erased line function, so that the line searches are compiled once, whatever the objectives: a call costs
+/// nothing beside an evaluation. Refers to the line.
 class any_line
 {
 public:

@@ -7,7 +7,7 @@
 namespace taut::solve::impl
 {
 
-/// Where and how low.
+/// Minimiser found, and its value.
 struct brent_result
 {
     double x = 0;

@@ -11,7 +11,7 @@
 namespace taut::solve::impl
 {
 
-/// A minimum along the line: bracket, then Brent. The line remembers the lowest trial.
+/// Finds a minimum along the line: bracket, then Brent. The line remembers the lowest trial.
 template <line_function Line>
 void minimize_line(Line& phi, const line_point& first, const exact_params& p, bool careful)
 {

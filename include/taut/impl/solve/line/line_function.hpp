@@ -17,7 +17,7 @@ struct line_point
     double slope = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What a line search found.
+/// Outcomes of a line search.
 enum class search_status
 {
     accepted,   ///< a step that lowers the value; the line's gradient is the one at the step
@@ -36,15 +36,15 @@ struct search_result
 namespace taut::solve
 {
 
-/// phi of a line search. Values outside the domain are +inf, never NaN, and so is every value once interrupted() is
-/// true: searches then run dry and their caller asks why.
+/// Line function phi of a line search. Values outside the domain are +inf, never NaN, and so is every value once
+/// interrupted() is true: searches then run dry and their caller asks why.
 ///
 /// | call                       | meaning                                                                         |
 /// |----------------------------|---------------------------------------------------------------------------------|
 /// | `start()`                  | phi(0) and phi'(0) < 0                                                          |
 /// | `bound()`                  | the longest step allowed, inf without a barrier                                 |
 /// | `noise()`                  | the rounding error of a value                                                   |
-/// | `ceiling()`                | the highest value that is no rise: the lowest so far, plus noise                 |
+/// | `ceiling()`                | the highest value that is no increase: the lowest, plus noise                 |
 /// | `batch()`                  | how many values cost as much as one; 1 if they are computed one by one          |
 /// | `value(a)`, `values(a, v)` | phi at one step, at several                                                     |
 /// | `value_gradient(a)`        | phi(a), and keeps the gradient there                                            |
@@ -95,7 +95,8 @@ inline double finite_or_inf(double value) noexcept
     return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
 }
 
-/// Whether a step is so short that phi cannot change by more than rounding along it: no use to try a shorter one.
+/// Returns whether a step is so short that phi cannot change by more than rounding along it: no use to try a shorter
+/// one.
 template <line_function Line>
 bool lost_in_rounding(Line& phi, double step)
 {

@@ -6,7 +6,7 @@
 namespace taut::solve
 {
 
-/// The line searches; the first is the default.
+/// Line search methods; the first is the default.
 enum class line_search_method : int
 {
     hybrid,       ///< the paper's: full step under strong Wolfe, else bracket and Brent

@@ -27,7 +27,7 @@ public:
     using point = typename Objective::point;
     using vector = vector_of<Objective>;
 
-    /// What the line runs through, and where trials are written.
+    /// Point and direction of the line, and storage for trials.
     struct data
     {
         const point& x;
@@ -36,7 +36,7 @@ public:
         vector& gradient;
     };
 
-    /// What bounds its values and steps.
+    /// Limits of values and steps.
     struct limits
     {
         double bound;  ///< on the step
@@ -117,7 +117,7 @@ private:
         trial_step_ = a;
     }
 
-    /// After every launch: count it, and let the observer speak.
+    /// Counts an evaluation and calls the observer, after every launch.
     double note(double a, double value, int values, int gradients)
     {
         monitor_.count(values, gradients);

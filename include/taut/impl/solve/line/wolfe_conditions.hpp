@@ -52,7 +52,7 @@ public:
         return (armijo(at.step, at.value) && curvature(at.slope)) || approximate(at.value, at.slope);
     }
 
-    /// Whether the value cannot judge a step of this length: all it could change is within rounding.
+    /// Returns whether the value cannot judge a step of this length: all it could change is within rounding.
     bool blind(double step) const { return step * std::abs(start_.slope) <= blur_; }
 
 private:

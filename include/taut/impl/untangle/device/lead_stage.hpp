@@ -20,9 +20,9 @@
 namespace taut::impl
 {
 
-/// Begins with the shape at rest, moved as a whole to be near to what is held, and leads that to its places by Newton's
-/// steps with prescribed displacements: elements stay positive on the way. For handles of a body whose surface is
-/// free; it gives up where steps stick.
+/// Incremental loading: begins with the shape at rest, moved as a whole near to the fixed coordinates, and brings these
+/// to their targets by Newton's steps with prescribed displacements: elements stay positive on the way. For handles of
+/// a body whose surface is free; it gives up where steps stick.
 template <class Element>
 class lead_stage final : public untangle_stage<Element>
 {
@@ -66,7 +66,7 @@ public:
     }
 
 private:
-    /// The shape at rest, moved as a whole.
+    /// Rest shape, moved rigidly.
     static map start(const untangle_problem<Element>& problem)
     {
         map x(problem.rest.points().begin(), problem.rest.points().end());

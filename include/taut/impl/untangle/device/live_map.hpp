@@ -20,9 +20,9 @@
 namespace taut::impl
 {
 
-/// A map of a mesh on a device, with all that it takes to minimise its energy: order, tables of all levels, kernels,
-/// matrices. No vertex is pinned in the layout, so none of it knows who is held; that is a mask and can change.
-/// Vertices are in the user's order; lengths are those of the mesh.
+/// Map of a mesh on a device, with the data to minimise its energy: order, tables of all levels, kernels, matrices. No
+/// vertex is pinned in the layout: fixed coordinates are a mask, which can change. Vertices are in the user's order;
+/// lengths are those of the mesh.
 template <class Element>
 class live_map
 {
@@ -40,7 +40,7 @@ public:
         load(x);
     }
 
-    /// Takes an injective map in the place of the one at hand.
+    /// Replaces the map by an injective one.
     void load(const map& x)
     {
         centre_ = bounding_box<D>(x).centre;
@@ -49,7 +49,7 @@ public:
         objective_.upload(local, x_);
     }
 
-    /// In the user's numbers; marks: who is held, one a vertex, or none.
+    /// Replaces the constraints, in the user's numbering; marks: which coordinates are fixed, one per vertex, or none.
     void constrain(const held_marks<D>& marks, const std::vector<directed_spring<D>>& springs,
                    const std::vector<slide<D>>& slides)
     {
@@ -58,7 +58,7 @@ public:
         objective_.constrain(c);
     }
 
-    /// targets: a map of which the held coordinates are read.
+    /// targets: a map of which the fixed coordinates are read.
     void aim(const map& targets)
     {
         auto local = numbers_.apply(targets);
@@ -66,7 +66,7 @@ public:
         objective_.aim(local);
     }
 
-    /// Brings held coordinates, gap away in the worst case, to what aim() said.
+    /// Brings fixed coordinates, at most `gap` away, to the targets of aim().
     solve::impl::prescribed_report follow(double gap,
                                           const std::function<bool(const solve::impl::prescribed_report&)>& proceed)
     {
@@ -75,7 +75,7 @@ public:
         return steps_->run(x_, gap, proceed);
     }
 
-    /// With what is held where it is.
+    /// Minimises with fixed coordinates where they are.
     solve::report minimize(const solve::params& how, const observer& ask)
     {
         auto r = solve::minimize(objective_, x_, how, ask);
@@ -83,7 +83,7 @@ public:
         return r;
     }
 
-    /// Whether energies and directions are in single precision.
+    /// Returns whether energies and directions are in single precision.
     bool in_float() const { return objective_.rounding() > 1e-12; }
 
     map coordinates() const
@@ -93,7 +93,7 @@ public:
         return x;
     }
 
-    /// What coordinates() gives where the device has what `x` says, to the last bit that it can tell.
+    /// Rounds a map as coordinates() would return it from the device.
     map as_held(map x) const
     {
         for (vec<D>& p : x)

@@ -18,14 +18,14 @@
 namespace taut::impl
 {
 
-/// The regularised energy as an energy of kernels.
+/// Regularised energy as an energy of kernels.
 inline any_energy regularized_energy(double eps, double area_weight)
 {
     return any_energy(energy::regularized_element{}).with_parameters({eps, area_weight});
 }
 
-/// The plan of a problem: the mesh with the wanted shapes in place of its own, which may be flat, and the coarser
-/// levels of the mesh.
+/// Plan of a problem: the mesh with the target shapes in place of its own, which may be flat, and the coarser levels of
+/// the mesh.
 template <class Element>
 newton_plan<Element> regularized_plan(const regularized_problem<Element>& problem, lane_form form)
 {
@@ -59,8 +59,8 @@ newton_plan<Element> regularized_plan(const regularized_problem<Element>& proble
     return {layout_of(local, numbers.order, numbers.free_count), local.cells(), {}, fixed, form};
 }
 
-/// Newton's steps on a device, without a factorisation: preconditioned conjugate gradients with a multigrid V-cycle, in
-/// time that grows with the mesh.
+/// Newton's method on a device, without a factorisation: preconditioned conjugate gradients with a multigrid V-cycle,
+/// in time that grows with the mesh.
 template <class Element>
 class multigrid_newton final : public regularized_newton<Element>
 {
@@ -71,7 +71,7 @@ public:
     using typename base::map;
     using kernels = newton_kernels<Element>;
 
-    /// The kernels of all problems, in double: what is inverted is stiffer than the rest by more than float can tell.
+    /// Kernels of all problems, in double: inverted elements are stiffer than the rest by more than float resolves.
     static std::shared_ptr<const kernels> trace(const queue& q)
     {
         return std::make_shared<const kernels>(q, regularized_energy(1, 1), types_of(precision::fp64),
@@ -146,7 +146,7 @@ private:
         objective_.set_springs(this->springs);
     }
 
-    /// Values at unit * a along d_; the unit keeps a barrier's elements positive.
+    /// Values at unit * a along d_; the unit keeps the elements of a barrier positive.
     double trial_values(std::span<const double> a, std::span<double> values)
     {
         if (this->eps == 0) return objective_.capped_values(x_, d_, 0.9, a, values);

@@ -18,20 +18,20 @@
 namespace taut::impl
 {
 
-/// A mesh and its held coordinates as kernels/untangle.cl reads them: renumbered for locality, with the vertices that
-/// move first, structures of arrays of padded length.
+/// Mesh and fixed coordinates in the layout of kernels/untangle.cl: renumbered for locality, moving vertices first,
+/// structures of arrays of padded length.
 template <class Element>
 struct operator_arrays
 {
     static constexpr int D = Element::dimension;
 
     mesh_order order;            ///< between the user's numbers and these
-    std::size_t moving = 0;      ///< vertices [0, moving) have a coordinate that is not held
+    std::size_t moving = 0;      ///< vertices [0, moving) have a coordinate that is not fixed
     std::size_t cell_stride = 0; ///< with at least one cell of padding
     std::size_t vertex_stride = 0;
     lane_form form;
     buffer<idx> corners; ///< (D + 1) x cell_stride: vertex of each corner; 0 for padding
-    buffer<idx> held;    ///< vertex_stride: bits of the held coordinates; all of them for padding
+    buffer<idx> held;    ///< vertex_stride: bits of the fixed coordinates; all of them for padding
     buffer<idx> offsets; ///< of the slices of `places`
     buffer<idx> places;  ///< of the contributions to each moving vertex
 
@@ -60,7 +60,7 @@ struct operator_arrays
     range rows() const { return form.items(padded(moving, static_cast<std::size_t>(form.slice))); }
 
 private:
-    /// Lists in slices as wide as their longest; missing places are those of the last cell, which is padding.
+    /// Makes sliced lists as wide as the longest of a slice; missing entries refer to the last cell, which is padding.
     void make_lists(queue& q, const csr& around)
     {
         const auto slice = static_cast<std::size_t>(form.slice);

@@ -14,8 +14,8 @@
 namespace taut::impl
 {
 
-/// The units of the untangling operator: centred, and scaled so that the mean |det| of a map is 1. Only the values of
-/// single precision leave these units.
+/// Units of the untangling operator: centred, and scaled so that the mean |det| of a map is 1. Only values of single
+/// precision are stored in these units.
 template <int D>
 struct operator_frame
 {
@@ -57,7 +57,7 @@ struct operator_frame
     float here(double coordinate, int c) const { return static_cast<float>((coordinate - centre[c]) * scale); }
     double there(float coordinate, int c) const { return static_cast<double>(coordinate) / scale + centre[c]; }
 
-    /// A bound of what rounding the corners of an element of common size to single precision does to its det.
+    /// Bound of the change of det by rounding the corners of an element of common size to single precision.
     double rounding() const { return 4 * D * extent * static_cast<double>(std::numeric_limits<float>::epsilon()) / 2; }
 };
 

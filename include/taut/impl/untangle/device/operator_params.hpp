@@ -13,7 +13,7 @@
 namespace taut
 {
 
-/// When the untangling operator shortens its step.
+/// Step length schedules of the untangling operator.
 enum class operator_schedule
 {
     literal, ///< by half at every increase, as Algorithm 2 is printed; soon stands still (docs/explanation/numerics.md)
@@ -27,7 +27,7 @@ struct operator_params
 {
     operator_schedule schedule = operator_schedule::patience;
 
-    /// Length of the first step, and of all with the constant schedule, for which 0.1 to 0.2 is right. Range > 0.
+    /// Length of the first step, and of all with the constant schedule, which works best with 0.1 to 0.2. Range > 0.
     double delta = 0.5;
     /// Increases in a row before the step is halved, with schedule `patience`. Range >= 1.
     int patience = 10;
@@ -37,22 +37,22 @@ struct operator_params
     /// Elements with |det| below this are sheared back, the more the closer they are to flat (eq. 26); in units of the
     /// mean |det|. Little depends on it. Range > 0.
     double beta = 0.1;
-    /// Weight of the shear operator against the area operator (Fig. 10); 0 goes without. Range >= 0.
+    /// Weight of the shear operator against the area operator (Fig. 10); 0 leaves it out. Range >= 0.
     double shear = 0.3;
-    /// What det of every element is to exceed, in units of the mean |det|. A margin keeps the result from being barely
-    /// injective, and costs some of the hard problems. Elements are moved a little beyond it, for the rounding to
-    /// single precision. Range >= 0.
+    /// Lower bound that det of every element is to exceed, in units of the mean |det|. A margin keeps the result from
+    /// being barely injective, and costs some of the hard problems. Elements are moved a little beyond it, for the
+    /// rounding to single precision. Range >= 0.
     double margin = 0;
 
-    /// At most so many moves. Range >= 0.
+    /// Maximum number of moves. Range >= 0.
     int iterations = 20000;
-    /// Iterations enqueued between two looks at the state, at most: what a limit or a cancel may take longer. Range
-    /// >= 1.
+    /// Maximum number of iterations enqueued between two checks of the state, by which limits and cancellation are
+    /// delayed. Range >= 1.
     int batch = 32;
     std::chrono::duration<double> time_limit{std::numeric_limits<double>::infinity()}; ///< range >= 0
 
-    /// Asked after each batch: go on? iteration, value (sum of |det| over the inverted elements, in units of the mean),
-    /// step (delta) and seconds are set.
+    /// Callback after each batch; returning false ends the run. iteration, value (sum of |det| over the inverted
+    /// elements, in units of the mean), step (delta) and seconds are set.
     taut::observer observer;
 
     /// Throws parameter_error.
@@ -82,7 +82,7 @@ private:
     }
 };
 
-/// Why a run of the operator ended; the best map is kept in each case.
+/// Reasons for the end of a run of the operator; the best map is kept in each case.
 enum class operator_stop
 {
     untangled,  ///< no element is inverted, in exact arithmetic

@@ -12,8 +12,8 @@
 namespace taut::impl
 {
 
-/// The untangling operator on the device (paper, Algorithm 2), from the best map so far; a further round goes on with
-/// another schedule.
+/// Untangling operator on the device (paper, Algorithm 2), from the best map so far; further rounds use another
+/// schedule.
 template <class Element>
 class operator_stage final : public untangle_stage<Element>
 {

@@ -15,8 +15,8 @@
 namespace taut::impl
 {
 
-/// One iteration of the topological operators (paper, Algorithm 2, lines 3 to 7), on the host and in double: what the
-/// kernels of untangle_operator are held against.
+/// One iteration of the topological operators (paper, Algorithm 2, lines 3 to 7), on the host and in double: the
+/// reference for the kernels of untangle_operator.
 ///
 /// Vertices of elements with det <= margin move along the gradient of +det, which is what the right sides of eqs. 23
 /// and 24 are, and away from shear (Fig. 10). The sum is over those elements alone: over all elements around an inner
@@ -55,7 +55,7 @@ struct operator_step
     }
 
     /// The sum of margin - det over the elements that would move. It is the objective (eq. 22); and where the boundary
-    /// is held, sum |det| of Algorithm 2 is twice this plus a constant, of which single precision would see nothing
+    /// is fixed, sum |det| of Algorithm 2 is twice this plus a constant, of which single precision would see nothing
     /// else.
     double value(const mesh<Element>& m, const std::vector<vec<D>>& x) const
     {
@@ -69,7 +69,7 @@ struct operator_step
         return sum;
     }
 
-    /// Where corner k should go: the gradient of det and, if the foot of the corner is outside of the opposite facet,
+    /// Direction of corner k: the gradient of det and, if the foot of the corner is outside of the opposite facet,
     /// `factor` times a vector of the same length along the facet, towards its middle. In space both are brought to a
     /// fifth of the square root of their length: a length again and not an area, or large elements overshoot and the
     /// map blows up; and a vertex has some five times as many elements as in the plane.

@@ -25,11 +25,11 @@
 namespace taut::impl
 {
 
-/// What a run of the untangling operator ended with.
+/// Result of a run of the untangling operator.
 template <int D>
 struct operator_result
 {
-    std::vector<vec<D>> map; ///< the state with the fewest inverted elements; held coordinates are those of the problem
+    std::vector<vec<D>> map; ///< map with the fewest inverted elements; fixed coordinates are those of the problem
     operator_stop why = operator_stop::iterations;
     int iterations = 0;              ///< moves made
     int best_iteration = 0;          ///< how many of them lead to the map
@@ -45,9 +45,8 @@ struct operator_result
 /// Untangles a map by topological operators on the device, in single precision (paper, section 3.3, Algorithm 2):
 /// all vertices of inverted elements move at once along the gradient of +det, by a step that shrinks by a schedule and
 /// not by a line search. It is quick where it works, never proves that a problem has no solution, and leaves the map
-/// barely injective: an energy with a barrier is to follow.
-///
-/// Three launches an iteration; the host waits once in params.batch of them. Device memory, in numbers of 4 bytes:
+/// barely injective: a barrier energy should be minimised afterwards. Three launches per iteration; the host waits once
+/// in params.batch of them. Device memory, in numbers of 4 bytes:
 /// (D + 1)(D + 2) an element, or a little more, and 2 D + 1 a vertex.
 template <class Element>
 class untangle_operator
@@ -61,7 +60,7 @@ public:
     {
     }
 
-    /// With the kernels in another form than the one that suits the device.
+    /// Makes the kernels in a given form rather than the one that suits the device.
     untangle_operator(queue q, const untangle_problem<Element>& problem, lane_form form)
         : problem_((problem.validate(), problem)),
           queue_(std::move(q)),
@@ -84,9 +83,9 @@ public:
         move_ = {queue_, source, "untangle_move", options};
     }
 
-    /// Untangles `start`, one point a vertex in the user's order, whose held coordinates are those of the problem
-    /// whatever it says. Throws parameter_error for parameters out of range and for a start of another size or with
-    /// points that are not finite. The same input gives the same output on a device.
+    /// Untangles `start`, one point per vertex in the user's order, whose fixed coordinates are replaced by those of
+    /// the problem. Throws parameter_error for parameters out of range and for a start of another size or with points
+    /// that are not finite. The same input gives the same output on a device.
     operator_result<D> run(const std::vector<vec<D>>& start, const operator_params& params = {})
     {
         params.validate();
@@ -199,7 +198,7 @@ private:
         return local;
     }
 
-    /// The best map in the user's numbers; coordinates that stand where they stood at first are those of `from`.
+    /// Best map in the user's numbering; coordinates that have not moved are those of `from`, bit for bit.
     std::vector<vec<D>> to_user(const std::vector<vec<D>>& from, const std::vector<float>& first,
                                 const operator_frame<D>& frame) const
     {
@@ -215,7 +214,7 @@ private:
         return x;
     }
 
-    /// Iterates until the device says why it stops, or a limit or the observer does.
+    /// Iterates until the device reports a reason to stop, or a limit is reached, or the observer returns false.
     operator_stop iterate(const operator_params& params, double margin, double goal, budget& limits,
                           std::array<idx, state_size>& state)
     {

@@ -21,17 +21,17 @@
 #include <taut/impl/untangle/proofs/infeasibility.hpp>
 #include <taut/impl/untangle/proofs/side_view.hpp>
 
-/// Whether an edge inside has a direction for which the tetrahedra around it can be positive.
+/// Proof test: whether an inner edge has a direction for which the tetrahedra around it can be positive.
 namespace taut::impl
 {
 
-/// The same corners, the other orientation.
+/// Returns the same corners with the opposite orientation.
 inline side_view::tetra mirrored(const side_view::tetra& t)
 {
     return {t[1], t[0], t[2], t[3]};
 }
 
-/// What the corners q around an edge of four positive tetrahedra can be seen from u, one of its ends: sets of
+/// Cases of the corners q around an edge of four positive tetrahedra as seen from u, one of its ends: sets of
 /// tetrahedra of one of which all are positive. Either the two on one of the diagonals of q are, or three of the four
 /// on diagonals are negative. For let w be the other end, and let weights m, by sign those of [q1 q2 q3], -[q0 q2 q3],
 /// [q0 q1 q3], -[q0 q1 q2], make the sum of the q - u vanish. So do they in the plane across w - u, where the q run
@@ -46,7 +46,7 @@ inline std::vector<std::vector<side_view::tetra>> cases_around(idx u, const std:
     return {{a, b}, {c, d}, {not_a, not_b, not_c}, {not_a, not_b, not_d}, {not_c, not_d, not_a}, {not_c, not_d, not_b}};
 }
 
-/// Polynomials of an edge and a third vertex that are all to be positive.
+/// Polynomials of an edge and a third vertex, all to be positive.
 class place_system
 {
 public:
@@ -62,7 +62,7 @@ public:
         if (f.degree == 2) bilinear_.push_back(&f);
     }
 
-    /// Leaves out linear forms that follow from others.
+    /// Removes linear forms that follow from others.
     void thin()
     {
         for (std::size_t i = 0; i < linear_.size();)
@@ -73,7 +73,7 @@ public:
         }
     }
 
-    /// A sum of linear ones, but for rounding.
+    /// Vanishing sum of linear forms, up to rounding.
     bool follows(const place_form& f) const
     {
         std::vector<std::vector<double>> columns;
@@ -149,7 +149,7 @@ private:
     std::vector<std::vector<double>> witnesses_;
 };
 
-/// The search for a contradiction around one edge, seen from one side.
+/// Search for a contradiction around one edge, as seen from one side.
 class crowded_edge
 {
 public:
@@ -195,7 +195,7 @@ public:
                 if (u != w) divide(p, around, u, w);
     }
 
-    /// True if there is a proof, of at most so many cases, before proceed() is false.
+    /// Returns whether there is a proof, of at most so many cases, before proceed() returns false.
     bool prove(int cases, std::function<bool()> proceed)
     {
         cases_ = cases;
@@ -308,7 +308,7 @@ private:
         return false;
     }
 
-    /// One for each third vertex, of what concerns it and the edge; of the edge alone if there is none.
+    /// One system for each third vertex, with the facts about it and the edge; of the edge alone if there is none.
     std::vector<place_system> systems_of(const std::vector<tetra>& facts)
     {
         std::vector<place_system> systems(std::max<std::size_t>(thirds_.size(), 1), place_system(known_));
@@ -330,8 +330,8 @@ private:
     std::function<bool()> proceed_;
 };
 
-/// The flat sides of a mesh all of whose outline is pinned. Inner vertices of a map of positive elements lie within:
-/// points beyond, which the outline does not wind about, are not covered, and all around an inner vertex are.
+/// Finds the flat sides of a mesh whose outline is pinned as a whole. Inner vertices of a map of positive elements lie
+/// within: points beyond, which the outline does not wind about, are not covered, and all around an inner vertex are.
 inline std::vector<flat_side> flat_sides(const untangle_problem<tetrahedron>& p)
 {
     std::vector<flat_side> sides;
@@ -353,8 +353,8 @@ inline std::vector<flat_side> flat_sides(const untangle_problem<tetrahedron>& p)
     return sides;
 }
 
-/// Looks for an edge of these tetrahedra, both of its ends free, that has no direction in which what lies around it,
-/// seen from a flat side of the outline, can be positive.
+/// Searches for an edge of these tetrahedra, both of its ends free, that has no direction in which its tetrahedra, seen
+/// from a flat side of the outline, can be positive.
 inline void judge_edges(const untangle_problem<tetrahedron>& p, std::span<const idx> cells,
                         const std::function<bool()>& proceed, infeasibility& found)
 {

@@ -12,7 +12,7 @@
 
 #include <taut/impl/exact/predicates.hpp>
 
-/// Whether a free vertex has a place where all its triangles with two pinned corners are positive.
+/// Proof test: whether a free vertex has a position where all its triangles with two pinned corners are positive.
 namespace taut::impl
 {
 
@@ -77,7 +77,7 @@ inline bool contradict(const half_plane& f, const half_plane& g, const half_plan
     return determinant_sign(f, g, h) * (*least + *most > 0 ? 1 : -1) <= 0;
 }
 
-/// contradict() as far as floating point sees it; true where it is unsure.
+/// Floating-point filter of contradict(); true where it is unsure.
 inline bool may_contradict(const half_plane& f, const half_plane& g, const half_plane& h)
 {
     constexpr double tolerance = 1e-9;
@@ -92,7 +92,7 @@ inline bool may_contradict(const half_plane& f, const half_plane& g, const half_
     return !(*least < 0 && *most > 0);
 }
 
-/// What is left of a convex polygon in the closed half-plane.
+/// Clips a convex polygon to the closed half-plane.
 inline std::vector<vec2> clip(std::span<const vec2> polygon, const half_plane& h)
 {
     std::vector<vec2> kept;
@@ -106,8 +106,8 @@ inline std::vector<vec2> clip(std::span<const vec2> polygon, const half_plane& h
     return kept;
 }
 
-/// Three half-planes without a common point, as numbers, or nothing if there are none or none were found. What is found
-/// is exact. By Helly's theorem three suffice; clipping in floating point tells when to look for them.
+/// Finds three half-planes without a common point, as numbers, or none. The result is exact. By Helly's theorem three
+/// suffice; clipping in floating point tells when to search for them.
 inline std::optional<std::array<std::size_t, 3>> find_contradiction(std::span<const half_plane> planes)
 {
     constexpr std::size_t most = 2000; // clipping takes the square of their number

@@ -14,8 +14,8 @@
 namespace taut::impl
 {
 
-/// True if what is held makes an element flat, wherever its free coordinates go: all corners share a held coordinate,
-/// two pinned corners coincide, or three pinned corners of a tetrahedron lie on a line.
+/// True if fixed coordinates make an element flat for any values of its free coordinates: all corners share a fixed
+/// coordinate, two pinned corners coincide, or three pinned corners of a tetrahedron lie on a line.
 template <class Element>
 bool held_flat(const untangle_problem<Element>& p, const typename mesh<Element>::cell& cell)
 {
@@ -72,10 +72,13 @@ void judge_elements(const untangle_problem<Element>& p, infeasibility& found)
     found.prove(infeasibility_kind::inverted_element, std::move(inverted),
                 [&](const auto& ids)
                 { return cells(ids) + " with all vertices pinned, flipped or flat; move or free a vertex of each"; });
-    found.prove(
-        infeasibility_kind::flat_element, std::move(flat),
-        [&](const auto& ids)
-        { return cells(ids) + " that what is held makes flat wherever the rest goes; move or free a vertex of each"; });
+    found.prove(infeasibility_kind::flat_element, std::move(flat),
+                [&](const auto& ids)
+                {
+                    return cells(ids) +
+                           " that fixed coordinates make flat wherever the others go; move or free a vertex "
+                           "of each";
+                });
 }
 
 } // namespace taut::impl

@@ -10,11 +10,11 @@
 namespace taut
 {
 
-/// Why pins admit no map of positive elements. The comment says what the ids of a finding are.
+/// Kinds of proof that pins admit no map of positive elements. The comment says what the ids of a finding are.
 enum class infeasibility_kind
 {
     inverted_element, ///< elements with all vertices pinned, of negative or no measure
-    flat_element,     ///< elements that held coordinates make flat, whatever the others are
+    flat_element,     ///< elements that fixed coordinates make flat, whatever the others are
     empty_star,       ///< a free vertex and three triangles around it that contradict each other; four ids each
     wound_star,       ///< pinned inner vertices whose neighbours are pinned and run around them more than once
     outline_measure,  ///< vertices of a pinned outline of negative or no area (in order) or volume (three a face)
@@ -28,7 +28,7 @@ enum class infeasibility_kind
     not_globally_injective
 };
 
-/// A word for programs.
+/// Stable identifier of a kind, for programs.
 constexpr const char* to_string(infeasibility_kind kind)
 {
     switch (kind)
@@ -64,7 +64,7 @@ constexpr const char* to_string(infeasibility_kind kind)
 namespace taut::impl
 {
 
-/// One proof, or one warning, with everything it concerns, and a sentence for people with the remedy.
+/// One proof or warning, with the ids it concerns, and a sentence with the remedy.
 struct infeasibility_finding
 {
     infeasibility_kind kind;
@@ -77,11 +77,11 @@ struct infeasibility_finding
 namespace taut
 {
 
-/// What can be said about pins before anything is solved.
+/// Proof that pins are infeasible, found before anything is solved.
 struct infeasibility
 {
     std::vector<impl::infeasibility_finding> proofs;   ///< each is enough: no map is locally injective
-    std::vector<impl::infeasibility_finding> warnings; ///< what a map with these pins cannot be, though it may exist
+    std::vector<impl::infeasibility_finding> warnings; ///< properties that no map with these pins has
 
     /// True if infeasibility is proved.
     explicit operator bool() const { return !proofs.empty(); }

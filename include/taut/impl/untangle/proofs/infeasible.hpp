@@ -122,12 +122,12 @@ inline void judge_places(const untangle_problem<triangle>& p, const facet_table&
 namespace taut
 {
 
-/// Proofs that no map with these held coordinates is locally injective, found without solving, in exact
-/// arithmetic: none is ever wrong. Where there is none the problem may be feasible or not. Near-linear time: searches
-/// that would take longer are cut short. Throws parameter_error as validate() does.
+/// Searches for a proof that no map with these fixed coordinates is locally injective, without solving, in exact
+/// arithmetic. Where none is found the problem may be feasible or not. Near-linear time: searches that would take
+/// longer are cut short. Throws parameter_error as validate() does.
 ///
-/// The proofs. An element with all corners held has the determinant that it has. The sum of the determinants within a
-/// pinned outline is the area or volume that the outline encloses, and has to be positive. A surface of positive
+/// The proofs. The determinant of an element with all corners fixed does not change. The sum of the determinants within
+/// a pinned outline is the area or volume that the outline encloses, and has to be positive. A surface of positive
 /// triangles covers each point as often as its outline winds about it (the degree of the map), so no winding number is
 /// negative; and with angles in (0, 2 pi] at the outline, which are the least, and multiples of 2 pi inside, the
 /// theorem of Gauss and Bonnet says that the outline turns at least chi times. An inner vertex is covered, so its

@@ -18,14 +18,14 @@
 namespace taut::impl
 {
 
-/// Edges, faces and cells to split, cells first and edges last, so that what cannot be may become possible.
+/// Edges, faces and cells to split, cells first and edges last, so that an infeasible problem may become feasible.
 struct mending_splits
 {
     std::vector<std::vector<idx>> simplices; ///< vertices ascending
     std::string obstacle;                    ///< the proof that no split inside the mesh refutes; empty: there is none
 };
 
-/// Simplices of a mesh that may be split: those inside, as the boundary is the user's.
+/// Simplices of a mesh that may be split: inner ones, as the boundary is not changed.
 template <class Element>
 class inner_simplices
 {
@@ -41,7 +41,7 @@ public:
         }
     }
 
-    /// Notes a simplex to be split. False if it lies on the boundary, or is none of the mesh.
+    /// Adds a simplex to be split. Returns false if it lies on the boundary, or is none of the mesh.
     bool split(std::vector<idx> simplex)
     {
         std::sort(simplex.begin(), simplex.end());
@@ -50,7 +50,7 @@ public:
         return true;
     }
 
-    /// The edges among these vertices that pass `take(a, b)`; how many.
+    /// Adds the edges among these vertices that pass `take(a, b)`; returns their number.
     template <class Take>
     std::size_t split_edges(std::span<const idx> vertices, const Take& take)
     {
@@ -63,7 +63,7 @@ public:
 
     const csr& around() const { return around_; } ///< cells of vertices
 
-    /// What was noted, cells first.
+    /// Takes the collected splits, cells first.
     std::vector<std::vector<idx>> take() const
     {
         std::vector<std::vector<idx>> all(chosen_.begin(), chosen_.end());
@@ -89,7 +89,7 @@ private:
     std::set<std::vector<idx>> outer_, chosen_;
 };
 
-/// An element that held corners make flat or turn over: its edges inside between them, or else its facets.
+/// Splits an element that fixed corners make flat or invert: its inner edges between them, or else its facets.
 template <class Element>
 bool split_element(const untangle_problem<Element>& p, idx c, inner_simplices<Element>& inner)
 {
@@ -107,7 +107,7 @@ bool split_element(const untangle_problem<Element>& p, idx c, inner_simplices<El
     return any;
 }
 
-/// A vertex that its held neighbours leave no place, or wind about: its edges to them.
+/// Splits the edges of a vertex to its fixed neighbours, which leave it no position, or wind about it.
 template <class Element>
 bool split_star(const untangle_problem<Element>& p, idx v, inner_simplices<Element>& inner)
 {
@@ -122,7 +122,7 @@ bool split_star(const untangle_problem<Element>& p, idx v, inner_simplices<Eleme
     return count > 0;
 }
 
-/// Whether splits were found against a proof.
+/// Returns whether splits were found against a proof.
 template <class Element>
 bool split_against(const untangle_problem<Element>& p, const infeasibility_finding& proof,
                    inner_simplices<Element>& inner)
@@ -173,10 +173,10 @@ bool split_against(const untangle_problem<Element>& p, const infeasibility_findi
     return false;
 }
 
-/// What to split so that these proofs hold no more: edges inside between vertices that are held, of the elements that
-/// they turn over or make flat, of outlines and of pairs that cross; faces where no such edge is inside; edges from a
-/// vertex without a place to its held neighbours. New vertices are free, so nothing on the boundary is split: what a
-/// pinned boundary proves by itself stays proved, and is the obstacle.
+/// Finds splits that invalidate these proofs: inner edges between fixed vertices, of the elements that they invert or
+/// make flat, of outlines and of crossing pairs; faces where there is no such edge; edges from a vertex without a valid
+/// position to its fixed neighbours. New vertices are free, so nothing on the boundary is split: a proof from the
+/// pinned boundary alone remains, and is the obstacle.
 template <class Element>
 mending_splits splits_against(const untangle_problem<Element>& problem, const infeasibility& found)
 {
@@ -188,9 +188,8 @@ mending_splits splits_against(const untangle_problem<Element>& problem, const in
     return result;
 }
 
-/// What to split around elements that no map was found for: the edges inside between held vertices, which straight as
-/// they are may leave no room, of all elements that touch these; where there are none the longest edge inside of each
-/// in the map.
+/// Finds splits around elements that stayed inverted: the inner edges between fixed vertices, which as straight edges
+/// may leave no room, of all elements that touch these; without any, the longest inner edge of each in the map.
 template <class Element>
 mending_splits splits_around(const untangle_problem<Element>& problem, std::span<const idx> cells)
 {

@@ -41,8 +41,8 @@ inline std::vector<std::array<idx, 2>> outline_edges(const mesh<triangle>& m, co
     return edges;
 }
 
-/// How often the outline turns, counted with the smallest angles that a surface can have at its vertices; nothing if an
-/// edge has no length.
+/// Turning number of the outline, counted with the smallest angles that a surface can have at its vertices; nothing if
+/// an edge has no length.
 inline std::optional<long long> turning_number(const mesh<triangle>& m, const facet_table& cut,
                                                const pinned_patch& patch, std::span<const vec2> x)
 {
@@ -58,7 +58,7 @@ inline std::optional<long long> turning_number(const mesh<triangle>& m, const fa
     return std::llround(sum / (2 * std::numbers::pi));
 }
 
-/// Patches that no map fills with positive elements.
+/// Finds patches that no map of positive elements has.
 template <class Element>
 void judge_patches(const untangle_problem<Element>& p, const facet_table& f, infeasibility& found)
 {

@@ -14,8 +14,8 @@
 namespace taut::impl
 {
 
-/// The components of an oriented surface whose boundaries are pinned altogether: how often a map of positive triangles
-/// covers a point is known there, as the winding number of the boundary.
+/// Components of an oriented surface with entirely pinned boundaries: the number of times that a map of positive
+/// triangles covers a point is known there, as the winding number of the boundary.
 struct pinned_boundaries
 {
     struct component
@@ -27,7 +27,7 @@ struct pinned_boundaries
     };
     std::vector<component> components;
     std::vector<idx> of_vertex;    ///< number of the component; -1: not pinned, or no boundary
-    std::vector<char> on_boundary; ///< one a vertex
+    std::vector<char> on_boundary; ///< one per vertex
 
     /// True if both edges lie in one component where no point is covered twice.
     bool exclusive(const std::array<idx, 2>& e, const std::array<idx, 2>& f) const
@@ -79,8 +79,8 @@ inline pinned_boundaries find_pinned_boundaries(const untangle_problem<triangle>
     return b;
 }
 
-/// Pinned vertices inside a surface that lie where its pinned boundary leaves no room: not to be covered, or on a
-/// simple boundary itself. An image of an inner vertex is covered, and so are all points around it.
+/// Finds pinned inner vertices that lie outside of the pinned boundary, or on a simple one. The image of an inner
+/// vertex is covered, and so are all points around it.
 inline std::vector<idx> vertices_outside(const untangle_problem<triangle>& p, const pinned_boundaries& b)
 {
     std::vector<idx> outside;

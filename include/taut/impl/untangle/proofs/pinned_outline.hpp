@@ -14,11 +14,11 @@
 #include <taut/impl/exact/crossings.hpp>
 #include <taut/impl/exact/exact_sum.hpp>
 
-/// What the image of a pinned outline says about all maps that have it.
+/// Consequences of the image of a pinned outline for all maps that have it.
 namespace taut::impl
 {
 
-/// Twice the area (six times the volume) that an outline encloses, by the sign exact: the sum of the determinants of
+/// Twice the area (six times the volume) that an outline encloses, with an exact sign: the sum of the determinants of
 /// all elements inside, whatever the free vertices do.
 template <int D>
 orientation enclosed(std::span<const std::array<idx, D>> outline, std::span<const vec<D>> x)
@@ -60,7 +60,7 @@ inline double exterior_angle(const vec2& a, const vec2& b, const vec2& c)
     return std::abs(angle) > pi / 2 ? std::copysign(angle, turn) : angle;
 }
 
-/// How often the outline winds about q; nothing if q lies on it. Exact.
+/// Winding number of the outline about q; nothing if q lies on it. Exact.
 inline std::optional<int> winding_number(std::span<const std::array<idx, 2>> outline, std::span<const vec2> x,
                                          const vec2& q)
 {
@@ -77,15 +77,15 @@ inline std::optional<int> winding_number(std::span<const std::array<idx, 2>> out
     return winding;
 }
 
-/// A point about which an outline winds less than 0 times.
+/// Point with a negative winding number of the outline.
 struct negative_winding
 {
     vec2 point;
     int winding;
 };
 
-/// Looks for such a point: to the right of both edges at each crossing, where the winding number is least, and right of
-/// each edge that overlaps another one. What is found is exact; floating point only chooses where to look.
+/// Searches for such a point: to the right of both edges at each crossing, where the winding number is minimal, and
+/// right of each edge that overlaps another one. The result is exact; floating point only chooses the candidates.
 inline std::optional<negative_winding> find_negative_winding(std::span<const std::array<idx, 2>> outline,
                                                              std::span<const vec2> x)
 {

@@ -13,8 +13,8 @@
 namespace taut::impl
 {
 
-/// A connected part of a mesh whose outline is pinned altogether. Whatever the free vertices do, the image of the
-/// outline is known, and so is what the mapped cells of the patch sum up to.
+/// Connected part of a mesh with an entirely pinned outline. The image of the outline is known, and so is the sum of
+/// the signed measures of the mapped cells.
 struct pinned_patch
 {
     std::vector<idx> outline; ///< sides, ascending: facets of the cut mesh with one cell
@@ -63,8 +63,8 @@ void for_each_closed_fan(const mesh<triangle>& m, const facet_table& cut, const 
     }
 }
 
-/// The patches with a pinned outline and more than one cell in the cut mesh, in the order of their first cells. A cell
-/// whose vertices are all pinned is a patch that its own determinant judges, so it is left out.
+/// The patches with a pinned outline and more than one cell in the cut mesh, in the order of their first cells. Cells
+/// whose vertices are all pinned are left out: their determinants decide.
 template <class Element>
 std::vector<pinned_patch> pinned_patches(const untangle_problem<Element>& p, const facet_table& f,
                                          const facet_table& cut)

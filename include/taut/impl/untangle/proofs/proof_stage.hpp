@@ -15,7 +15,7 @@
 namespace taut::impl
 {
 
-/// Looks around the last few inverted elements for a proof that there is no map (proofs/crowded_edge.hpp).
+/// Searches around the last few inverted elements for a proof that there is no map (proofs/crowded_edge.hpp).
 class proof_stage final : public untangle_stage<tetrahedron>
 {
 public:

@@ -17,7 +17,7 @@
 namespace taut::impl
 {
 
-/// A flat side of a pinned outline: the pinned vertices of one coordinate, none of which lies beyond.
+/// Flat side of a pinned outline: the pinned vertices of one coordinate, beyond which there are none.
 struct flat_side
 {
     int axis = 0;
@@ -25,8 +25,8 @@ struct flat_side
     int inward = 1; ///< the sign of what the others have more
 };
 
-/// What a positive tetrahedron asks of the places of an edge and a third vertex: a polynomial of degree 1 or 2 without
-/// other terms is positive. Exact but for a positive factor, and rounded.
+/// Condition of a positive tetrahedron on the positions of an edge and a third vertex: a polynomial of degree 1 or 2
+/// without other terms is positive. Exact but for a positive factor, and rounded.
 struct place_form
 {
     int degree = 0; ///< 0: none that is of use
@@ -88,7 +88,7 @@ public:
         return found;
     }
 
-    /// What it asks if it is to be positive. Of degree 0 where it has not one or two corners on the side.
+    /// Condition for a tetrahedron to be positive. Of degree 0 unless it has one or two corners on the side.
     const place_form& form(const tetra& t)
     {
         const auto [at, added] = forms_.try_emplace(t);
