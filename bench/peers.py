@@ -133,7 +133,7 @@ def main():
                 row = {"kind": kind, "mesh": mesh.stem, "triangles": len(F), "peer": peer,
                        **{k: v for k, v in made.items() if k != "out"}}
                 if "out" in made:
-                    row.update(judge.judge(V, F, judge.load(made["out"])))
+                    row.update(judge.judge(*judge.load(made["out"])))
                     shutil.rmtree(made["out"].parent)
                 if mesh == meshes[-1] and row.get("seconds", 0) > 0.5:
                     row["interrupt"] = run_peer(python, peer, mesh, given.limit, 0.4 * row["seconds"])

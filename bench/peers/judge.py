@@ -23,8 +23,14 @@ def read_off(path):
 
 
 def load(path):
-    """Coordinates by corner, (m, 3, 2)."""
-    return np.load(path)["corner_uv"].astype(float)
+    """Vertices and triangles that a peer leaves, mostly those that it got, and coordinates by corner, (m, 3, 2)."""
+    made = np.load(path)
+    V, F = made["V"].astype(float), made["F"].astype(int)
+    # Vertices that were parted at seams are one again: those at one place.
+    place = np.unique(V, axis=0, return_inverse=True)[1].reshape(-1)
+    first = np.full(place.max() + 1, len(V))
+    np.minimum.at(first, place, np.arange(len(V)))
+    return V, first[place][F], made["corner_uv"].astype(float)
 
 
 def edges(F):

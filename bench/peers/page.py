@@ -64,7 +64,7 @@ def write(path, rows, command, machine, cores):
 
 `{' '.join(['bench/peers.py', *command[1:]])}` made this page, in one run on {cores} cores of {machine}. Each row is one process; seconds are those of the
 call, once, with its kernels compiled before where there are any; MB is the peak of the process. What is made is judged by `bench/peers/judge.py`, in which no package has a part. Meshes are of Debian's
-`libcgal-demo`. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
+`libcgal-demo`. A peer that leaves another mesh is judged on that one. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
 
 * *seam*: length of the edges that are cut, by the root of the area. *E*: area mean of |S|² (1 + 1/det²) at one common scale, 4 without distortion.
 * *flips*: triangles turned over within their chart. *overlap*: the part of what is covered that is covered twice, of 2048² points; less than a few 0.001 % may be rounding.

@@ -74,14 +74,15 @@ def meshlab(run_filter):
 
 
 def filtered(name):
-    """Coordinates by corner after a filter of MeshLab, which may leave another mesh."""
+    """Coordinates by corner after a filter of MeshLab, and the mesh that it leaves, which may be another one."""
     def run_filter(meshes):
         getattr(meshes, name)()
         meshes.set_current_mesh(meshes.mesh_number() - 1)
         made = meshes.current_mesh()
-        if made.has_wedge_tex_coord():
-            return made.wedge_tex_coord_matrix().reshape(-1, 3, 2)
-        return made.vertex_tex_coord_matrix()[made.face_matrix()]
+        faces = made.face_matrix()
+        uv = made.wedge_tex_coord_matrix().reshape(-1, 3, 2) if made.has_wedge_tex_coord() \
+            else made.vertex_tex_coord_matrix()[faces]
+        return uv, made.vertex_matrix(), faces
     return run_filter
 
 
@@ -234,7 +235,8 @@ def main():
     seconds = time.perf_counter() - start
     status = pathlib.Path("/proc/self/status").read_text()  # unlike getrusage() it forgets the parent at exec
     peak = int(status.split("VmHWM:")[1].split()[0]) / 1024
-    np.savez(out, corner_uv=uv)
+    uv, V, F = uv if isinstance(uv, tuple) else (uv, V, F)
+    np.savez(out, corner_uv=uv, V=V, F=F)
     pathlib.Path(out + ".json").write_text(json.dumps({"seconds": seconds, "megabytes": peak, "version": version}))
 
 

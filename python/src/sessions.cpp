@@ -225,7 +225,8 @@ void add_session(nb::module_& m, const char* name, const char* snapshot)
         .def("snapshot", &open::snapshot)
         .def("restore", &open::restore)
         .def("x", &open::x)
-        .def("solve", &open::solve, nb::arg("seconds"), nb::arg("steps"), nb::arg("progress").none(), nb::arg("watched"));
+        .def("solve", &open::solve, nb::arg("seconds"), nb::arg("steps"), nb::arg("progress").none(),
+             nb::arg("watched"));
 }
 
 } // namespace
