@@ -29,6 +29,10 @@ def _corner_uv(name: str, value: Any, faces: Any, vertices: int) -> Any:
 
 
 @overload
+#: Numbers of `prefer="packing"` that few have a reason to set.
+_TUNING = ("least_fill", "cut_rounds", "unite_rounds")
+
+
 def atlas(V: ArrayLike, F: ArrayLike, **options: Any) -> Atlas: ...
 @overload
 def atlas(V: list[tuple[Any, Any]], F: None = ..., **options: Any) -> list[Atlas]: ...
@@ -41,6 +45,7 @@ def atlas(
     polygons: ArrayLike = None,
     uv: ArrayLike = None,
     charts: str = "auto",
+    prefer: str = "seams",
     seams: ArrayLike = None,
     parts: ArrayLike = None,
     pinned: ArrayLike = None,
@@ -73,6 +78,8 @@ def atlas(
         Texture coordinates of before, for `charts="keep"` and `pinned`.
     charts : {"auto", "keep"}
         Charts are made, or are what `seams` and `parts` part; these are flattened from `uv`, if given, and packed.
+    prefer : {"seams", "packing", "one"}
+        Few charts along short seams; more charts that fill squares well; or one chart a component, where it can be.
     seams : (k, 2) array-like of int, optional
         Edges that are seams in any case.
     parts : (m,) array-like of int, optional
@@ -108,8 +115,11 @@ def atlas(
     >>> bool((V[vmapping][faces] == V[[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]]).all())
     True
     """
+    for name in more:
+        if name not in _TUNING:
+            raise TypeError(f"atlas() got an unexpected keyword argument {name!r}")
     if F is None:
-        return _several(V, resolution=resolution, padding=padding, tiles=tiles, rotate=rotate, repair=repair,
+        return _several(V, prefer=prefer, resolution=resolution, padding=padding, tiles=tiles, rotate=rotate, repair=repair,
                         max_distortion=max_distortion, mean_distortion=mean_distortion, weld=weld, single=single,
                         time_limit=time_limit, progress=progress, device=device, **more)
     points = _arrays.points("V", V, (2, 3), nan=True) if repair else _arrays.points("V", V, (2, 3))
@@ -117,6 +127,7 @@ def atlas(
     m = len(faces)
     options: dict[str, Any] = {
         "charts": charts,
+        "prefer": prefer,
         "symmetric": symmetric,
         "max_distortion": max_distortion,
         "mean_distortion": mean_distortion,
