@@ -146,8 +146,8 @@ def closed_surfaces():
         s = stats("s.json")
         use = judge(f"{name}.out.obj", points, faces)
         assert abs(use - s["utilization"]) < 0.02, (use, s["utilization"])
-        assert s["utilization"] > 0.4 and 4 <= s["distortion"] <= 4.05 and s["worst_distortion"] <= 4.21
-        assert s["charts"] == len(s["chart_table"]) < len(faces) / 10, s["charts"]
+        assert s["utilization"] > 0.3 and 4 <= s["distortion"] <= 4.1, (s["utilization"], s["distortion"])
+        assert s["charts"] == len(s["chart_table"]) <= 4, s["charts"]
         assert pathlib.Path("s.json").read_text().count('\n    {"triangles": ') == s["charts"], "a chart a line"
         assert sum(c["triangles"] for c in s["chart_table"]) == len(faces)
         assert s["least_distance"] >= s["padding"] * (1 - 1e-9)
@@ -155,6 +155,11 @@ def closed_surfaces():
         again = run("atlas", f"{name}.obj", "-o", "again.obj", "--quiet")
         assert again.stdout == "" and pathlib.Path("again.obj").read_bytes() == \
             pathlib.Path(f"{name}.out.obj").read_bytes(), "not the same twice"
+        run("atlas", f"{name}.obj", "-o", "packed.obj", "--prefer", "packing", "--stats", "p.json")
+        p = stats("p.json")
+        judge("packed.obj", points, faces)
+        assert p["utilization"] > 0.4 and 4 <= p["distortion"] <= 4.05 and p["worst_distortion"] <= 4.21
+        assert p["seam_length"] > s["seam_length"] and p["charts"] < len(faces) / 10, p["charts"]
 
 
 def parts_holes_and_padding():

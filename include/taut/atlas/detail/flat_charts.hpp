@@ -80,9 +80,11 @@ protected:
     }
 
     /// All charts at once. steps: of each, at most
-    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps)
+    /// exactly: to the limit of rounding, nearly, so that what can be flat is
+    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps, bool exactly = false)
     {
         auto params = params_.flattening;
+        if (exactly) params.tolerance = std::min(params.tolerance, 1e-9);
         params.max_iterations = std::min(params.max_iterations, steps);
         params.initial = initial;
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
@@ -213,6 +215,9 @@ protected:
         if (!report_.complete) return;
         if (!best->holds) keep_apart(best->bad);
         if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
+        best->bad.resize(energy_.size(), 0);
+        for (std::size_t k = 0; k < energy_.size(); ++k)
+            if (!(energy_[k] <= params_.charts.max_distortion)) best->bad[k] = 1;
         if (std::count(best->bad.begin(), best->bad.end(), char(1)) > 0) mend_rest(best->bad);
     }
 
@@ -251,7 +256,7 @@ protected:
         straighten(mesh_, facets_, seam_, params_.charts.seams, params_.charts.together, limits, cutting.prices(),
                    {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
         charts_.emplace(cut_charts(mesh_, facets_, seam_));
-        auto flat = flatten(*charts_, {}, std::numeric_limits<int>::max());
+        auto flat = flatten(*charts_, {}, std::numeric_limits<int>::max(), true);
         energy_.clear();
         for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
         flat_ = std::move(flat.uv);
