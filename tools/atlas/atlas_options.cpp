@@ -43,11 +43,10 @@ void declare_charts(CLI::App& app, atlas_options& o)
                    "Bound of that of all charts; default 4.045, or --max-distortion if that is given")
         ->type_name("D")
         ->check(distortion);
-    add_choice<chart_preference>(app, "--prefer", o.prefer,
-                                 {{"seams", chart_preference::seams},
-                                  {"packing", chart_preference::packing},
-                                  {"one", chart_preference::one}},
-                                 "Few charts along short seams, charts that fill the square better, or one a component");
+    add_choice<chart_preference>(
+        app, "--prefer", o.prefer,
+        {{"seams", chart_preference::seams}, {"packing", chart_preference::packing}, {"one", chart_preference::one}},
+        "Few charts along short seams, charts that fill the square better, or one a component");
     add_choice<bool>(app, "--charts", o.keep_charts, {{"auto", false}, {"keep", true}},
                      "Make charts, or keep those that the vt of the file show and relax them");
     app.add_flag("--keep-seams", o.keep_seams, "The seams of the file's vt and its materials are seams of charts, too");

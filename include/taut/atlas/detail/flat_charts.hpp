@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <limits>
@@ -131,7 +132,8 @@ protected:
                               limits);
         cutting.run();
         seam_ = cutting.seams();
-        segment_rest(cutting.unfound());
+        report_.complete = report_.complete && budget_.in_time() && !limits.over();
+        if (report_.complete) segment_rest(cutting.unfound());
         report_.complete = report_.complete && budget_.in_time();
         if (!report_.complete)
         {
@@ -176,7 +178,10 @@ protected:
                 apart = std::max(0.0, now.mean - flattened);
             }
             now.holds = now.mean <= bound && excess <= 0;
-            if (getenv("TAUT_DEBUG")) fprintf(stderr, "turn %d: charts %d seam %.3f E %.4f excess %.4f bad %d  %.2f s\n", turn, (int)charts_->charts(), now.length, now.mean, excess, (int)std::count(now.bad.begin(), now.bad.end(), char(1)), budget_.total());
+            if (getenv("TAUT_DEBUG"))
+                fprintf(stderr, "turn %d: charts %d seam %.3f E %.4f excess %.4f bad %d  %.2f s\n", turn,
+                        (int)charts_->charts(), now.length, now.mean, excess,
+                        (int)std::count(now.bad.begin(), now.bad.end(), char(1)), budget_.total());
             const double mean = now.mean;
             const bool holds = now.holds;
             // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
@@ -185,8 +190,10 @@ protected:
             rough = above > 1.5 * allowed || (turn > 1 && above > 0.5 * allowed && above > first_above - 0.3 * asked);
             if (rough && flattened < std::numeric_limits<double>::infinity() && !(best && best->holds))
             {
-                if (turn == 0) best = std::move(now);
-                else best = std::move(*first);
+                if (turn == 0)
+                    best = std::move(now);
+                else
+                    best = std::move(*first);
                 report_.notes.push_back(rough_note(best->mean));
                 break;
             }
@@ -212,13 +219,25 @@ protected:
             if (std::count(best->plain.begin(), best->plain.end(), char(0)) > 0 && report_.complete)
                 sew_up(std::vector<char>(energy_.size(), 1), false, limits);
         }
-        if (!report_.complete) return;
+        if (!report_.complete) return lay_unfinished();
         if (!best->holds) keep_apart(best->bad);
         if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
         best->bad.resize(energy_.size(), 0);
         for (std::size_t k = 0; k < energy_.size(); ++k)
             if (!(energy_[k] <= params_.charts.max_distortion)) best->bad[k] = 1;
         if (std::count(best->bad.begin(), best->bad.end(), char(1)) > 0) mend_rest(best->bad);
+        if (!report_.complete) lay_unfinished();
+    }
+
+    /// Of a run that has ended: what has no good map becomes patches.
+    void lay_unfinished()
+    {
+        const auto bad = unfit();
+        std::vector<char> crosses(mesh_.cells().size(), 0);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
+                crosses[u(charts_->cell_origins[i])] = bad[k];
+        cut_unfinished(triangles_as_laid(), crosses);
     }
 
     std::string rough_note(double mean) const
@@ -260,7 +279,8 @@ protected:
         energy_.clear();
         for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
         flat_ = std::move(flat.uv);
-        return {seam_, *charts_, flat_, energy_, unfit(), {}, length_of_seams(mesh_, facets_, seam_), mean_energy(), false};
+        return {seam_,         *charts_, flat_, energy_, unfit(), {}, length_of_seams(mesh_, facets_, seam_),
+                mean_energy(), false};
     }
 
     /// Sews up some charts, one flag each, until the bound of all is reached. whole: their maps may follow as a whole,
@@ -289,8 +309,7 @@ protected:
             return;
         cut(laid);
         const ideal_elements<triangle> ideal(charts_->surface);
-        for (std::size_t k = 0; k < energy_.size(); ++k)
-            energy_[k] = area_and_energy(*charts_, k, flat_, ideal).second;
+        for (std::size_t k = 0; k < energy_.size(); ++k) energy_[k] = area_and_energy(*charts_, k, flat_, ideal).second;
     }
 
     double chart_area(std::size_t k) const
@@ -311,7 +330,13 @@ protected:
         for (std::size_t k = 0; k < bad.size(); ++k)
             for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
                 wanted[u(charts_->cell_origins[i])] = bad[k];
+        auto seam = seam_;
         segment_rest(wanted);
+        if (!report_.complete)
+        {
+            seam_ = std::move(seam);
+            return;
+        }
         charts_.emplace(cut_charts(mesh_, facets_, seam_));
         auto flat = flatten(*charts_, {}, std::numeric_limits<int>::max());
         energy_.clear();
@@ -361,7 +386,8 @@ protected:
     /// The charts of a run that has ended; those that have no map yet, or none that is any good, as they are seen.
     void cut_unfinished(laid_triangles laid, std::span<const char> crosses)
     {
-        const double most = std::max(seen_patches::most_energy, params_.charts.max_distortion);
+        const double bound = params_.charts.max_distortion;
+        const double most = std::max(seen_patches::most_energy, std::isfinite(bound) ? bound : 4.0);
         std::vector<char> wanted(laid.energy.size());
         for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
         if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)
