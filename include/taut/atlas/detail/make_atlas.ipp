@@ -15,6 +15,7 @@
 #include <taut/atlas/detail/flat_charts.hpp>
 #include <taut/atlas/detail/pinned_charts.hpp>
 #include <taut/atlas/detail/settled_charts.hpp>
+#include <taut/atlas/detail/short_charts.hpp>
 #include <taut/atlas/make_atlas.hpp>
 #include <taut/exact/convex_polygons.hpp>
 #include <taut/mesh/validate.hpp>

@@ -42,20 +42,10 @@ public:
     /// False if there is no map to begin with.
     bool run()
     {
-        budget t;
-        auto T = [&](const char* w)
-        {
-            if (getenv("TAUT_DEBUG"))
-                fprintf(stderr, "   %s E %.4f seam %.3f  %.2f s\n", w, flat_.energy,
-                        seam_price(rest_, flat_.seam) / std::sqrt(rest_.total), t.lap());
-        };
         if (!cut()) return false;
-        T("cut");
         if (!(flat_.energy <= setting_.bound)) return false;
         sew(false);
-        T("sewn");
         if (setting_.part) part();
-        T("parted");
         return true;
     }
 
@@ -92,18 +82,8 @@ public:
             parted_ = last->parted;
             trail_.erase(last.base(), trail_.end());
         }
-        budget t;
-        auto T = [&](const char* w)
-        {
-            if (getenv("TAUT_DEBUG"))
-                fprintf(stderr, "   adj %s E %.4f seam %.3f parted %d  %.2f s\n", w, flat_.energy,
-                        seam_price(rest_, flat_.seam) / std::sqrt(rest_.total), parted_, t.lap());
-        };
-        T("restored");
         sew(parted_);
-        T("sewn");
         if (setting_.part) part();
-        T("parted");
         return true;
     }
 
