@@ -55,6 +55,9 @@ struct atlas_report
     std::size_t concave = 0;   ///< those that are not in the atlas; exact
     double distortion = 0;     ///< area mean of the isometric energy at one common scale; 4: none
     double worst = 0;          ///< the largest of a chart
+    double stretch_l2 = 1;     ///< of Sander et al. 2001, at one common scale that keeps the area; 1: none
+    double stretch_linf = 1;   ///< the same, the largest of a triangle
+    double area = 0;           ///< of the surface that has charts
     double utilization = 0;    ///< area of the triangles by the area of the tiles
     double seam_length = 0;    ///< of edges inside the surface that were cut, in its units
     double least_distance = 0; ///< in texels, of two charts, or a chart and the border of its tile

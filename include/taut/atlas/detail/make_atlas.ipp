@@ -255,6 +255,7 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
         made.layout.scale *= unit;
         for (auto& place : made.layout.places) place.scale *= unit;
         made.report.seam_length /= unit;
+        made.report.area /= unit * unit;
         if (made.report.symmetry) made.report.symmetry->offset /= unit;
         for (auto& chart : made.report.charts) chart.area /= unit * unit;
         return made;
