@@ -134,8 +134,7 @@ void check(const atlas_options& o)
     if (o.keep_charts)
     {
         if (o.keep_seams) throw usage_error("--charts keep has the seams of the vt alone; leave out --keep-seams");
-        if (o.prefer != chart_preference::seams)
-            throw usage_error("--charts keep makes no charts; leave out --prefer");
+        if (o.prefer != chart_preference::seams) throw usage_error("--charts keep makes no charts; leave out --prefer");
         if (o.max_distortion || o.mean_distortion)
             throw usage_error("--charts keep cuts no chart, so there is no bound; leave out --max-distortion and "
                               "--mean-distortion");

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@ public:
 
     void run()
     {
+        c_.params_.charts.validate();
         c_.usable_ = true;
         budget limits(std::max(c_.budget_.left(), budget::seconds(1e-6)), c_.asking("charts"));
         short_cutting cutting(c_.mesh_, c_.facets_,
