@@ -434,6 +434,8 @@ def wrong_usage():
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--keep-seams"], "--keep-seams"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--max-distortion", "5"], "no bound"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--symmetric"], "--symmetric"),
+                             (["ball.obj", "-o", "x.obj", "--charts", "keep", "--prefer", "one"], "--prefer"),
+                             (["ball.obj", "-o", "x.obj", "--prefer", "few"], "few"),
                              (["ball.obj", "ball.obj", "-o", "x.glb"], "as .obj"),
                              (["-", "-", "-o", "x.obj"], "standard input"),
                              (["ball.obj", "ball.obj", "ball.obj", "-o", "x.obj", "-o", "y.obj"], "outputs"),
