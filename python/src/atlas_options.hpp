@@ -18,10 +18,9 @@ inline vec2 in_float(vec2 x)
 inline void read_atlas_options(atlas_params& params, const options& given)
 {
     segment_params& charts = params.charts;
-    given.read_word("prefer", params.prefer,
-                    {{"seams", chart_preference::seams},
-                     {"packing", chart_preference::packing},
-                     {"one", chart_preference::one}});
+    given.read_word(
+        "prefer", params.prefer,
+        {{"seams", chart_preference::seams}, {"packing", chart_preference::packing}, {"one", chart_preference::one}});
     if (params.prefer == chart_preference::packing)
     {
         charts.max_distortion = segment_params{}.max_distortion;

@@ -146,8 +146,8 @@ def closed_surfaces():
         s = stats("s.json")
         use = judge(f"{name}.out.obj", points, faces)
         assert abs(use - s["utilization"]) < 0.02, (use, s["utilization"])
-        assert s["utilization"] > 0.4 and 4 <= s["distortion"] <= 4.05 and s["worst_distortion"] <= 4.21
-        assert s["charts"] == len(s["chart_table"]) < len(faces) / 10, s["charts"]
+        assert s["utilization"] > 0.3 and 4 <= s["distortion"] <= 4.1, (s["utilization"], s["distortion"])
+        assert s["charts"] == len(s["chart_table"]) <= 4, s["charts"]
         assert pathlib.Path("s.json").read_text().count('\n    {"triangles": ') == s["charts"], "a chart a line"
         assert sum(c["triangles"] for c in s["chart_table"]) == len(faces)
         assert s["least_distance"] >= s["padding"] * (1 - 1e-9)
@@ -155,6 +155,38 @@ def closed_surfaces():
         again = run("atlas", f"{name}.obj", "-o", "again.obj", "--quiet")
         assert again.stdout == "" and pathlib.Path("again.obj").read_bytes() == \
             pathlib.Path(f"{name}.out.obj").read_bytes(), "not the same twice"
+        run("atlas", f"{name}.obj", "-o", "packed.obj", "--prefer", "packing", "--stats", "p.json")
+        p = stats("p.json")
+        judge("packed.obj", points, faces)
+        assert p["utilization"] > 0.4 and 4 <= p["distortion"] <= 4.05 and p["worst_distortion"] <= 4.21
+        assert p["seam_length"] > s["seam_length"] and p["charts"] < len(faces) / 10, p["charts"]
+
+
+def short_seams():
+    """Few charts within the bound; a looser one makes no more of them, nor longer seams, beyond a tenth."""
+    points, faces = ball(24, bumps=0.3)
+    write("bumps.obj", points, faces)
+    before = None
+    for bound in (4.03, 4.1, 4.3):
+        run("atlas", "bumps.obj", "-o", "out.obj", "--mean-distortion", bound, "--stats", "s.json")
+        s = stats("s.json")
+        judge("out.obj", points, faces)
+        assert s["distortion"] <= bound, s["distortion"]
+        if before:
+            assert s["charts"] <= before["charts"] + 1 and s["seam_length"] < 1.1 * before["seam_length"], bound
+        before = s
+    run("atlas", "bumps.obj", "-o", "out.obj", "--prefer", "one", "--stats", "s.json")
+    assert stats("s.json")["charts"] == 1
+    judge("out.obj", points, faces)
+
+    # Given seams stay, and a run on one thread is the same.
+    a, b, c = faces[40]
+    pathlib.Path("edge.txt").write_text(f"{a} {b}\n{b} {c}\n")
+    run("atlas", "bumps.obj", "-o", "out.obj", "--seams", "edge.txt")
+    assert {tuple(sorted((a, b))), tuple(sorted((b, c)))} <= seams_of("out.obj")
+    one = subprocess.run([TAUT, "atlas", "bumps.obj", "-o", "one.obj", "--seams", "edge.txt"], check=True,
+                         capture_output=True, env={**os.environ, "TAUT_THREADS": "1"})
+    assert one.returncode == 0 and pathlib.Path("one.obj").read_bytes() == pathlib.Path("out.obj").read_bytes()
 
 
 def parts_holes_and_padding():
@@ -293,7 +325,7 @@ def symmetric_charts():
         points, faces = bear(n)
         write("bear.obj", points, faces)
         told = run("atlas", "bear.obj", "-o", "out.obj", "--symmetric", "--stats", "s.json").stdout
-        assert "pairs of charts" in told, told
+        assert "symmetry" in told and " of charts" in told, told
         s = stats("s.json")
         symmetry = s["symmetry"]
         assert 2 * symmetry["pairs"] + symmetry["own"] == s["charts"] and symmetry["pairs"] > 0, symmetry
@@ -402,6 +434,8 @@ def wrong_usage():
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--keep-seams"], "--keep-seams"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--max-distortion", "5"], "no bound"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--symmetric"], "--symmetric"),
+                             (["ball.obj", "-o", "x.obj", "--charts", "keep", "--prefer", "one"], "--prefer"),
+                             (["ball.obj", "-o", "x.obj", "--prefer", "few"], "few"),
                              (["ball.obj", "ball.obj", "-o", "x.glb"], "as .obj"),
                              (["-", "-", "-o", "x.obj"], "standard input"),
                              (["ball.obj", "ball.obj", "ball.obj", "-o", "x.obj", "-o", "y.obj"], "outputs"),
@@ -455,7 +489,7 @@ def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
-    for case in (closed_surfaces, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
+    for case in (closed_surfaces, short_seams, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
                  symmetric_charts, polygons_and_several_surfaces, polygons_of_any_outline,
                  wrong_usage, stops):
         begin = time.monotonic()

@@ -37,19 +37,17 @@ void declare_charts(CLI::App& app, atlas_options& o)
         ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must be a length, 0 or more"));
     const auto distortion = number_that([](double x) { return x > 4 && std::isfinite(x); }, "is not above 4");
     app.add_option("--max-distortion", o.max_distortion,
-                   "Bound of the mean isometric energy of a chart; 4 is no distortion, default 4.2")
+                   "Bound of the mean isometric energy of a chart; 4 is no distortion; default none, 4.2 for packing")
         ->type_name("D")
         ->check(distortion);
     app.add_option("--mean-distortion", o.mean_distortion,
-                   "Bound of the mean over all charts; default 4.045, or --max-distortion if that "
-                   "is given")
+                   "Bound of that of all charts; default 4.1, 4.045 for packing, or --max-distortion if that is given")
         ->type_name("D")
         ->check(distortion);
-    add_choice<chart_preference>(app, "--prefer", o.prefer,
-                                 {{"seams", chart_preference::seams},
-                                  {"packing", chart_preference::packing},
-                                  {"one", chart_preference::one}},
-                                 "Few charts along short seams, charts that fill the square better, or one a component");
+    add_choice<chart_preference>(
+        app, "--prefer", o.prefer,
+        {{"seams", chart_preference::seams}, {"packing", chart_preference::packing}, {"one", chart_preference::one}},
+        "Few charts along short seams, charts that fill the square better, or one a component");
     add_choice<bool>(app, "--charts", o.keep_charts, {{"auto", false}, {"keep", true}},
                      "Make charts, or keep those of the vt of the file and relax them");
     app.add_flag("--keep-seams", o.keep_seams, "Keep the seams of the file's vt and between its materials");
@@ -138,6 +136,7 @@ void check(const atlas_options& o)
     if (o.keep_charts)
     {
         if (o.keep_seams) throw usage_error("--charts keep has the seams of the vt alone; leave out --keep-seams");
+        if (o.prefer != chart_preference::seams) throw usage_error("--charts keep makes no charts; leave out --prefer");
         if (o.max_distortion || o.mean_distortion)
             throw usage_error("--charts keep cuts no chart, so there is no bound; leave out --max-distortion and "
                               "--mean-distortion");

@@ -52,6 +52,11 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     json["convex_polygons"] = a.polygons;
     json["concave_polygons"] = a.concave;
     json["seam_length"] = a.seam_length;
+    json["relative_seam"] = finite(a.seam_length / std::sqrt(a.area));
+    json["stretch_l2"] = finite(a.stretch_l2);
+    json["stretch_linf"] = finite(a.stretch_linf);
+    json["large_charts"] =
+        std::count_if(a.charts.begin(), a.charts.end(), [](const chart_summary& c) { return c.triangles > 10; });
     if (a.symmetry)
         json["symmetry"] = {{"normal", {a.symmetry->normal.x, a.symmetry->normal.y, a.symmetry->normal.z}},
                             {"offset", a.symmetry->offset},
@@ -124,7 +129,8 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
         if (files.empty() || s.output != files.front()) files.push_back(s.output);
     }
     lines.add("device", r.device_label);
-    lines.add("charts", count(a.charts.size(), "chart", "charts") + ", seams of length " + number(a.seam_length));
+    lines.add("charts", count(a.charts.size(), "chart", "charts") + ", seams of length " + number(a.seam_length) +
+                            ", " + number(a.seam_length / std::sqrt(a.area), 3) + " by the root of the area");
     if (const auto& s = a.symmetry)
         lines.add("symmetry", count(static_cast<std::uint64_t>(s->pairs), "pair of charts", "pairs of charts") + ", " +
                                   count(static_cast<std::uint64_t>(s->own), "chart that is its own image",
@@ -132,7 +138,7 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
                                   ", in the plane of normal (" + number(s->normal.x) + ", " + number(s->normal.y) +
                                   ", " + number(s->normal.z) + ") at " + number(s->offset));
     lines.add("distortion", "isometric energy " + number(a.distortion, 6) + " by area, " + number(a.worst, 4) +
-                                " in the worst chart; 4 is none");
+                                " in the worst chart; 4 is none; stretch L2 " + number(a.stretch_l2, 5));
     lines.add("atlas", number(100 * a.utilization, 3) + " % of " +
                            (a.tiles > 1 ? count(static_cast<std::uint64_t>(a.tiles)) + " squares" : "the square") +
                            " used, charts " + number(a.least_distance, 3) + " texels apart at " +

@@ -64,7 +64,10 @@ struct atlas_report
     std::size_t polygons = 0;  ///< polygons of more than three corners that are convex in space
     std::size_t concave = 0;   ///< those of them that are not convex in the atlas; exact
     double distortion = 0;     ///< area mean of the isometric energy at one common scale; 4: none
-    double worst = 0;          ///< maximum over the charts
+    double worst = 0;          ///< the largest of a chart
+    double stretch_l2 = 1;     ///< of Sander et al. 2001, at one common scale that keeps the area; 1: none
+    double stretch_linf = 1;   ///< the same, the largest of a triangle
+    double area = 0;           ///< of the surface that has charts
     double utilization = 0;    ///< area of the triangles by the area of the tiles
     double seam_length = 0;    ///< length of the edges inside the surface that were cut, in its units
     double least_distance = 0; ///< minimum distance of two charts, or of a chart and the border of its tile, in texels

@@ -79,6 +79,27 @@ inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<
     double sum = 0;
     for (const double x : values) sum += x;
     report.distortion = sum / in_space;
+    report.area = in_space;
+    // From the plane to the surface the singular values are 1 / s1 and 1 / s2: their squares sum to |S|^2 / det^2.
+    std::vector<double> largest(cells.size());
+    for_each_cell(
+        [&](std::size_t c)
+        {
+            const mat2 S = scale * shape_matrix<2>(cells[c], uv, ideal.inverse[c]);
+            const double det = glm::determinant(S), square = glm::dot(S[0], S[0]) + glm::dot(S[1], S[1]);
+            if (!(det > 0))
+            {
+                largest[c] = std::numeric_limits<double>::infinity();
+                return largest[c];
+            }
+            const double root = std::sqrt(std::max(0.0, square * square - 4 * det * det));
+            largest[c] = std::sqrt((square + root) / 2) / det;
+            return ideal.measure[c] * square / (det * det) / 2;
+        });
+    sum = 0;
+    for (const double x : values) sum += x;
+    report.stretch_l2 = std::sqrt(sum / in_space);
+    report.stretch_linf = largest.empty() ? 1 : *std::max_element(largest.begin(), largest.end());
     report.utilization = layout.utilization;
 }
 

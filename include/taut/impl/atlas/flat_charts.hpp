@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <span>
@@ -17,10 +17,7 @@
 #include <taut/impl/atlas/atlas_report.hpp>
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
-#include <taut/impl/atlas/cutting/fine_sewing.hpp>
-#include <taut/impl/atlas/cutting/short_cutting.hpp>
 #include <taut/impl/atlas/round_polygon.hpp>
-#include <taut/impl/atlas/seams/straighten.hpp>
 #include <taut/impl/atlas/seen_patches.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/atlas/symmetry/symmetric_half.hpp>
@@ -34,6 +31,8 @@ namespace taut::impl
 /// Charts of a surface with their maps, each as flattened: the first phases of make_atlas().
 class flat_charts
 {
+    friend class short_charts;
+
 public:
     flat_charts(queue& q, const mesh<triangle>& m, const atlas_params& params)
         : queue_(q), mesh_(m), params_(params), facets_(facets(m)), budget_(params.time_limit)
@@ -79,10 +78,12 @@ protected:
         };
     }
 
-    /// Flattens all charts at once. steps: maximum for each
-    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps)
+    /// All charts at once. steps: of each, at most
+    /// exactly: to the limit of rounding, nearly, so that what can be flat is
+    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps, bool exactly = false)
     {
         auto params = params_.flattening;
+        if (exactly) params.tolerance = std::min(params.tolerance, 1e-9);
         params.max_iterations = std::min(params.max_iterations, steps);
         params.initial = initial;
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
@@ -116,247 +117,14 @@ protected:
         if (report_.complete) mend(unfit());
     }
 
-    /// Charts along short seams.
-    void cut_short()
-    {
-        usable_ = true;
-        budget limits(std::max(budget_.left(), budget::seconds(1e-6)), asking("charts"));
-        short_cutting cutting(mesh_, facets_,
-                              {.bound = params_.charts.mean_distortion,
-                               .seams = params_.charts.seams,
-                               .together = params_.charts.together,
-                               .part = params_.prefer == chart_preference::seams},
-                              limits);
-        cutting.run();
-        seam_ = cutting.seams();
-        segment_rest(cutting.unfound());
-        report_.complete = report_.complete && budget_.in_time();
-        if (!report_.complete)
-        {
-            cut_unfinished({std::vector<vec2>(facets_.twin.size()),
-                            std::vector<double>(mesh_.cells().size(), std::numeric_limits<double>::infinity())},
-                           std::vector<char>(mesh_.cells().size(), 1));
-            return;
-        }
-        flatten_within_bound(cutting, limits);
-        report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
-    }
-
-    /// Flattens the charts of short seams. What they have of distortion is found out only then, and seams are sewn up
-    /// or opened again until the bound holds.
-    void flatten_within_bound(short_cutting& cutting, budget& limits)
-    {
-        const double allowed = 0.998 * (params_.charts.mean_distortion - 4), bound = 4 + allowed; // rounding, scale
-        // One more map costs more than what it may save.
-        const bool large = mesh_.cells().size() > 30'000 || cutting.pieces() > 64;
-        constexpr int turns = 8;
-        double apart = std::min(0.5 * cutting.overlap(), 0.3 * allowed); // what it costs to keep borders apart, about
-        double first_above = 0, asked = 0; // excess of the first turn, what it was to become less since
-        bool rough = false;
-        std::optional<laid_charts> best, first;
-        std::vector<char> cut_before = seam_;
-        for (int turn = 0; turn < turns && report_.complete; ++turn)
-        {
-            laid_charts now = lay_short(cutting, limits);
-            if (!report_.complete && best) break;
-            for (const char bad : now.bad) now.plain.push_back(bad == 0);
-            const auto crossing = std::count(now.bad.begin(), now.bad.end(), char(1));
-            const double flattened = now.mean;
-            if (crossing == 0) apart = 0;
-            double excess = now.mean + apart - bound;
-            if (excess <= 0 && crossing > 0)
-            {
-                keep_apart(now.bad);
-                now.energy = energy_;
-                now.flat = flat_;
-                now.mean = mean_energy();
-                excess = now.mean - bound;
-                apart = std::max(0.0, now.mean - flattened);
-            }
-            now.holds = now.mean <= bound && excess <= 0;
-            if (getenv("TAUT_DEBUG")) fprintf(stderr, "turn %d: charts %d seam %.3f E %.4f excess %.4f bad %d  %.2f s\n", turn, (int)charts_->charts(), now.length, now.mean, excess, (int)std::count(now.bad.begin(), now.bad.end(), char(1)), budget_.total());
-            const double mean = now.mean;
-            const bool holds = now.holds;
-            // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
-            const double above = flattened - bound;
-            if (turn == 0) first_above = above;
-            rough = above > 1.5 * allowed || (turn > 1 && above > 0.5 * allowed && above > first_above - 0.3 * asked);
-            if (rough && flattened < std::numeric_limits<double>::infinity() && !(best && best->holds))
-            {
-                if (turn == 0) best = std::move(now);
-                else best = std::move(*first);
-                report_.notes.push_back(rough_note(best->mean));
-                break;
-            }
-            if (turn == 0 && !holds) first = now;
-            if (!best || now.better_than(*best)) best = std::move(now);
-            if (holds && (large || turn > 1 || mean > bound - 0.2 * allowed)) break;
-            if (!(mean < std::numeric_limits<double>::infinity())) break;
-            // Ever more cautious, so that it holds in the end.
-            const double more = holds ? 0.8 * (bound - mean) : -excess - 0.03 * (1 + turn) * allowed;
-            asked -= more;
-            cutting.adjust(more);
-            auto seams = cutting.seams();
-            if (holds && seams == cut_before) break; // nothing can be sewn up
-            seam_ = cut_before = std::move(seams);
-        }
-        seam_ = std::move(best->seam);
-        charts_.emplace(std::move(best->charts));
-        flat_ = std::move(best->flat);
-        energy_ = std::move(best->energy);
-        if (report_.complete && best->holds && cutting.pieces() <= 64)
-        {
-            sew_up(best->plain, true, limits);
-            if (std::count(best->plain.begin(), best->plain.end(), char(0)) > 0 && report_.complete)
-                sew_up(std::vector<char>(energy_.size(), 1), false, limits);
-        }
-        if (!report_.complete) return;
-        if (!best->holds) keep_apart(best->bad);
-        if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
-        if (std::count(best->bad.begin(), best->bad.end(), char(1)) > 0) mend_rest(best->bad);
-    }
-
-    std::string rough_note(double mean) const
-    {
-        char text[200];
-        std::snprintf(text, sizeof text,
-                      "the surface is rough: the mean energy is %.4g where %.4g is wanted, whatever the seams; "
-                      "charts made for packing (--prefer packing) hold the bound",
-                      mean, params_.charts.mean_distortion);
-        return text;
-    }
-
-    /// A surface cut and flattened.
-    struct laid_charts
-    {
-        std::vector<char> seam;
-        chart_mesh charts;
-        std::vector<vec2> flat;
-        std::vector<double> energy;
-        std::vector<char> bad;   // charts without a map, or that overlap themselves
-        std::vector<char> plain; // charts that had a map that did not from the beginning
-        double length, mean;
-        bool holds; // the bound, and the charts are fit
-
-        bool better_than(const laid_charts& other) const
-        {
-            if (holds != other.holds) return holds;
-            return holds ? length < other.length : mean < other.mean;
-        }
-    };
-
-    /// Cuts the surface along its seams, straightened, and flattens it.
-    laid_charts lay_short(const short_cutting& cutting, budget& limits)
-    {
-        straighten(mesh_, facets_, seam_, params_.charts.seams, params_.charts.together, limits, cutting.prices(),
-                   {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
-        charts_.emplace(cut_charts(mesh_, facets_, seam_));
-        auto flat = flatten(*charts_, {}, std::numeric_limits<int>::max());
-        energy_.clear();
-        for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
-        flat_ = std::move(flat.uv);
-        return {seam_, *charts_, flat_, energy_, unfit(), {}, length_of_seams(mesh_, facets_, seam_), mean_energy(), false};
-    }
-
-    /// Sews up some charts, one flag each, until the bound of all is reached. whole: their maps may follow as a whole,
-    /// which does not keep borders apart
-    void sew_up(const std::vector<char>& wanted, bool whole, budget& limits)
-    {
-        std::vector<idx> some;
-        std::vector<char> flags(mesh_.cells().size(), 0);
-        double others = 0, own = 0; // energy, area
-        for (std::size_t k = 0; k < wanted.size(); ++k)
-        {
-            const double area = chart_area(k);
-            wanted[k] ? own += area : others += area * energy_[k];
-            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
-                flags[u(charts_->cell_origins[i])] = wanted[k];
-        }
-        for (std::size_t c = 0; c < flags.size(); ++c)
-            if (flags[c]) some.push_back(static_cast<idx>(c));
-        if (some.empty()) return;
-        double all = own;
-        for (std::size_t k = 0; k < wanted.size(); ++k) all += wanted[k] ? 0 : chart_area(k);
-        const double bound = ((0.002 * 4 + 0.998 * params_.charts.mean_distortion) * all - others) / own;
-        auto laid = triangles_as_laid();
-        if (!sew_laid(mesh_, {seam_, laid.uv, some, whole}, params_.charts.seams, bound,
-                      [&limits] { return limits.proceed(); }))
-            return;
-        cut(laid);
-        const ideal_elements<triangle> ideal(charts_->surface);
-        for (std::size_t k = 0; k < energy_.size(); ++k)
-            energy_[k] = area_and_energy(*charts_, k, flat_, ideal).second;
-    }
-
-    double chart_area(std::size_t k) const
-    {
-        double area = 0;
-        for (idx c = charts_->first_cell[k]; c < charts_->first_cell[k + 1]; ++c)
-        {
-            const auto x = charts_->surface.rest(c);
-            area += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
-        }
-        return area;
-    }
-
-    /// Has segment() cut the charts, one flag each, that have no map, overlap themselves or are above the bound.
-    void mend_rest(const std::vector<char>& bad)
-    {
-        std::vector<char> wanted(mesh_.cells().size(), 0);
-        for (std::size_t k = 0; k < bad.size(); ++k)
-            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
-                wanted[u(charts_->cell_origins[i])] = bad[k];
-        segment_rest(wanted);
-        charts_.emplace(cut_charts(mesh_, facets_, seam_));
-        auto flat = flatten(*charts_, {}, std::numeric_limits<int>::max());
-        energy_.clear();
-        for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
-        flat_ = std::move(flat.uv);
-        if (report_.complete) mend(unfit());
-    }
-
-    /// Area mean over all charts.
-    double mean_energy() const
-    {
-        double sum = 0, area = 0;
-        for (std::size_t k = 0; k < energy_.size(); ++k)
-        {
-            const double own = chart_area(k);
-            sum += own * energy_[k];
-            area += own;
-        }
-        return sum / area;
-    }
-
-    /// Has segment() cut some triangles, one flag each.
-    void segment_rest(const std::vector<char>& wanted)
-    {
-        std::vector<idx> triangles, number(mesh_.points().size(), -1);
-        for (std::size_t c = 0; c < wanted.size(); ++c)
-            if (wanted[c]) triangles.push_back(static_cast<idx>(c));
-        if (triangles.empty()) return;
-        const surface_part part = part_of(mesh_, triangles, seam_, number);
-        const auto f = facets(part.charts.surface);
-        std::vector<char> together(params_.charts.together.empty() ? 0 : f.twin.size(), 0);
-        for (std::size_t s = 0; s < together.size(); ++s) together[s] = params_.charts.together[part.origin(s)];
-        auto params = params_.charts;
-        params.seams = {};
-        params.together = together;
-        params.least_fill = 0;
-        params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
-        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
-        params.observer = asking("charts");
-        const auto maps = [this](const chart_mesh& charts, std::span<const vec2> start)
-        { return flatten(charts, start, std::numeric_limits<int>::max()); };
-        const auto made = segment_surface(part.charts.surface, f, maps_by(maps), params);
-        for (std::size_t s = 0; s < made.seam.size(); ++s)
-            if (made.seam[s]) seam_[part.origin(s)] = 1;
-    }
+    /// Charts along short seams (short_charts.hpp).
+    void cut_short();
 
     /// The charts of a run that has ended; those that have no map yet, or none that is any good, as they are seen.
     void cut_unfinished(laid_triangles laid, std::span<const char> crosses)
     {
-        const double most = std::max(seen_patches::most_energy, params_.charts.max_distortion);
+        const double bound = params_.charts.max_distortion;
+        const double most = std::max(seen_patches::most_energy, std::isfinite(bound) ? bound : 4.0);
         std::vector<char> wanted(laid.energy.size());
         for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
         if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)

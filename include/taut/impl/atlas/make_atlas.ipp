@@ -16,6 +16,7 @@
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/pinned_charts.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
+#include <taut/impl/atlas/short_charts.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
 #include <taut/impl/mesh/validate.hpp>
 #include <taut/impl/packing/certificate.hpp>
@@ -253,6 +254,7 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
         made.layout.scale *= unit;
         for (auto& place : made.layout.places) place.scale *= unit;
         made.report.seam_length /= unit;
+        made.report.area /= unit * unit;
         if (made.report.symmetry) made.report.symmetry->offset /= unit;
         for (auto& chart : made.report.charts) chart.area /= unit * unit;
         return made;

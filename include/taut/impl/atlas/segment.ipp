@@ -124,9 +124,9 @@ private:
         return estimate > 0 ? distortion / estimate : 0;
     }
 
-    /// Divides large charts that would fail: the distortion of a map is no less than that of its parts, so some of
-    /// these are flattened first, and charts with too many parts above the bound, or overlapping themselves, are
-    /// divided. chosen: nodes of the tree of a surface, changed
+    /// Large charts cost most where no map is any good. The distortion of a map is no less than the one that its parts
+    /// have by themselves, so some of these are flattened first, and charts of which too many are above the bound
+    /// become their parts. chosen: nodes of the tree of a surface, changed
     void part_hopeless(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
                        std::vector<char>& chosen)
     {
@@ -155,11 +155,11 @@ private:
         }
         if (std::count(some.begin(), some.end(), char(1)) == 0) return;
         flatten_some(m, f, tree, parts, some,
-                     [&](idx n, double energy, bool crosses)
+                     [&](idx n, double energy, bool)
                      {
                          const auto chart = u(whole[u(n)]);
                          seen[chart] += tree.area[u(n)];
-                         if (!(energy <= params_.max_distortion) || crosses) bad[chart] += tree.area[u(n)];
+                         if (!(energy <= params_.max_distortion)) bad[chart] += tree.area[u(n)];
                      });
         for (idx n = 0; n < tree.nodes(); ++n)
         {

@@ -26,8 +26,8 @@ namespace taut::impl
 class isometric_newton
 {
 public:
-    /// fixed: one flag a vertex; these are not moved. weights: one a triangle instead of its area, or none. All of it in
-    /// one unit of length. The cells are referred to.
+    /// fixed: one flag a vertex; these are not moved. weights: one a triangle instead of its area, or none. All of it
+    /// in one unit of length. The cells are referred to.
     isometric_newton(std::span<const vec3> points, std::span<const std::array<idx, 3>> cells,
                      std::span<const char> fixed, std::span<const double> weights = {})
         : cells_(cells), solver_(cells, fixed), blocks_(cells.size())

@@ -17,8 +17,8 @@ namespace taut::impl
 /// Charts of a surface as they lie in the plane.
 struct laid_seams
 {
-    std::vector<char>& seam;  ///< one a side of the surface
-    std::vector<vec2>& uv;    ///< one a corner
+    std::vector<char>& seam;   ///< one a side of the surface
+    std::vector<vec2>& uv;     ///< one a corner
     std::span<const idx> some; ///< triangles of whole charts, ascending: what may be sewn up
     bool whole = true;         ///< their maps may follow as a whole
 };

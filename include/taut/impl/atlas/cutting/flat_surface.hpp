@@ -21,10 +21,10 @@ namespace taut::impl
 /// A surface with seams and a map without flips of what these leave connected.
 struct flat_surface
 {
-    std::vector<char> seam;     ///< one a side, the same on both sides of an edge
-    std::vector<vec2> uv;       ///< one a corner
-    std::vector<idx> fan;       ///< one a corner: the vertex of the cut surface
-    std::vector<idx> fan_cells; ///< triangles of each
+    std::vector<char> seam;                                  ///< one a side, the same on both sides of an edge
+    std::vector<vec2> uv;                                    ///< one a corner
+    std::vector<idx> fan;                                    ///< one a corner: the vertex of the cut surface
+    std::vector<idx> fan_cells;                              ///< triangles of each
     double energy = std::numeric_limits<double>::infinity(); ///< area mean, holes left out
 };
 
@@ -73,7 +73,8 @@ inline double isometric_energy(const mat2& inverse, const vec2& a, const vec2& b
 inline double energy_of(const rest_surface& rest, std::span<const vec2> uv, idx c)
 {
     const std::size_t k = 3 * rest_surface::u(c);
-    return rest.weight[rest_surface::u(c)] * isometric_energy(rest.inverse[rest_surface::u(c)], uv[k], uv[k + 1], uv[k + 2]);
+    return rest.weight[rest_surface::u(c)] *
+           isometric_energy(rest.inverse[rest_surface::u(c)], uv[k], uv[k + 1], uv[k + 2]);
 }
 
 /// Area mean over what is no hole.

@@ -32,8 +32,7 @@ public:
           seam_(f.twin.size(), 0)
     {
         for (std::size_t s = 0; s < f.twin.size(); ++s)
-            if (f.twin[s] < 0)
-                used_[u(vertex(static_cast<idx>(s), 1))] = used_[u(vertex(static_cast<idx>(s), 2))] = 1;
+            if (f.twin[s] < 0) used_[u(vertex(static_cast<idx>(s), 1))] = used_[u(vertex(static_cast<idx>(s), 2))] = 1;
         for (std::size_t s = 0; s < f.twin.size(); ++s)
             least_ = std::min(least_, price[s] / glm::distance(m.points()[u(vertex(static_cast<idx>(s), 1))],
                                                                m.points()[u(vertex(static_cast<idx>(s), 2))]));

@@ -68,7 +68,9 @@ inline std::vector<char> seam_vertices(const rest_surface& rest, std::span<const
 {
     std::vector<char> on = rest.rim;
     for (std::size_t s = 0; s < seam.size(); ++s)
-        if (seam[s]) on[rest_surface::u(rest.start(static_cast<idx>(s)))] = on[rest_surface::u(rest.end(static_cast<idx>(s)))] = 1;
+        if (seam[s])
+            on[rest_surface::u(rest.start(static_cast<idx>(s)))] = on[rest_surface::u(rest.end(static_cast<idx>(s)))] =
+                1;
     return on;
 }
 

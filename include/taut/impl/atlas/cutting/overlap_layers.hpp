@@ -116,10 +116,12 @@ inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const
         for (idx s = 3 * pairs[i][0]; s < 3 * pairs[i][0] + 3; ++s)
         {
             if (rest.twin(s) < 0 || flat.seam[u(s)]) continue;
-            if (const idx j = find(rest.twin(s) / 3, pairs[i][1]); j >= 0) sets.join(static_cast<idx>(i), j);
-            // and (b, a) with (b, a'), which is the same of the pairs turned over
-            const idx own = find(pairs[i][1], pairs[i][0]), turned = find(pairs[i][1], rest.twin(s) / 3);
-            if (turned >= 0) sets.join(own, turned);
+            const idx a = rest.twin(s) / 3, b = pairs[i][1], own = find(b, pairs[i][0]);
+            if (const idx k = find(a, b); k >= 0) sets.join(static_cast<idx>(i), k);
+            if (const idx k = find(b, a); k >= 0) sets.join(own, k);
+            for (idx t = 3 * b; t < 3 * b + 3; ++t) // of equal triangles on each other both are left at once
+                if (rest.twin(t) >= 0 && !flat.seam[u(t)])
+                    if (const idx k = find(a, rest.twin(t) / 3); k >= 0) sets.join(static_cast<idx>(i), k);
         }
     std::vector<overlap_layers> result;
     std::vector<idx> number(pairs.size(), -1);

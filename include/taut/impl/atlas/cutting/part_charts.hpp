@@ -35,15 +35,14 @@ inline int part_charts(const rest_surface& rest, flat_surface& flat, const parti
         for (const overlap_layers& one : find_overlaps(rest, flat))
         {
             if (!(one.area > how.least_area * rest.total)) break;
-            const bool known = std::any_of(
-                left_alone.begin(), left_alone.end(),
-                [&](const std::pair<idx, idx>& p)
-                {
-                    const auto has = [](const std::vector<idx>& v, idx c)
-                    { return std::binary_search(v.begin(), v.end(), c); };
-                    return (has(one.below, p.first) && has(one.above, p.second)) ||
-                           (has(one.below, p.second) && has(one.above, p.first));
-                });
+            const bool known = std::any_of(left_alone.begin(), left_alone.end(),
+                                           [&](const std::pair<idx, idx>& p)
+                                           {
+                                               const auto has = [](const std::vector<idx>& v, idx c)
+                                               { return std::binary_search(v.begin(), v.end(), c); };
+                                               return (has(one.below, p.first) && has(one.above, p.second)) ||
+                                                      (has(one.below, p.second) && has(one.above, p.first));
+                                           });
             if (known) continue;
             const auto cut = minimum_cut(rest, flat.seam, one.below, one.above);
             double length = 0;

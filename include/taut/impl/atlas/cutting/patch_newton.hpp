@@ -20,10 +20,10 @@ namespace taut::impl
 /// Some triangles of a map around a place, with numbers of their own.
 struct map_patch
 {
-    std::vector<idx> triangles;             ///< of the surface
-    std::vector<std::array<idx, 3>> cells;  ///< their vertices here
-    std::vector<vec2> x;                    ///< one a vertex
-    std::vector<idx> slot;                  ///< one a vertex: its number among those that move, or -1
+    std::vector<idx> triangles;            ///< of the surface
+    std::vector<std::array<idx, 3>> cells; ///< their vertices here
+    std::vector<vec2> x;                   ///< one a vertex
+    std::vector<idx> slot;                 ///< one a vertex: its number among those that move, or -1
     idx moving = 0;
 
     double energy(const rest_surface& rest, std::span<const vec2> at) const
@@ -159,8 +159,9 @@ private:
         for (std::size_t i = 0; i < p.cells.size(); ++i)
         {
             const mat2& inverse = rest.inverse[u(p.triangles[i])];
-            longest = std::min(longest, first_flip(shape_matrix<2>(p.cells[i], std::span<const vec2>(p.x), inverse),
-                                                   shape_matrix<2>(p.cells[i], std::span<const vec2>(moved_), inverse)));
+            longest =
+                std::min(longest, first_flip(shape_matrix<2>(p.cells[i], std::span<const vec2>(p.x), inverse),
+                                             shape_matrix<2>(p.cells[i], std::span<const vec2>(moved_), inverse)));
         }
         double t = 0.9 * longest;
         for (int halving = 0; halving < 20; ++halving, t /= 2)

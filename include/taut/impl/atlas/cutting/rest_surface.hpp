@@ -20,15 +20,15 @@ struct rest_surface
 {
     mesh<triangle> surface;
     facet_table facets;
-    csr sides;                   ///< that start at each vertex: one of each of its triangles
-    std::vector<double> length;  ///< one a side
-    std::vector<double> price;   ///< what a seam along each side counts: its length, times a wish
-    std::vector<double> area;    ///< one a triangle
-    std::vector<double> weight;  ///< one a triangle, of its energy: the area, but little where it spans a hole
-    std::vector<mat2> inverse;   ///< one a triangle: inverse of its ideal edge matrix
-    std::vector<char> rim;       ///< one a vertex: whether it lies on the boundary
-    idx first_span = 0;          ///< triangles from there on span holes
-    double total = 0;            ///< area without these
+    csr sides;                  ///< that start at each vertex: one of each of its triangles
+    std::vector<double> length; ///< one a side
+    std::vector<double> price;  ///< what a seam along each side counts: its length, times a wish
+    std::vector<double> area;   ///< one a triangle
+    std::vector<double> weight; ///< one a triangle, of its energy: the area, but little where it spans a hole
+    std::vector<mat2> inverse;  ///< one a triangle: inverse of its ideal edge matrix
+    std::vector<char> rim;      ///< one a vertex: whether it lies on the boundary
+    idx first_span = 0;         ///< triangles from there on span holes
+    double total = 0;           ///< area without these
 
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
     static idx next(idx side) { return side % 3 == 2 ? side - 2 : side + 1; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -23,11 +24,11 @@ namespace taut::impl
 /// How seams of one surface are looked for.
 struct search_setting
 {
-    double bound = 4.1;       ///< of the mean energy
-    double over = 0.75;       ///< what the map of the surface that is cut too often may take of what is allowed
+    double bound = 4.1;        ///< of the mean energy
+    double over = 0.75;        ///< what the map of the surface that is cut too often may take of what is allowed
     double least_weight = 0.3; ///< of ways, where the potential is greatest
-    std::size_t patch = 100;  ///< triangles that follow a zip at once
-    bool part = true;         ///< charts that lie on themselves are parted
+    std::size_t patch = 100;   ///< triangles that follow a zip at once
+    bool part = true;          ///< charts that lie on themselves are parted
     std::function<bool()> proceed = {};
 };
 
@@ -42,12 +43,10 @@ public:
     /// False if there is no map to begin with.
     bool run()
     {
-        budget t; auto T=[&](const char* w){ if(getenv("TAUT_DEBUG")) fprintf(stderr,"   %s E %.4f seam %.3f  %.2f s\n",w,flat_.energy,seam_price(rest_,flat_.seam)/std::sqrt(rest_.total),t.lap());};
         if (!cut()) return false;
-        T("cut");
         if (!(flat_.energy <= setting_.bound)) return false;
-        sew(false);T("sewn");
-        if (setting_.part) part();T("parted");
+        sew(false);
+        if (setting_.part) part();
         return true;
     }
 
@@ -84,9 +83,8 @@ public:
             parted_ = last->parted;
             trail_.erase(last.base(), trail_.end());
         }
-        budget t;  auto T=[&](const char* w){ if(getenv("TAUT_DEBUG")) fprintf(stderr,"   adj %s E %.4f seam %.3f parted %d  %.2f s\n",w,flat_.energy,seam_price(rest_,flat_.seam)/std::sqrt(rest_.total),parted_,t.lap());};
-        T("restored");sew(parted_);T("sewn");
-        if (setting_.part) part();T("parted");
+        sew(parted_);
+        if (setting_.part) part();
         return true;
     }
 

@@ -17,10 +17,10 @@ namespace taut::impl
 /// How seams are sewn up.
 struct sewing
 {
-    double bound = 4.1;       ///< of the mean energy
-    std::size_t patch = 100;  ///< triangles around a tip that follow at once
-    bool keep_apart = false;  ///< no zip after which charts meet themselves more often than before
-    bool whole = true;        ///< the whole map follows now and then; false: patches alone, for large surfaces
+    double bound = 4.1;            ///< of the mean energy
+    std::size_t patch = 100;       ///< triangles around a tip that follow at once
+    bool keep_apart = false;       ///< no zip after which charts meet themselves more often than before
+    bool whole = true;             ///< the whole map follows now and then; false: patches alone, for large surfaces
     std::function<bool()> proceed; ///< asked between zips: go on?
     std::function<void(const flat_surface&)> told; ///< of each state that is within the bound
 };
@@ -31,7 +31,11 @@ class tip_sewing
 {
 public:
     tip_sewing(const rest_surface& rest, flat_surface& flat, const sewing& how)
-        : rest_(rest), flat_(flat), how_(how), zipper_(rest, how.patch), changed_(rest.surface.cells().size(), 0),
+        : rest_(rest),
+          flat_(flat),
+          how_(how),
+          zipper_(rest, how.patch),
+          changed_(rest.surface.cells().size(), 0),
           prices_(rest.surface.points().size())
     {
     }

@@ -27,11 +27,11 @@ namespace taut::impl
 /// What short_cutting is to keep.
 struct cutting_params
 {
-    double bound = 4.1;               ///< of the mean isometric energy of the whole surface
-    std::span<const char> seams;      ///< sides that are seams in any case, or empty
-    std::span<const char> together;   ///< sides that are to be none, or empty
-    bool part = true;                 ///< charts that lie on themselves are parted
-    idx coarse = 5000;                ///< triangles of the surfaces that are searched, about
+    double bound = 4.1;             ///< of the mean isometric energy of the whole surface
+    std::span<const char> seams;    ///< sides that are seams in any case, or empty
+    std::span<const char> together; ///< sides that are to be none, or empty
+    bool part = true;               ///< charts that lie on themselves are parted
+    idx coarse = 5000;              ///< triangles of the surfaces that are searched, about
 };
 
 /// Short seams of a surface of any number of components: a search on a coarse surface for each, led back over the
@@ -40,7 +40,11 @@ class short_cutting
 {
 public:
     short_cutting(const mesh<triangle>& m, const facet_table& f, const cutting_params& params, budget& limits)
-        : mesh_(m), facets_(f), params_(params), limits_(limits), pieces_(cut_charts(m, f, flags(params.seams, f.twin.size()))),
+        : mesh_(m),
+          facets_(f),
+          params_(params),
+          limits_(limits),
+          pieces_(cut_charts(m, f, flags(params.seams, f.twin.size()))),
           searches_(u(pieces_.charts()))
     {
     }
@@ -221,7 +225,9 @@ private:
             for (idx& v : t) v -= v0;
         p.surface.emplace(std::move(points), std::move(own));
         p.facets = facets(*p.surface);
-        coarse_surface coarse = make_coarse(*p.surface, p.facets, p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count());
+        coarse_surface coarse =
+            make_coarse(*p.surface, p.facets,
+                        p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count());
         p.coarser = coarse.cells.size() < p.surface->cells().size();
         // Seams become shorter on the surface itself, and distortion more.
         p.bound = params_.bound - (p.coarser ? 0.02 : 0.001) * (params_.bound - 4);
@@ -264,7 +270,7 @@ private:
     const facet_table& facets_;
     cutting_params params_;
     budget& limits_;
-    chart_mesh pieces_; // that given seams leave
+    chart_mesh pieces_;                                   // that given seams leave
     std::vector<std::unique_ptr<piece_search>> searches_; // one a piece
     std::thread::id owner_;
     std::atomic<bool> stopped_{false};

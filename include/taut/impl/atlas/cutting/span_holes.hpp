@@ -36,8 +36,7 @@ inline idx span_small_holes(coarse_surface& s)
         if (!(perimeter * perimeter < small * small * area)) continue;
         const auto apex = static_cast<idx>(s.points.size());
         s.points.push_back(centre);
-        for (std::size_t k = 0; k < loop.size(); ++k)
-            s.cells.push_back({loop[(k + 1) % loop.size()], loop[k], apex});
+        for (std::size_t k = 0; k < loop.size(); ++k) s.cells.push_back({loop[(k + 1) % loop.size()], loop[k], apex});
     }
     return first;
 }

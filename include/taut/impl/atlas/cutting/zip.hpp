@@ -68,7 +68,7 @@ public:
     }
 
     /// What apply() changes, to take it back.
-    struct before
+    struct undo
     {
         std::vector<vec2> uv;
         std::vector<idx> corners; // of the second fan
@@ -76,9 +76,9 @@ public:
         double energy = 0;
     };
 
-    before remember(const flat_surface& flat, const zip& z) const
+    undo remember(const flat_surface& flat, const zip& z) const
     {
-        before b;
+        undo b;
         for (const idx c : z.triangles)
             for (std::size_t k = 0; k < 3; ++k) b.uv.push_back(flat.uv[3 * u(c) + k]);
         for (const idx s : rest_.sides.row(rest_.end(z.side)))
@@ -88,7 +88,7 @@ public:
         return b;
     }
 
-    void take_back(flat_surface& flat, const zip& z, const before& b) const
+    void take_back(flat_surface& flat, const zip& z, const undo& b) const
     {
         set_seam(rest_, flat.seam, z.side, 1);
         for (const idx k : b.corners) flat.fan[u(k)] = z.fans[1];

@@ -22,7 +22,8 @@ namespace taut::impl
 struct straighten_reach
 {
     double distance = std::numeric_limits<double>::infinity(); ///< along edges, from where an arc was
-    double least_length = 0.6; ///< of an arc by that before: less than jags are worth is a short cut, and leads elsewhere
+    double least_length =
+        0.6; ///< of an arc by that before: less than jags are worth is a short cut, and leads elsewhere
 };
 
 /// Moves seams to shorter ways between the nodes at which they end, near where they were. What lies beside an arc stays
@@ -183,8 +184,7 @@ private:
                 if (!inside(s)) continue;
                 const idx w = end_of(s);
                 if (ring_[u(w)] < 0 && !on_seam_[u(w)])
-                    add(w, ring_[u(v)] + 1,
-                        away_[u(v)] + glm::distance(mesh_.points()[u(v)], mesh_.points()[u(w)]));
+                    add(w, ring_[u(v)] + 1, away_[u(v)] + glm::distance(mesh_.points()[u(v)], mesh_.points()[u(w)]));
             }
         }
     }
@@ -255,10 +255,10 @@ private:
     csr sides_;
     std::vector<double> weight_; // one a side
     straighten_reach reach_;
-    std::vector<idx> chart_;     // one a triangle
-    std::vector<char> on_seam_;  // one a vertex, or on the boundary
-    std::vector<idx> ring_;      // one a vertex of the band, else -1
-    std::vector<double> away_;   // from the arc, one a vertex of the band
+    std::vector<idx> chart_;    // one a triangle
+    std::vector<char> on_seam_; // one a vertex, or on the boundary
+    std::vector<idx> ring_;     // one a vertex of the band, else -1
+    std::vector<double> away_;  // from the arc, one a vertex of the band
     std::vector<double> distance_;
     std::vector<idx> came_; // the side by which the way leads to a vertex
     std::vector<idx> band_;

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/atlas/cutting/fine_sewing.hpp>
+#include <taut/impl/atlas/cutting/short_cutting.hpp>
+#include <taut/impl/atlas/flat_charts.hpp>
+#include <taut/impl/atlas/seams/straighten.hpp>
+
+namespace taut::impl
+{
+
+/// Makes charts along short seams for flat_charts: looks for these, flattens what they leave, and sews them up or opens
+/// them until the bound of distortion holds on the surface itself.
+class short_charts
+{
+public:
+    explicit short_charts(flat_charts& charts) : c_(charts) {}
+
+    void run()
+    {
+        c_.params_.charts.validate();
+        c_.usable_ = true;
+        budget limits(std::max(c_.budget_.left(), budget::seconds(1e-6)), c_.asking("charts"));
+        short_cutting cutting(c_.mesh_, c_.facets_,
+                              {.bound = c_.params_.charts.mean_distortion,
+                               .seams = c_.params_.charts.seams,
+                               .together = c_.params_.charts.together,
+                               .part = c_.params_.prefer == chart_preference::seams},
+                              limits);
+        cutting.run();
+        c_.seam_ = cutting.seams();
+        c_.report_.complete = c_.report_.complete && c_.budget_.in_time() && !limits.over();
+        if (c_.report_.complete) segment_rest(cutting.unfound());
+        c_.report_.complete = c_.report_.complete && c_.budget_.in_time();
+        if (!c_.report_.complete)
+        {
+            c_.cut_unfinished({std::vector<vec2>(c_.facets_.twin.size()),
+                               std::vector<double>(c_.mesh_.cells().size(), std::numeric_limits<double>::infinity())},
+                              std::vector<char>(c_.mesh_.cells().size(), 1));
+            return;
+        }
+        flatten_within_bound(cutting, limits);
+        c_.report_.seconds.charts = c_.budget_.lap() - c_.report_.seconds.flatten;
+    }
+
+private:
+    using laid_triangles = flat_charts::laid_triangles;
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    /// Flattens the charts of short seams. What they have of distortion is found out only then, and seams are sewn up
+    /// or opened again until the bound holds.
+    void flatten_within_bound(short_cutting& cutting, budget& limits)
+    {
+        const double allowed = 0.998 * (c_.params_.charts.mean_distortion - 4), bound = 4 + allowed; // rounding, scale
+        // One more map costs more than what it may save.
+        const bool large = c_.mesh_.cells().size() > 30'000 || cutting.pieces() > 64;
+        constexpr int turns = 8;
+        double apart = std::min(0.5 * cutting.overlap(), 0.3 * allowed); // what it costs to keep borders apart, about
+        double first_above = 0, asked = 0; // excess of the first turn, what it was to become less since
+        bool rough = false;
+        std::optional<laid_charts> best, first;
+        std::vector<char> cut_before = c_.seam_;
+        for (int turn = 0; turn < turns && c_.report_.complete; ++turn)
+        {
+            laid_charts now = lay_short(cutting, limits);
+            if (!c_.report_.complete && best) break;
+            for (const char bad : now.bad) now.plain.push_back(bad == 0);
+            const auto crossing = std::count(now.bad.begin(), now.bad.end(), char(1));
+            const double flattened = now.mean;
+            if (crossing == 0) apart = 0;
+            double excess = now.mean + apart - bound;
+            if (excess <= 0 && crossing > 0)
+            {
+                c_.keep_apart(now.bad);
+                now.energy = c_.energy_;
+                now.flat = c_.flat_;
+                now.mean = mean_energy();
+                excess = now.mean - bound;
+                apart = std::max(0.0, now.mean - flattened);
+            }
+            now.holds = now.mean <= bound && excess <= 0;
+            const double mean = now.mean;
+            const bool holds = now.holds;
+            // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
+            const double above = flattened - bound;
+            if (turn == 0) first_above = above;
+            rough = above > 1.5 * allowed || (turn > 1 && above > 0.5 * allowed && above > first_above - 0.3 * asked);
+            if (rough && flattened < std::numeric_limits<double>::infinity() && !(best && best->holds))
+            {
+                if (turn == 0)
+                    best = std::move(now);
+                else
+                    best = std::move(*first);
+                c_.report_.notes.push_back(rough_note(best->mean));
+                break;
+            }
+            if (turn == 0 && !holds) first = now;
+            if (!best || now.better_than(*best)) best = std::move(now);
+            if (holds && (large || turn > 1 || mean > bound - 0.2 * allowed)) break;
+            if (!(mean < std::numeric_limits<double>::infinity())) break;
+            // Ever more cautious, so that it holds in the end.
+            const double more = holds ? 0.8 * (bound - mean) : -excess - 0.03 * (1 + turn) * allowed;
+            asked -= more;
+            cutting.adjust(more);
+            auto seams = cutting.seams();
+            if (holds && seams == cut_before) break; // nothing can be sewn up
+            c_.seam_ = cut_before = std::move(seams);
+        }
+        c_.seam_ = std::move(best->seam);
+        c_.charts_.emplace(std::move(best->charts));
+        c_.flat_ = std::move(best->flat);
+        c_.energy_ = std::move(best->energy);
+        if (c_.report_.complete && best->holds && cutting.pieces() <= 64)
+        {
+            sew_up(best->plain, true, limits);
+            if (std::count(best->plain.begin(), best->plain.end(), char(0)) > 0 && c_.report_.complete)
+                sew_up(std::vector<char>(c_.energy_.size(), 1), false, limits);
+        }
+        if (!c_.report_.complete) return lay_unfinished();
+        if (!best->holds) c_.keep_apart(best->bad);
+        if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
+        best->bad.resize(c_.energy_.size(), 0);
+        for (std::size_t k = 0; k < c_.energy_.size(); ++k)
+            if (!(c_.energy_[k] <= c_.params_.charts.max_distortion)) best->bad[k] = 1;
+        if (std::count(best->bad.begin(), best->bad.end(), char(1)) > 0) mend_rest(best->bad);
+        if (!c_.report_.complete) lay_unfinished();
+    }
+
+    /// Of a run that has ended: what has no good map becomes patches.
+    void lay_unfinished()
+    {
+        const auto bad = c_.unfit();
+        std::vector<char> crosses(c_.mesh_.cells().size(), 0);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            for (auto i = u(c_.charts_->first_cell[k]); i < u(c_.charts_->first_cell[k + 1]); ++i)
+                crosses[u(c_.charts_->cell_origins[i])] = bad[k];
+        c_.cut_unfinished(c_.triangles_as_laid(), crosses);
+    }
+
+    std::string rough_note(double mean) const
+    {
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "the surface is rough: the mean energy is %.4g where %.4g is wanted, whatever the seams; "
+                      "charts made for packing (--prefer packing) hold the bound",
+                      mean, c_.params_.charts.mean_distortion);
+        return text;
+    }
+
+    /// A surface cut and flattened.
+    struct laid_charts
+    {
+        std::vector<char> seam;
+        chart_mesh charts;
+        std::vector<vec2> flat;
+        std::vector<double> energy;
+        std::vector<char> bad;   // charts without a map, or that overlap themselves
+        std::vector<char> plain; // charts that had a map that did not from the beginning
+        double length, mean;
+        bool holds; // the bound, and the charts are fit
+
+        bool better_than(const laid_charts& other) const
+        {
+            if (holds != other.holds) return holds;
+            return holds ? length < other.length : mean < other.mean;
+        }
+    };
+
+    /// Cuts the surface along its seams, straightened, and flattens it.
+    laid_charts lay_short(const short_cutting& cutting, budget& limits)
+    {
+        straighten(c_.mesh_, c_.facets_, c_.seam_, c_.params_.charts.seams, c_.params_.charts.together, limits,
+                   cutting.prices(), {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
+        c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
+        auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(), true);
+        c_.energy_.clear();
+        for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
+        c_.flat_ = std::move(flat.uv);
+        return {c_.seam_,
+                *c_.charts_,
+                c_.flat_,
+                c_.energy_,
+                c_.unfit(),
+                {},
+                length_of_seams(c_.mesh_, c_.facets_, c_.seam_),
+                mean_energy(),
+                false};
+    }
+
+    /// Sews up some charts, one flag each, until the bound of all is reached. whole: their maps may follow as a whole,
+    /// which does not keep borders apart
+    void sew_up(const std::vector<char>& wanted, bool whole, budget& limits)
+    {
+        std::vector<idx> some;
+        std::vector<char> flags(c_.mesh_.cells().size(), 0);
+        double others = 0, own = 0; // energy, area
+        for (std::size_t k = 0; k < wanted.size(); ++k)
+        {
+            const double area = chart_area(k);
+            wanted[k] ? own += area : others += area * c_.energy_[k];
+            for (auto i = u(c_.charts_->first_cell[k]); i < u(c_.charts_->first_cell[k + 1]); ++i)
+                flags[u(c_.charts_->cell_origins[i])] = wanted[k];
+        }
+        for (std::size_t c = 0; c < flags.size(); ++c)
+            if (flags[c]) some.push_back(static_cast<idx>(c));
+        if (some.empty()) return;
+        double all = own;
+        for (std::size_t k = 0; k < wanted.size(); ++k) all += wanted[k] ? 0 : chart_area(k);
+        const double bound = ((0.002 * 4 + 0.998 * c_.params_.charts.mean_distortion) * all - others) / own;
+        auto laid = c_.triangles_as_laid();
+        if (!sew_laid(c_.mesh_, {c_.seam_, laid.uv, some, whole}, c_.params_.charts.seams, bound,
+                      [&limits] { return limits.proceed(); }))
+            return;
+        c_.cut(laid);
+        const ideal_elements<triangle> ideal(c_.charts_->surface);
+        for (std::size_t k = 0; k < c_.energy_.size(); ++k)
+            c_.energy_[k] = area_and_energy(*c_.charts_, k, c_.flat_, ideal).second;
+    }
+
+    double chart_area(std::size_t k) const
+    {
+        double area = 0;
+        for (idx c = c_.charts_->first_cell[k]; c < c_.charts_->first_cell[k + 1]; ++c)
+        {
+            const auto x = c_.charts_->surface.rest(c);
+            area += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
+        }
+        return area;
+    }
+
+    /// Has segment() cut the charts, one flag each, that have no map, overlap themselves or are above the bound.
+    void mend_rest(const std::vector<char>& bad)
+    {
+        std::vector<char> wanted(c_.mesh_.cells().size(), 0);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            for (auto i = u(c_.charts_->first_cell[k]); i < u(c_.charts_->first_cell[k + 1]); ++i)
+                wanted[u(c_.charts_->cell_origins[i])] = bad[k];
+        auto seam = c_.seam_;
+        segment_rest(wanted);
+        if (!c_.report_.complete)
+        {
+            c_.seam_ = std::move(seam);
+            return;
+        }
+        c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
+        auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max());
+        c_.energy_.clear();
+        for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
+        c_.flat_ = std::move(flat.uv);
+        if (c_.report_.complete) c_.mend(c_.unfit());
+    }
+
+    /// Area mean over all charts.
+    double mean_energy() const
+    {
+        double sum = 0, area = 0;
+        for (std::size_t k = 0; k < c_.energy_.size(); ++k)
+        {
+            const double own = chart_area(k);
+            sum += own * c_.energy_[k];
+            area += own;
+        }
+        return sum / area;
+    }
+
+    /// Has segment() cut some triangles, one flag each.
+    void segment_rest(const std::vector<char>& wanted)
+    {
+        std::vector<idx> triangles, number(c_.mesh_.points().size(), -1);
+        for (std::size_t c = 0; c < wanted.size(); ++c)
+            if (wanted[c]) triangles.push_back(static_cast<idx>(c));
+        if (triangles.empty()) return;
+        const surface_part part = part_of(c_.mesh_, triangles, c_.seam_, number);
+        const auto f = facets(part.charts.surface);
+        std::vector<char> together(c_.params_.charts.together.empty() ? 0 : f.twin.size(), 0);
+        for (std::size_t s = 0; s < together.size(); ++s) together[s] = c_.params_.charts.together[part.origin(s)];
+        auto params = c_.params_.charts;
+        params.seams = {};
+        params.together = together;
+        params.least_fill = 0;
+        params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
+        params.time_limit = std::max(c_.budget_.left(), budget::seconds(1e-6));
+        params.observer = c_.asking("charts");
+        const auto maps = [this](const chart_mesh& charts, std::span<const vec2> start)
+        { return c_.flatten(charts, start, std::numeric_limits<int>::max()); };
+        const auto made = segment_surface(part.charts.surface, f, maps_by(maps), params);
+        for (std::size_t s = 0; s < made.seam.size(); ++s)
+            if (made.seam[s]) c_.seam_[part.origin(s)] = 1;
+    }
+
+    flat_charts& c_;
+};
+
+inline void flat_charts::cut_short()
+{
+    short_charts(*this).run();
+}
+
+} // namespace taut::impl

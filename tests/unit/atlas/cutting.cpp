@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <support/closed_meshes.hpp>
+#include <support/meshes.hpp>
+#include <taut/impl/atlas/cutting/lift_seams.hpp>
+#include <taut/impl/atlas/cutting/seam_search.hpp>
+#include <taut/impl/atlas/cutting/short_cutting.hpp>
+#include <taut/impl/atlas/cutting/span_holes.hpp>
+
+using namespace taut;
+using namespace taut::impl;
+
+namespace
+{
+
+std::size_t u(idx i)
+{
+    return static_cast<std::size_t>(i);
+}
+
+/// A box of cubes blown up to a ball with limbs.
+mesh<triangle> limbs(int n)
+{
+    const auto box = test::cubes({{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, n);
+    return box;
+}
+
+rest_surface rest_of(const mesh<triangle>& m)
+{
+    return rest_surface::of(m, m.cell_count());
+}
+
+/// V - E + F.
+idx euler(const mesh<triangle>& m)
+{
+    const auto f = facets(m);
+    idx edges = 0;
+    for (std::size_t s = 0; s < f.twin.size(); ++s) edges += f.twin[s] < static_cast<idx>(s);
+    return m.vertex_count() - edges + m.cell_count();
+}
+
+void check_no_flips(const rest_surface& rest, const flat_surface& flat)
+{
+    for (idx c = 0; c < rest.triangles(); ++c)
+        CHECK(energy_of(rest, flat.uv, c) < std::numeric_limits<double>::infinity());
+    for (std::size_t corner = 0; corner < flat.fan.size(); ++corner)
+    {
+        const auto side = static_cast<idx>(corner);
+        if (rest.twin(side) < 0 || flat.seam[corner]) continue;
+        const idx a = rest_surface::start_corner(side), b = rest_surface::end_corner(rest.twin(side));
+        CHECK(flat.uv[u(a)] == flat.uv[u(b)]); // connected where there is no seam
+    }
+}
+
+} // namespace
+
+TEST_CASE("coarse surface: vertices of the fine one, the same topology, about as many triangles as asked")
+{
+    for (const auto& m :
+         {limbs(12),
+          test::cubes({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}}, 8)})
+    {
+        const auto coarse = make_coarse(m, facets(m), 600);
+        const mesh<triangle> small(coarse.points, coarse.cells);
+        CHECK(small.cell_count() <= 600);
+        CHECK(small.cell_count() > 500);
+        CHECK(euler(small) == euler(m));
+        CHECK(facets(small).oriented());
+        for (std::size_t v = 0; v < coarse.points.size(); ++v)
+            CHECK(coarse.points[v] == m.points()[u(coarse.origins[v])]);
+        const auto again = make_coarse(m, facets(m), 600);
+        CHECK(again.cells == coarse.cells);
+    }
+    const auto m = limbs(2);
+    CHECK(make_coarse(m, facets(m), 10'000).cells == m.cells());
+}
+
+TEST_CASE("coarse surface: small holes are spanned, large ones stay")
+{
+    const auto whole = limbs(6);
+    auto cells = whole.cells();
+    cells.erase(cells.begin(), cells.begin() + 2); // one quad
+    coarse_surface s{whole.points(), cells, {}};
+    const idx first = span_small_holes(s);
+    CHECK(first == static_cast<idx>(cells.size()));
+    CHECK(s.cells.size() == cells.size() + 4);
+    CHECK(euler(mesh<triangle>(s.points, s.cells)) == 2);
+    std::vector<std::array<idx, 3>> half;
+    for (const auto& t : whole.cells())
+        if (whole.points()[u(t[0])].x + whole.points()[u(t[1])].x + whole.points()[u(t[2])].x < 1.5) half.push_back(t);
+    coarse_surface open{whole.points(), half, {}};
+    span_small_holes(open);
+    CHECK(open.cells.size() == half.size());
+}
+
+TEST_CASE("curvature potential: greatest at the tips of limbs")
+{
+    const rest_surface rest = rest_of(limbs(6));
+    curvature_potential potential(rest);
+    std::vector<char> zero(rest.surface.points().size(), 0);
+    for (std::size_t v = 0; v < zero.size(); ++v)
+        if (rest.surface.points()[v] == vec3(0.5, 0.5, 0.0)) zero[v] = 1;
+    REQUIRE(std::count(zero.begin(), zero.end(), char(1)) == 1);
+    const auto phi = potential(zero);
+    const auto top = std::max_element(phi.begin(), phi.end()) - phi.begin();
+    const vec3 p = rest.surface.points()[static_cast<std::size_t>(top)];
+    CHECK(std::max({std::abs(p.x - 0.5), std::abs(p.y - 0.5), std::abs(p.z - 0.5)}) == doctest::Approx(1.5));
+}
+
+TEST_CASE("zip: sews up one edge, costs what it says, and can be taken back")
+{
+    const rest_surface rest = rest_of(limbs(5));
+    flat_surface flat;
+    flat.seam.assign(rest.facets.twin.size(), 0);
+    over_cutting(rest, 0.3).run(flat.seam, 0.3, 100);
+    number_fans(rest, flat);
+    const cut_surface cut = cut_surface::of(rest, flat);
+    const mesh<triangle> disk(cut.points, cut.cells);
+    REQUIRE(euler(disk) == 1);
+    const auto map = barycentric_map(disk, {.stretch_rounds = 1});
+    flat.uv.resize(flat.fan.size());
+    for (std::size_t k = 0; k < flat.fan.size(); ++k) flat.uv[k] = map.uv[u(cut.cells[k / 3][k % 3])];
+    relax(rest, flat, 60, 1e-8);
+    check_no_flips(rest, flat);
+    CHECK(flat.energy == doctest::Approx(mean_energy(rest, flat.uv)));
+    zipper zips(rest, 100);
+    int done = 0;
+    for (idx v = 0; v < rest.vertices(); ++v)
+    {
+        if (seam_degree(rest, flat.seam, v) != 1) continue;
+        const zip z = zips.look(flat, v);
+        if (!(z.more < std::numeric_limits<double>::infinity())) continue;
+        const flat_surface was = flat;
+        const auto remembered = zips.remember(flat, z);
+        zips.apply(flat, z);
+        check_no_flips(rest, flat);
+        CHECK(flat.energy == doctest::Approx(mean_energy(rest, flat.uv)).epsilon(1e-9));
+        CHECK(seam_price(rest, flat.seam) == doctest::Approx(seam_price(rest, was.seam) - rest.length[u(z.side)]));
+        flat_surface back = flat;
+        zips.take_back(back, z, remembered);
+        CHECK(back.seam == was.seam);
+        CHECK(back.uv == was.uv);
+        CHECK(back.fan == was.fan);
+        CHECK(back.fan_cells == was.fan_cells);
+        if (++done == 5) break;
+    }
+    CHECK(done > 0);
+}
+
+TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
+{
+    // A helix of 1.5 turns, seen from above.
+    constexpr int around = 60, across = 4;
+    std::vector<vec3> points;
+    std::vector<std::array<idx, 3>> cells;
+    for (int i = 0; i <= around; ++i)
+        for (int j = 0; j <= across; ++j)
+        {
+            const double a = 3 * std::numbers::pi * i / around, r = 2 + 0.25 * j;
+            points.push_back({r * std::cos(a), r * std::sin(a), 0.001 * i});
+        }
+    for (idx i = 0; i < around; ++i)
+        for (idx j = 0; j < across; ++j)
+        {
+            const idx a = i * (across + 1) + j, b = a + across + 1;
+            cells.push_back({a, a + 1, b + 1});
+            cells.push_back({a, b + 1, b});
+        }
+    const rest_surface rest = rest_of(mesh<triangle>(points, cells));
+    flat_surface flat;
+    flat.seam.assign(rest.facets.twin.size(), 0);
+    number_fans(rest, flat);
+    for (std::size_t k = 0; k < flat.fan.size(); ++k)
+    {
+        const vec3 p = points[u(rest.vertex(static_cast<idx>(k)))];
+        flat.uv.push_back({p.x, p.y});
+    }
+    flat.energy = mean_energy(rest, flat.uv);
+    const auto found = find_overlaps(rest, flat);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].area == doctest::Approx(rest.total / 3).epsilon(0.05));
+    const auto cut = minimum_cut(rest, flat.seam, found[0].below, found[0].above);
+    double length = 0;
+    for (const idx s : cut) length += rest.length[u(s)];
+    CHECK(length == doctest::Approx(1).epsilon(0.02)); // the width
+    CHECK(part_charts(rest, flat, {}) == 1);
+    CHECK(pieces_between(rest.facets, flat.seam).second == 2);
+    CHECK(border_crossings(rest, flat, 1) == 0);
+    check_no_flips(rest, flat);
+}
+
+TEST_CASE("seam search: within the bound, and a looser one makes no longer seams beyond a tenth")
+{
+    for (const auto& m :
+         {limbs(6),
+          test::cubes({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}}, 4)})
+    {
+        const rest_surface rest = rest_of(m);
+        double before = std::numeric_limits<double>::infinity();
+        for (const double bound : {4.05, 4.1, 4.3})
+        {
+            seam_search search(rest, {.bound = bound});
+            REQUIRE(search.run());
+            CHECK(search.result().energy <= bound);
+            CHECK(search.result().energy == doctest::Approx(mean_energy(rest, search.result().uv)));
+            check_no_flips(rest, search.result());
+            CHECK(search.price() < 1.1 * before);
+            before = std::min(before, search.price());
+        }
+    }
+}
+
+TEST_CASE("seam search: what is flat already gets no seams")
+{
+    const rest_surface rest = rest_of(test::grid(12, 12));
+    seam_search search(rest, {});
+    REQUIRE(search.run());
+    CHECK(search.price() == 0);
+    CHECK(search.result().energy == doctest::Approx(4));
+}
+
+TEST_CASE("short cutting: seams lead back over the fine surface, given ones stay, unwanted ones are avoided")
+{
+    const auto m = limbs(24);
+    const auto f = facets(m);
+    std::vector<char> given(f.twin.size(), 0), together(f.twin.size(), 0);
+    given[3] = given[u(f.twin[3])] = 1;
+    for (std::size_t s = 0; s < f.twin.size(); ++s)
+    {
+        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
+        together[s] = glm::distance(m.points()[u(a)], m.points()[u(b)]) > 1.2 / 24; // diagonals of quads
+    }
+    given[3] = given[u(f.twin[3])] = !together[3];
+    budget unlimited;
+    short_cutting cutting(m, f, {.seams = given, .together = together, .coarse = 1000}, unlimited);
+    cutting.run();
+    const auto unfound = cutting.unfound();
+    CHECK(std::count(unfound.begin(), unfound.end(), char(1)) == 0);
+    const auto seam = cutting.seams();
+    idx sides = 0;
+    for (std::size_t s = 0; s < seam.size(); ++s)
+    {
+        CHECK(seam[s] == seam[u(f.twin[s])]);
+        CHECK((!given[s] || seam[s]));
+        CHECK((!seam[s] || !together[s]));
+        sides += seam[s];
+    }
+    CHECK(sides > 20);
+    const auto charts = cut_charts(m, f, seam);
+    CHECK(charts.charts() <= 6);
+    short_cutting again(m, f, {.seams = given, .together = together, .coarse = 1000}, unlimited);
+    again.run();
+    CHECK(again.seams() == seam);
+}
