@@ -15,6 +15,7 @@
 #endif
 
 #include <atlas/atlas_options.hpp>
+#include <atlas/atlas_report.hpp>
 #include <atlas/atlas_source.hpp>
 #include <atlas/joined_surfaces.hpp>
 #include <atlas/pinned_faces.hpp>
@@ -22,7 +23,6 @@
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
 #include <report/atlas_page.hpp>
-#include <taut/impl/atlas/atlas_report.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/symmetry.hpp>
 #include <taut/impl/gltf/gltf.hpp>
