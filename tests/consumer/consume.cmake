@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-# cmake -DMODE=install|subdirectory|fetch|plain|forgotten|components|pkgconfig -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
+# cmake -DMODE=install|subdirectory|fetch|plain|forgotten|components|pkgconfig|amalgamated -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
 # Builds and runs a user's project: against a taut that was installed without building anything, with taut as a
 # subdirectory or fetched, by a compiler alone; forgotten: without TAUT_IMPLEMENTATION, which the linker tells;
-# components: asks an installed taut for its components; pkgconfig: by a compiler with the flags of pkg-config.
+# components: asks an installed taut for its components; pkgconfig: by a compiler with the flags of pkg-config;
+# amalgamated: with the two files of scripts/amalgamate in an empty folder, whose map is that of the headers.
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
     if(result)
@@ -38,6 +39,20 @@ elseif(MODE STREQUAL "components")
     include(${ROOT}/cmake/version.cmake)
     run(${CMAKE_COMMAND} -S ${ROOT}/tests/consumer/components -B ${BUILD}/app -DCMAKE_PREFIX_PATH=${BUILD}/prefix
         -DVERSION=${taut_version} -DFULL_VERSION=${taut_full_version})
+    return()
+elseif(MODE STREQUAL "amalgamated")
+    run(${ROOT}/scripts/amalgamate ${BUILD}/one)
+    file(COPY ${app}/same.cpp DESTINATION ${BUILD}/one)
+    set(strict -std=c++20 -O0 -Wall -Wextra -Werror)
+    foreach(unit taut same)
+        run(${CXX} ${strict} -DAMALGAMATED -c ${BUILD}/one/${unit}.cpp -o ${BUILD}/one/${unit}.o)
+    endforeach()
+    run(${CXX} ${BUILD}/one/taut.o ${BUILD}/one/same.o -lOpenCL -lpthread -o ${BUILD}/one/app)
+    run(${compile} ${app}/same.cpp -lOpenCL -lpthread -o ${BUILD}/app)
+    foreach(program one/app app)
+        execute_process(COMMAND ${BUILD}/${program} OUTPUT_FILE ${BUILD}/${program}.txt COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()
+    run(${CMAKE_COMMAND} -E compare_files ${BUILD}/one/app.txt ${BUILD}/app.txt)
     return()
 elseif(MODE STREQUAL "pkgconfig")
     install()
