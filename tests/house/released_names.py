@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """released_names.py ROOT [--write]: no public name of the last release has vanished in silence.
 
-tests/house/released-names.txt has the version of that release and its names, each with the header that brings it. A name
-that docs/reference/names.md has there no more needs a line under "Removed" of a later version in CHANGELOG.md that says it
-as `name`. --write: makes the list of what the page has now, for a release."""
+tests/house/released-names.txt has the version of that release and its names, each with the header that brings it. A
+name that docs/reference/names.md has there no more needs a line under "Removed" of a later version in CHANGELOG.md
+that says it as `name`. --write: makes the list of what the page has now, for a release."""
 
 import pathlib
 import re
