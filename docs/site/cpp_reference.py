@@ -74,7 +74,7 @@ def declarations(text):
                 shown = text[start:stop].strip()
             if re.fullmatch(r"(?:template\s*<[^>]*>\s*)?(?:class|struct|enum class|enum)\s+[\w:\s]+;", shown):
                 continue  # only named before
-            if re.search(rf"\b{name}\s*(?:<[^<>]*>)?\s*::", shown.split("(")[0]):
+            if re.search(rf"\b{name}\s*(?:<[^<>]*>)?\s*::", head.split("(")[0]):
                 continue  # a member that is defined outside of its class
             found.append((space + name, comment, shown))
     return found
