@@ -31,14 +31,27 @@ command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launc
 command add_devices(CLI::App& program);
 /// Hidden: of build_elsewhere().
 command add_build_kernels(CLI::App& program);
+/// Hidden: of packages, and of who sets up a shell.
+command add_completion(CLI::App& program);
+command add_man(CLI::App& program);
 
 /// All of them, in the order in which the help lists them.
 inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_clock::time_point launch)
 {
-    return {add_unwrap(program, launch), add_atlas(program, launch),  add_untangle(program, launch),
-            add_deform(program, launch), add_smooth(program, launch), add_paste(program, launch),
-            add_check(program),          add_eval(program),           add_view(program),
-            add_batch(program, launch),  add_devices(program),        add_build_kernels(program)};
+    return {add_unwrap(program, launch),
+            add_atlas(program, launch),
+            add_untangle(program, launch),
+            add_deform(program, launch),
+            add_smooth(program, launch),
+            add_paste(program, launch),
+            add_check(program),
+            add_eval(program),
+            add_view(program),
+            add_batch(program, launch),
+            add_devices(program),
+            add_build_kernels(program),
+            add_completion(program),
+            add_man(program)};
 }
 
 } // namespace taut::tools

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The version of the library; CMake and the command line read it from here.
-#define TAUT_VERSION_MAJOR 0
-#define TAUT_VERSION_MINOR 1
+/// The version of the library, as semantic versions are written; CMake and the command line read it from here. A
+/// release candidate has the numbers of the release that follows it, and -rc.N behind them in the string.
+#define TAUT_VERSION_MAJOR 1
+#define TAUT_VERSION_MINOR 0
 #define TAUT_VERSION_PATCH 0
-#define TAUT_VERSION_STRING "0.1.0"
+#define TAUT_VERSION_STRING "1.0.0-rc.1"

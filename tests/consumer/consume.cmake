@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: MIT
-# cmake -DMODE=install|subdirectory|fetch|plain|forgotten -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
+# cmake -DMODE=install|subdirectory|fetch|plain|forgotten|components|pkgconfig|amalgamated -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
 # Builds and runs a user's project: against a taut that was installed without building anything, with taut as a
-# subdirectory or fetched, by a compiler alone; forgotten: without TAUT_IMPLEMENTATION, which the linker tells.
+# subdirectory or fetched, by a compiler alone; forgotten: without TAUT_IMPLEMENTATION, which the linker tells;
+# components: asks an installed taut for its components; pkgconfig: by a compiler with the flags of pkg-config;
+# amalgamated: with the two files of scripts/amalgamate in an empty folder, whose map is that of the headers.
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
     if(result)
         message(FATAL_ERROR "${ARGV}\n${out}")
     endif()
+endfunction()
+
+# taut in BUILD/prefix, nothing of it built.
+function(install)
+    run(${CMAKE_COMMAND} -S ${ROOT} -B ${BUILD}/taut -DTAUT_TESTS=OFF -DTAUT_TOOLS=OFF -DTAUT_EXAMPLES=OFF -DTAUT_BENCH=OFF)
+    run(${CMAKE_COMMAND} --install ${BUILD}/taut --prefix ${BUILD}/prefix)
 endfunction()
 
 file(REMOVE_RECURSE ${BUILD})
@@ -26,9 +34,36 @@ elseif(MODE STREQUAL "forgotten")
         message(FATAL_ERROR "not the error that the documents name:\n${out}")
     endif()
     return()
+elseif(MODE STREQUAL "components")
+    install()
+    include(${ROOT}/cmake/version.cmake)
+    run(${CMAKE_COMMAND} -S ${ROOT}/tests/consumer/components -B ${BUILD}/app -DCMAKE_PREFIX_PATH=${BUILD}/prefix
+        -DVERSION=${taut_version} -DFULL_VERSION=${taut_full_version})
+    return()
+elseif(MODE STREQUAL "amalgamated")
+    run(${ROOT}/scripts/amalgamate ${BUILD}/one)
+    file(COPY ${app}/same.cpp DESTINATION ${BUILD}/one)
+    set(strict -std=c++20 -O0 -Wall -Wextra -Werror)
+    foreach(unit taut same)
+        run(${CXX} ${strict} -DAMALGAMATED -c ${BUILD}/one/${unit}.cpp -o ${BUILD}/one/${unit}.o)
+    endforeach()
+    run(${CXX} ${BUILD}/one/taut.o ${BUILD}/one/same.o -lOpenCL -lpthread -o ${BUILD}/one/app)
+    run(${compile} ${app}/same.cpp -lOpenCL -lpthread -o ${BUILD}/app)
+    foreach(program one/app app)
+        execute_process(COMMAND ${BUILD}/${program} OUTPUT_FILE ${BUILD}/${program}.txt COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()
+    run(${CMAKE_COMMAND} -E compare_files ${BUILD}/one/app.txt ${BUILD}/app.txt)
+    return()
+elseif(MODE STREQUAL "pkgconfig")
+    install()
+    set(ENV{PKG_CONFIG_PATH} ${BUILD}/prefix/share/pkgconfig)
+    execute_process(COMMAND pkg-config --cflags --libs taut OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY)
+    separate_arguments(flags UNIX_COMMAND "${flags}")
+    run(${CXX} -std=c++20 -O0 ${app}/single.cpp ${flags} -o ${BUILD}/app_single)
+    run(${BUILD}/app_single)
+    return()
 elseif(MODE STREQUAL "install")
-    run(${CMAKE_COMMAND} -S ${ROOT} -B ${BUILD}/taut -DTAUT_TESTS=OFF)
-    run(${CMAKE_COMMAND} --install ${BUILD}/taut --prefix ${BUILD}/prefix)
+    install()
     run(${CMAKE_COMMAND} -S ${app} -B ${BUILD}/app -DCMAKE_PREFIX_PATH=${BUILD}/prefix)
 elseif(MODE STREQUAL "fetch")
     run(${CMAKE_COMMAND} -S ${app} -B ${BUILD}/app -DTAUT_SOURCE=${ROOT} -DFETCH=ON)

@@ -49,7 +49,7 @@ def anchors(page):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    documents = [root / "README.md", root / "CHANGELOG.md", *sorted((root / "docs").rglob("*.md"))]
+    documents = [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]
     faults = []
 
     def fault(page, number, what):

@@ -9,7 +9,7 @@ test_usage()
     expect 0 unwrap --help
     says out '--energy isometric\|shape\|area' '--time-limit' '130 interrupted'
     expect 0 --version
-    says out '^taut [0-9]+\.[0-9]+\.[0-9]+$'
+    says out '^taut [0-9]+\.[0-9]+\.[0-9]+(-rc\.[0-9]+)?$'
 
     expect 2
     error_says 'subcommand' '--help'

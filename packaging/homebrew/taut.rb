@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+class Taut < Formula
+  desc "Injective, low-distortion maps of meshes on any OpenCL device"
+  homepage "https://taut.example"
+  url "https://taut.example/releases/taut-1.0.0-rc.1.tar.gz"
+  sha256 "0000000000000000000000000000000000000000000000000000000000000000"
+  license "MIT"
+
+  depends_on "cli11" => :build
+  depends_on "cmake" => :build
+  depends_on "eigen" => :build
+  depends_on "nlohmann-json" => :build
+  depends_on "boost"
+  depends_on "glm"
+  depends_on "opencl-headers"
+  depends_on "opencl-icd-loader"
+  depends_on "openssl@3"
+  depends_on "pocl"
+
+  def install
+    system "cmake", "-S", ".", "-B", "build", *std_cmake_args,
+           "-DTAUT_TESTS=OFF", "-DTAUT_EXAMPLES=OFF", "-DTAUT_BENCH=OFF", "-DTAUT_TOOLS=ON"
+    system "cmake", "--build", "build"
+    system "cmake", "--install", "build"
+    pkgshare.install "examples/unwrap.cpp"
+  end
+
+  test do
+    system ENV.cxx, "-std=c++20", pkgshare/"unwrap.cpp", "-I#{include}",
+           "-L#{Formula["opencl-icd-loader"].opt_lib}", "-lOpenCL", "-pthread", "-o", "unwrap"
+    assert_match version.to_s, shell_output("#{bin}/taut --version")
+  end
+end

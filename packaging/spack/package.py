@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+from spack.package import *
+
+
+class Taut(CMakePackage):
+    """Injective, low-distortion maps of triangle and tetrahedral meshes on any OpenCL device."""
+
+    homepage = "https://taut.example"
+    url = "https://taut.example/releases/taut-1.0.0-rc.1.tar.gz"
+    license("MIT")
+
+    version("1.0.0-rc.1", sha256="0000000000000000000000000000000000000000000000000000000000000000")
+
+    variant("cli", default=True, description="Build the command line program")
+
+    depends_on("cxx", type="build")
+    depends_on("cmake@3.22:", type="build")
+    depends_on("opencl@1.2:")
+    depends_on("boost@1.71:")
+    depends_on("glm@0.9.9:")
+    with when("+cli"):
+        depends_on("cli11", type="build")
+        depends_on("nlohmann-json", type="build")
+        depends_on("eigen@3.4:", type="build")
+        depends_on("openssl")
+
+    def cmake_args(self):
+        return [
+            self.define("TAUT_TESTS", False),
+            self.define("TAUT_EXAMPLES", False),
+            self.define("TAUT_BENCH", False),
+            self.define_from_variant("TAUT_TOOLS", "cli"),
+        ]
