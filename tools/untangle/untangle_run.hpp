@@ -140,7 +140,7 @@ private:
     }
 
     /// The mesh from here on, some of whose elements are split.
-    void go_on_with(refined_problem<Element> refined)
+    void go_on_with(impl::refined_problem<Element> refined)
     {
         parts_ = std::move(refined.cells);
         if (!input_) problem_file_ = io::impl::subdivided(*problem_file_, refined.how);
