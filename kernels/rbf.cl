@@ -34,7 +34,7 @@ static REAL rbf_phi(const REAL r2, const REAL scale)
 #endif
 }
 
-/// x: 3 numbers a point, as are centres and weights; polynomial: 4 rows of 3, of 1, x, y and z. Coordinates are
+/// x: 3 numbers per point, as are centres and weights; polynomial: 4 rows of 3, of 1, x, y and z. Coordinates are
 /// normalised.
 __kernel void rbf_evaluate(const int count, const int centre_count, const REAL scale, __global const REAL* restrict x,
                            __global const REAL* restrict centres, __global const REAL* restrict weights,
