@@ -28,11 +28,11 @@ def _corner_uv(name: str, value: Any, faces: Any, vertices: int) -> Any:
     )
 
 
-@overload
 #: Numbers of `prefer="packing"` that few have a reason to set.
 _TUNING = ("least_fill", "cut_rounds", "unite_rounds")
 
 
+@overload
 def atlas(V: ArrayLike, F: ArrayLike, **options: Any) -> Atlas: ...
 @overload
 def atlas(V: list[tuple[Any, Any]], F: None = ..., **options: Any) -> list[Atlas]: ...
