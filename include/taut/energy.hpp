@@ -7,6 +7,7 @@
 #include <taut/impl/energy/area.hpp>
 #include <taut/impl/energy/characteristic_value.hpp>
 #include <taut/impl/energy/check_gradient.hpp>
+#include <taut/impl/energy/definiteness.hpp>
 #include <taut/impl/energy/element.hpp>
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/energy/neo_hookean.hpp>
@@ -15,5 +16,4 @@
 #include <taut/impl/energy/shape.hpp>
 #include <taut/impl/energy/shape_power.hpp>
 #include <taut/impl/energy/shell.hpp>
-#include <taut/impl/objective/element_hessian.hpp>
 #include <taut/impl/symbolic/glm.hpp>

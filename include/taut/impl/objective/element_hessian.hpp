@@ -7,30 +7,11 @@
 #include <vector>
 
 #include <taut/impl/compute/record.hpp>
+#include <taut/impl/energy/definiteness.hpp>
 #include <taut/impl/energy/eigenvalue_filter.hpp>
 #include <taut/impl/energy/isotropic.hpp>
 #include <taut/impl/energy/modes.hpp>
 #include <taut/impl/objective/traced_element.hpp>
-
-namespace taut
-{
-
-/// Treatment of the negative eigenvalues of an element's Hessian, in the space of S, before the change to corners,
-/// which keeps their sign.
-enum class definiteness
-{
-    indefinite, ///< kept: the Hessian itself, for the last iterations
-    projected,  ///< 0: negative_eigenvalues::clamped
-    absolute    ///< without it: negative_eigenvalues::absolute
-};
-
-/// Treatment of the projected (PSD) Hessian.
-inline definiteness definite(impl::negative_eigenvalues treated)
-{
-    return treated == impl::negative_eigenvalues::absolute ? definiteness::absolute : definiteness::projected;
-}
-
-} // namespace taut
 
 namespace taut::impl
 {
