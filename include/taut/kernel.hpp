@@ -2,6 +2,7 @@
 #pragma once
 
 /// Kernels of your own: recorded from C++ with traced scalars, or in OpenCL C.
+#include <taut/impl/compute/event.hpp>
 #include <taut/impl/compute/handler.hpp>
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/record.hpp>
