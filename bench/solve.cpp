@@ -89,7 +89,7 @@ public:
 
     void run()
     {
-        triad_ = device_triad(queue_, std::size_t{options_.quick ? 1u : 64u} << 20);
+        triad_ = options_.quick ? device_triad(queue_, std::size_t{1} << 20) : device_triad(queue_);
         std::printf("taut %s %s on %s, driver %s; triad %.1f GB/s", TAUT_VERSION_STRING, TAUT_BENCH_COMMIT,
                     queue_.device().name().c_str(), queue_.device().driver_version().c_str(), triad_ * 1e-9);
         report_["triad_bytes_a_second"] = triad_;

@@ -8,14 +8,15 @@
 // Vectors: component c of vertex v at [c * stride + v]; stride is a multiple of 256 and its padding zero.
 //
 // Macros: REAL float or double; D block size; K weights a row of an interpolation; C rows a slice; V rows an item; TEAM
-// items of the group of invert_dense; GROUP, on CPUs, the most rows an item of galerkin.
+// items of the group of invert_dense; GROUP, on CPUs, the most rows an item of galerkin; SHARE, on GPUs, its items a row
+// and those of `dense`; ITEMS, on GPUs, those of a group.
 // (C, V) = (16, 16): CPUs, where explicit vectors keep the arithmetic wide although the gathers are not; (32, 1): GPUs,
 // where a slice is a warp.
 //
-// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=2 -DK=3 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DEPSILON=1e-12
-// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=3 -DK=4 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DEPSILON=2e-6f
-// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=2 -DK=3 -DC=32 -DV=1 -DTEAM=64 -DGROUP=1 -DEPSILON=2e-6f
-// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DK=4 -DC=32 -DV=1 -DTEAM=64 -DGROUP=1 -DEPSILON=1e-12
+// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=2 -DK=3 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DSHARE=1 -DITEMS=16 -DEPSILON=1e-12
+// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=3 -DK=4 -DC=16 -DV=16 -DTEAM=1 -DGROUP=32 -DSHARE=1 -DITEMS=16 -DEPSILON=2e-6f
+// check: -DREAL=float -DREAL_IS_DOUBLE=0 -DD=2 -DK=3 -DC=32 -DV=1 -DTEAM=256 -DGROUP=1 -DSHARE=16 -DITEMS=128 -DEPSILON=2e-6f
+// check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DK=4 -DC=32 -DV=1 -DTEAM=256 -DGROUP=1 -DSHARE=16 -DITEMS=128 -DEPSILON=1e-12
 
 #if REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -268,6 +269,51 @@ __kernel void assemble(const int cells, __global const int* offsets, __global co
     }
 }
 
+#if V == 1
+/// Of row I of P' A P the nonzeros whose numbers are `part` and on, SHARE apart: an item has a nonzero in registers and
+/// goes through all products of the row, of which neighbours read the same. transpose: for each coarse row the places in
+/// `weights` of its column of P, ended by -1. A row of P without weights has no columns; in others, places without a
+/// weight repeat a column.
+inline void product_places(const int I, const int part, const int rows, const int fine_stride,
+                           __global const int* transpose_offsets, __global const int* transpose,
+                           __global const int* prolongation, __global const REAL* weights,
+                           __global const int* fine_offsets, __global const int* fine_columns,
+                           __global const REAL* fine, __global const int* offsets, __global const int* columns,
+                           __global REAL* coarse)
+{
+    const int slice = I / C, lane = I % C, start = offsets[slice], stop = offsets[slice + 1];
+    const int terms_end = I < rows ? transpose_offsets[slice + 1] : 0;
+    for (int place = start + part * C; place < stop; place += SHARE * C)
+    {
+        const int J = columns[place + lane];
+        const bool padding = J == I && place > start;
+        REAL sum[D * D];
+        UNROLLED (int e = 0; e < D * D; ++e) sum[e] = 0;
+        for (int t = transpose_offsets[slice] + lane; t < terms_end; t += C)
+        {
+            const int term = transpose[t];
+            if (term < 0 || padding) break;
+            const REAL left = weights[term];
+            int i = term;
+            UNROLLED (int k = 1; k < K; ++k) i -= term >= k * fine_stride ? fine_stride : 0;
+            const int fine_lane = i % C;
+            const int first = fine_offsets[i / C], end = fine_offsets[i / C + 1];
+            for (int at = first; at < end; at += C)
+            {
+                const int j = fine_columns[at + fine_lane];
+                if (j == i && at > first) break;
+                REAL right = 0;
+                UNROLLED (int l = 0; l < K; ++l)
+                    right += prolongation[l * fine_stride + j] == J ? weights[l * fine_stride + j] : 0;
+                if (right == 0) continue;
+                right *= left;
+                UNROLLED (int e = 0; e < D * D; ++e) sum[e] += right * fine[at * D * D + e * C + fine_lane];
+            }
+        }
+        UNROLLED (int e = 0; e < D * D; ++e) coarse[place * D * D + e * C + lane] = sum[e];
+    }
+}
+#else
 /// Row I = slice * C + lane of P' A P, term by term. transpose: for each coarse row the places in `weights` of its column
 /// of P, ended by -1. A row of P without weights has no columns; in others, places without a weight repeat a column,
 /// which saves a branch.
@@ -316,8 +362,9 @@ inline void product_row(const int slice, const int lane, const int rows, const i
         }
     }
 }
+#endif
 
-/// Values of the coarse matrix P' A P. On GPUs an item does a row. On CPUs it does a group of `size` rows, and sums row i
+/// Values of the coarse matrix P' A P. On GPUs SHARE items do a row. On CPUs one does a group of `size` rows, and sums row i
 /// of A P once for all of its rows that fine row i goes to. Nonzeros of a row are told apart by the colours of their
 /// columns, `count` in all; where those of a row do not differ, its own colour has the flag CLASH, and it is summed term
 /// by term. codes: the colours of the columns of each row of P, a byte each; column_weights: its weights, four places.
@@ -331,9 +378,10 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
                        __global const int* columns, __global REAL* coarse)
 {
 #if V == 1
-    if (SLICE * C < rows)
-        product_row(SLICE, LANE, rows, fine_stride, transpose_offsets, transpose, prolongation, weights, fine_offsets,
-                    fine_columns, fine, offsets, columns, coarse);
+    const int I = (int)get_global_id(0) / SHARE;
+    if (I / C * C < rows)
+        product_places(I, (int)get_global_id(0) % SHARE, rows, fine_stride, transpose_offsets, transpose, prolongation,
+                       weights, fine_offsets, fine_columns, fine, offsets, columns, coarse);
 #else
     const int group = (int)get_global_id(0), begin = group * size, pitch = count * QUADS;
     // Of rows of P' A P, the last for what goes elsewhere, and of a row of A P. Rows are not a power of two apart.
@@ -453,6 +501,7 @@ __kernel void prolong(const int stride, const int coarse_stride, __global const 
     prolong_rows(SLICE * C + LANE, stride, coarse_stride, columns, weights, coarse, x);
 }
 
+#if V > 1
 inline void dense_rows(const int first, const int size, const int pitch, __global const int* at,
                        __global const REAL* inverse, __global const REAL* b, __global REAL* x)
 {
@@ -469,13 +518,29 @@ inline void dense_rows(const int first, const int size, const int pitch, __globa
     for (int v = 0; v < V; ++v)
         if (first + v < size) x[at[first + v]] = s[v];
 }
+#endif
 
 /// x = inverse b with a dense symmetric matrix of `size` rows, padded to `pitch`; unknown k is number at[k] of a vector.
+/// On GPUs SHARE items do a row.
 __kernel void dense(const int size, const int pitch, __global const int* at, __global const REAL* inverse,
                     __global const REAL* b, __global REAL* x)
 {
+#if V == 1
+    __local REAL parts[ITEMS];
+    const int row = (int)get_global_id(0) / SHARE, part = (int)get_global_id(0) % SHARE;
+    const int item = (int)get_local_id(0);
+    REAL sum = 0;
+    if (row < size)
+        for (int k = part; k < size; k += SHARE) sum += inverse[row * pitch + k] * b[at[k]];
+    parts[item] = sum;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (part > 0 || row >= size) return;
+    UNROLLED (int k = 1; k < SHARE; ++k) sum += parts[item + k];
+    x[at[row]] = sum;
+#else
     const int first = SLICE * C + LANE;
     if (first < pitch) dense_rows(first, size, pitch, at, inverse, b, x);
+#endif
 }
 
 /// The inverse X of a semi-definite matrix of `size` rows with rows `pitch` apart, by one group of TEAM items. numbers:
@@ -489,14 +554,18 @@ __kernel void dense(const int size, const int pitch, __global const int* at, __g
 /// It is made stiff against that, as what the shift would answer there is noise, and large.
 #if TEAM > 1
 #define SYNC barrier(CLK_GLOBAL_MEM_FENCE)
+/// Items that go along a row together, for loads of neighbours.
+#define WIDE 32
 #else
 #define SYNC
+#define WIDE 1
 #endif
+#define TALL (TEAM / WIDE)
 __kernel void invert_dense(const int rows, const int size, const int pitch, const REAL shift,
                            __global const int* offsets, __global const int* columns, __global const REAL* A,
                            __global const int* numbers, __global REAL* work, __global REAL* X)
 {
-    const int item = (int)get_local_id(0);
+    const int item = (int)get_local_id(0), along = item % WIDE, down = item / WIDE;
     __global REAL* scale = work + size * pitch;
     __global REAL* root = scale + pitch;
     PLAIN (int k = item * V; k < (size + 2) * pitch; k += TEAM * V) STORE((REALV)0, work, k);
@@ -520,7 +589,7 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
     PLAIN (int i = item; i < size; i += TEAM)
     {
         root[i] = 0;
-        PLAIN (int j = i % D; j < size; j += D) root[i] += work[i * pitch + j];
+        PLAIN (int j = i % D; j < size; j += D) root[i] += work[j * pitch + i];
     }
     SYNC;
     REAL stiff[D]; // 1 / trace of a component that nothing holds; 0 for others
@@ -536,16 +605,13 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
     }
     PLAIN (int i = item; i < size; i += TEAM) scale[i] = work[i * pitch + i] > 0 ? 1 / sqrt(work[i * pitch + i]) : 0;
     SYNC;
-    PLAIN (int i = item; i < size; i += TEAM)
-    {
-        PLAIN (int j = 0; j < size; ++j)
+    PLAIN (int i = down; i < size; i += TALL)
+        PLAIN (int j = along; j < size; j += WIDE)
         {
             REAL a = scale[i] * scale[j] > 0 ? work[i * pitch + j] * (scale[i] * scale[j]) : 0;
             if (scale[i] * scale[j] > 0 && i % D == j % D) a += stiff[i % D] / (scale[i] * scale[j]);
-            work[i * pitch + j] = a;
+            work[i * pitch + j] = a + (i == j ? shift : 0);
         }
-        work[i * pitch + i] += shift;
-    }
     PLAIN (int k = 0; k < size; ++k)
     {
         SYNC;
@@ -553,25 +619,26 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
         const REAL pivot = row[k];
         const bool good = pivot > (REAL)0.1 * shift && pivot < INFINITY;
         if (item == 0) root[k] = good ? 1 / sqrt(pivot) : 0;
-        PLAIN (int i = k + 1 + item; i < size; i += TEAM)
+        PLAIN (int i = k + 1 + down; i < size; i += TALL)
         {
             __global REAL* other = work + i * pitch;
-            const REAL f = good ? other[k] / pivot : 0;
+            const REAL f = good ? row[i] / pivot : 0; // what is left is symmetric; other[k] changes meanwhile
             if (good)
-                PLAIN (int j = 0; j < pitch; j += V) STORE(LOAD(other, j) - f * LOAD(row, j), other, j);
-            other[k] = -f;
+                PLAIN (int j = along * V; j < pitch; j += WIDE * V)
+                    STORE(LOAD(other, j) - f * LOAD(row, j), other, j);
+            if (k % WIDE == along) other[k] = -f;
         }
     }
     SYNC;
-    PLAIN (int k = item; k < size; k += TEAM)
+    PLAIN (int k = down; k < size; k += TALL)
     {
         __global REAL* row = work + k * pitch;
-        row[k] = 1;
-        PLAIN (int j = 0; j < pitch; ++j) row[j] = root[k] > 0 && j <= k ? row[j] * (root[k] * scale[j]) : 0;
+        PLAIN (int j = along; j < pitch; j += WIDE)
+            row[j] = root[k] > 0 && j <= k ? (j == k ? 1 : row[j]) * (root[k] * scale[j]) : 0;
     }
     SYNC;
-    PLAIN (int i = item; i < size; i += TEAM)
-        PLAIN (int j = 0; j < pitch; j += V)
+    PLAIN (int i = down; i < size; i += TALL)
+        PLAIN (int j = along * V; j < pitch; j += WIDE * V)
         {
             REALV sum = 0;
             PLAIN (int k = i; k < size; ++k) sum += work[k * pitch + i] * LOAD(work, k * pitch + j);

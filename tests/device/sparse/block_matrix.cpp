@@ -10,6 +10,7 @@
 #include <taut/impl/sparse/block_transfer.hpp>
 
 #include "support/device.hpp"
+#include "support/lane_forms.hpp"
 
 using namespace taut;
 using namespace taut::impl;
@@ -17,8 +18,6 @@ using taut::test::random_reals;
 
 namespace
 {
-
-constexpr lane_form forms[] = {{16, 16}, {32, 1}};
 
 /// A mesh whose pole meets many cells, so that rows differ much in length.
 mesh<triangle> test_mesh()
@@ -130,7 +129,7 @@ void check_transfers(const std::vector<std::array<taut::idx, K>>& cells, std::si
     std::vector<char> fixed(P.coarse, 0);
     fixed[2] = 1;
     const auto d = std::size_t(D);
-    for (const lane_form form : forms)
+    for (const lane_form form : test::lane_forms())
     {
         CAPTURE(D);
         CAPTURE(K);
@@ -209,7 +208,7 @@ void check_identity(const std::vector<taut::idx>& rims, const std::vector<int>& 
     const std::vector<std::array<double, K>> weights(columns.size(), {1});
     const auto identity = transfer_weights::of_rows(columns, weights, columns.size());
     queue q;
-    for (const lane_form form : forms)
+    for (const lane_form form : test::lane_forms())
         for (const int D : sizes)
         {
             block_matrix A(q, scalar_type_of<T>, pattern_of_cells(cells, columns.size(), form.slice), D, form);
@@ -239,7 +238,7 @@ TEST_CASE_TEMPLATE("block sparse: products, residuals and smoothing steps are th
 {
     queue q;
     const auto m = test_mesh();
-    for (const lane_form form : forms)
+    for (const lane_form form : test::lane_forms())
         for (const int D : {2, 3})
         {
             CAPTURE(D);
@@ -314,7 +313,7 @@ TEST_CASE_TEMPLATE("block sparse: element blocks are summed into place, transpos
     const std::size_t n = m.points().size(), cells = m.cells().size(), stride = padded(cells, 256);
     std::vector<char> fixed(n, 0);
     fixed[1] = fixed[n - 1] = 1;
-    for (const lane_form form : forms)
+    for (const lane_form form : test::lane_forms())
         for (const int D : {2, 3})
         {
             const auto d = std::size_t(D);

@@ -10,6 +10,7 @@
 #include <taut/impl/sparse/dense_inverse.hpp>
 
 #include "support/device.hpp"
+#include "support/lane_forms.hpp"
 
 using namespace taut;
 using namespace taut::impl;
@@ -66,7 +67,7 @@ TEST_CASE_TEMPLATE("dense inverse: that of the host, in the form for CPUs and in
     std::vector<taut::idx> rows;
     for (taut::idx v = 0; v < n; ++v)
         if (v % 5 != 3) rows.push_back(v);
-    for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
+    for (const lane_form form : test::lane_forms())
         for (const int D : {2, 3})
         {
             CAPTURE(D);
@@ -122,7 +123,7 @@ TEST_CASE_TEMPLATE("dense inverse: a translation that the matrix does not see ha
     const std::size_t n = m.points().size();
     std::vector<taut::idx> rows(n);
     for (std::size_t v = 0; v < n; ++v) rows[v] = static_cast<taut::idx>(v);
-    for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
+    for (const lane_form form : test::lane_forms())
         for (const int D : {2, 3})
         {
             CAPTURE(D);
@@ -180,7 +181,7 @@ TEST_CASE_TEMPLATE("dense inverse: what is not finite or not positive is taken o
     const auto m = test::grid(3, 3);
     std::vector<taut::idx> rows(m.points().size());
     for (std::size_t v = 0; v < rows.size(); ++v) rows[v] = static_cast<taut::idx>(v);
-    for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
+    for (const lane_form form : test::lane_forms())
         for (const double bad :
              {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0, 0.0})
         {

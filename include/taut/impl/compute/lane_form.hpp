@@ -25,14 +25,24 @@ struct lane_form
         return quirks::wants_serial_items(d) ? lane_form{16, 16} : lane_form{32, 1};
     }
 
+    /// Items on a GPU that sum a row together, of such a product and of a dense one.
+    static constexpr idx share = 16;
+
     /// Items that invert a dense matrix together.
-    constexpr idx team() const { return lanes == 1 ? 64 : 1; }
+    constexpr idx team() const { return lanes == 1 ? 256 : 1; }
 
     /// The items of so many rows (a multiple of the slice), padded to whole groups.
     range items(std::size_t rows) const
     {
-        const std::size_t group = lanes == 1 ? 128 : 16;
+        const auto group = static_cast<std::size_t>(this->group());
         return {padded(rows / static_cast<std::size_t>(lanes), group), group};
+    }
+    constexpr idx group() const { return lanes == 1 ? 128 : 16; }
+
+    /// The same with `share` items a row on GPUs.
+    range shared_items(std::size_t rows) const
+    {
+        return items(rows * static_cast<std::size_t>(lanes == 1 ? share : 1));
     }
 };
 

@@ -21,7 +21,7 @@ struct reduction_plan
     /// For CPUs: each item runs serially through one long block with 8-wide accumulators.
     static constexpr reduction_plan serial() { return {1, 8, 4096, 64}; }
     /// For GPUs: neighbouring items take neighbouring elements; one barrier joins the 256 items of a group.
-    static constexpr reduction_plan grouped() { return {256, 1, 2048, 256}; }
+    static constexpr reduction_plan grouped() { return {256, 1, 512, 1024}; }
 
     static reduction_plan for_device(const device& d)
     {

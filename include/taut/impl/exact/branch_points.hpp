@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include <taut/impl/core/parallel.hpp>
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/exact/predicates.hpp>
 #include <taut/impl/exact/simplex_role.hpp>
@@ -80,12 +83,20 @@ inline std::vector<idx> branch_points(std::span<const std::array<idx, 3>> cells,
     { return roles.empty() || roles[t] == impl::simplex_role::cell ? std::size_t{3} : std::size_t{1}; };
     const auto at = [&](idx v) -> const vec2& { return x[static_cast<std::size_t>(v)]; };
     const auto rises = [&](idx v, idx a, idx b) { return at(a).y < at(v).y && at(b).y >= at(v).y; };
-    std::vector<unsigned char> turns(x.size(), 0); // at most 2: more is no news
-    bool suspicious = false;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        for (std::size_t k = 0; k < corners_of(c); ++k)
-            if (const auto& t = cells[c]; rises(t[k], t[(k + 1) % 3], t[(k + 2) % 3]))
-                if (auto& n = turns[static_cast<std::size_t>(t[k])]; n < 2) suspicious |= ++n == 2;
+    std::vector<std::uint16_t> turns(x.size(), 0); // two and more are told apart from fewer, no further
+    std::atomic<bool> suspicious{false};
+    impl::parallel_for(cells.size(),
+                       [&](std::size_t begin, std::size_t end)
+                       {
+                           for (std::size_t c = begin; c < end; ++c)
+                               for (std::size_t k = 0; k < corners_of(c); ++k)
+                               {
+                                   const auto& t = cells[c];
+                                   if (!rises(t[k], t[(k + 1) % 3], t[(k + 2) % 3])) continue;
+                                   const std::atomic_ref n(turns[static_cast<std::size_t>(t[k])]);
+                                   if (n.load(std::memory_order_relaxed) < 2 && n.fetch_add(1) == 1) suspicious = true;
+                               }
+                       });
     if (!suspicious) return {};
 
     struct neighbourhood
@@ -100,7 +111,7 @@ inline std::vector<idx> branch_points(std::span<const std::array<idx, 3>> cells,
     std::vector<neighbourhood> around;
     std::vector<idx> place(x.size(), -1);
     for (std::size_t v = 0; v < x.size(); ++v)
-        if (turns[v] == 2)
+        if (turns[v] >= 2)
         {
             place[v] = static_cast<idx>(around.size());
             around.push_back({.vertex = static_cast<idx>(v), .link = {}});

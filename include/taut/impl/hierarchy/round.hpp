@@ -20,7 +20,7 @@ struct collapse_round
         int target; ///< position in its ring, or -1: it stays
     };
     std::vector<collapse> collapses;
-    std::vector<idx> first_corner; ///< where the corners of each one's flat star begin
+    std::vector<idx> first_corner; ///< where the corners of each one's flat star begin, and the end
     std::vector<vec2> corners;     ///< flat stars, the vertex at the origin
     std::vector<idx> of;           ///< collapse of a vertex, or -1
 

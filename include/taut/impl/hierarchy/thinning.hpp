@@ -184,7 +184,7 @@ private:
     void evaluate(std::span<const idx> chosen, const collapse_rules& rules)
     {
         round_.collapses.resize(chosen.size());
-        round_.first_corner.resize(chosen.size());
+        round_.first_corner.resize(chosen.size() + 1);
         idx corners = 0;
         for (std::size_t i = 0; i < chosen.size(); ++i)
         {
@@ -193,6 +193,7 @@ private:
             round_.first_corner[i] = corners;
             corners += surface_.rings.ranges[v].size;
         }
+        round_.first_corner.back() = corners;
         round_.corners.resize(static_cast<std::size_t>(corners));
         parallel_for(
             chosen.size(),
@@ -240,11 +241,13 @@ private:
     /// Keeps at most `most` collapses, those with the smallest keys.
     void limit(std::size_t most)
     {
+        const auto left = std::count_if(round_.collapses.begin(), round_.collapses.end(),
+                                        [](const auto& c) { return c.target >= 0; });
+        if (static_cast<std::size_t>(left) <= most) return;
         std::vector<std::pair<std::uint32_t, std::size_t>> ranked;
         for (std::size_t i = 0; i < round_.collapses.size(); ++i)
             if (round_.collapses[i].target >= 0)
                 ranked.emplace_back(key_[static_cast<std::size_t>(round_.collapses[i].vertex)], i);
-        if (ranked.size() <= most) return;
         std::nth_element(ranked.begin(), ranked.begin() + static_cast<std::ptrdiff_t>(most), ranked.end());
         for (std::size_t r = most; r < ranked.size(); ++r) give_up(ranked[r].second);
     }
@@ -265,16 +268,35 @@ private:
 
     void write_log()
     {
-        for (const auto& c : round_.collapses)
+        const auto& collapses = round_.collapses;
+        std::vector<std::size_t> kept;
+        for (std::size_t i = 0; i < collapses.size(); ++i)
         {
-            if (c.target < 0) continue;
-            log_.vertex.push_back(c.vertex);
-            log_.target.push_back(c.target);
-            log_.open.push_back(surface_.open[static_cast<std::size_t>(c.vertex)]);
-            const auto ring = surface_.rings[c.vertex];
-            log_.rings.items.insert(log_.rings.items.end(), ring.begin(), ring.end());
-            log_.rings.offsets.push_back(static_cast<idx>(log_.rings.items.size()));
+            if (collapses[i].target < 0) continue;
+            kept.push_back(i);
+            log_.rings.offsets.push_back(log_.rings.offsets.back() + round_.first_corner[i + 1] -
+                                         round_.first_corner[i]);
         }
+        const std::size_t first = log_.vertex.size();
+        log_.vertex.resize(first + kept.size());
+        log_.target.resize(first + kept.size());
+        log_.open.resize(first + kept.size());
+        log_.rings.items.resize(static_cast<std::size_t>(log_.rings.offsets.back()));
+        parallel_for(
+            kept.size(),
+            [&](std::size_t begin, std::size_t end)
+            {
+                for (std::size_t k = begin; k < end; ++k)
+                {
+                    const auto& c = collapses[kept[k]];
+                    log_.vertex[first + k] = c.vertex;
+                    log_.target[first + k] = c.target;
+                    log_.open[first + k] = surface_.open[static_cast<std::size_t>(c.vertex)];
+                    const auto ring = surface_.rings[c.vertex];
+                    std::copy(ring.begin(), ring.end(), log_.rings.items.begin() + log_.rings.offsets[first + k]);
+                }
+            },
+            threads_);
         log_.rounds.push_back(static_cast<idx>(log_.vertex.size()));
     }
 

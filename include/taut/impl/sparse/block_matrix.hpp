@@ -28,6 +28,7 @@ inline std::string block_options(scalar_type real, int D, int K, lane_form form)
             " -DD=" + std::to_string(D) + " -DK=" + std::to_string(K) + " -DC=" + std::to_string(form.slice) +
             " -DV=" + std::to_string(form.lanes) + " -DTEAM=" + std::to_string(form.team()) +
             " -DGROUP=" + std::to_string(lane_form::product_rows(static_cast<std::size_t>(K))) +
+            " -DSHARE=" + std::to_string(lane_form::share) + " -DITEMS=" + std::to_string(form.group()) +
             " -DEPSILON=" + (wide ? "1e-12" : "2e-6f"));
 }
 

@@ -112,7 +112,7 @@ private:
         {
             column_weights_ = real_buffer(queue_, weights_.type(), 1);
             for (auto* unused : {&codes_, &colours_, &visit_offsets_, &visits_}) *unused = buffer<idx>(queue_, 1);
-            product_items_ = form_.items(coarse.stride());
+            product_items_ = form_.shared_items(coarse.stride());
             return;
         }
         codes_ = buffer<idx>(queue_, groups->codes);

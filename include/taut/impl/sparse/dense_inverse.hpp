@@ -40,7 +40,7 @@ public:
         at_ = buffer<idx>(q, at);
         work_ = real_buffer(q, A.type(), (size + 2) * pitch);
         inverse_ = real_buffer(q, A.type(), size * pitch);
-        items_ = form.items(padded(pitch, static_cast<std::size_t>(form.lanes)));
+        items_ = form.shared_items(padded(pitch, static_cast<std::size_t>(form.lanes)));
         const auto team = static_cast<std::size_t>(form.team());
         team_ = {team, team};
         invert_ = block_kernel(q, "invert_dense", A.type(), A.block_size(), form);
