@@ -254,6 +254,65 @@ def shards():
     assert len(results()) == 11
 
 
+def schedulers():
+    """--shard auto: what schedulers set says which part it is."""
+    sheet("a.obj", 2)
+    manifest([{"id": f"job {k}", "args": ["check", "a.obj"]} for k in range(8)])
+    known = ("SLURM_", "SGE_", "AWS_BATCH_", "JOB_COMPLETION", "OMPI_COMM", "PMI_")
+    clean = {name: value for name, value in os.environ.items() if not name.startswith(known)}
+
+    def ids(code=0, says="", **variables):
+        run = subprocess.run(command("--shard", "auto", out="-"), capture_output=True, text=True, timeout=300, env=clean | variables)
+        assert run.returncode == code and says in run.stderr, (variables, run.returncode, run.stderr)
+        return [json.loads(line)["id"] for line in run.stdout.splitlines()]
+
+    every = lambda first, step: [f"job {k}" for k in range(first, 8, step)]
+    array = {"SLURM_ARRAY_TASK_MIN": "10", "SLURM_ARRAY_TASK_STEP": "5", "SLURM_ARRAY_TASK_COUNT": "2"}
+    assert ids(SLURM_ARRAY_TASK_ID="15", **array) == every(1, 2)
+    # Two tasks of an array with two processes each are four parts.
+    found = [ids(SLURM_ARRAY_TASK_ID=task, SLURM_PROCID=process, SLURM_NTASKS="2", **array) for task in ("10", "15") for process in "01"]
+    assert found == [every(k, 4) for k in range(4)]
+    assert ids(AWS_BATCH_JOB_ARRAY_INDEX="0", AWS_BATCH_JOB_ARRAY_SIZE="3") == every(0, 3)
+    assert ids(SGE_TASK_ID="3", SGE_TASK_FIRST="1", SGE_TASK_LAST="4", SGE_TASK_STEPSIZE="1") == every(2, 4)
+    assert ids(JOB_COMPLETION_INDEX="2", JOB_COMPLETIONS="5", SGE_TASK_ID="undefined") == every(2, 5)
+    assert ids(OMPI_COMM_WORLD_RANK="1", OMPI_COMM_WORLD_SIZE="2") == every(1, 2)
+    ids(code=2, says="no scheduler says which part this is")
+    ids(code=2, says="JOB_COMPLETION_INDEX is set, but not JOB_COMPLETIONS", JOB_COMPLETION_INDEX="2")
+    ids(code=2, says='PMI_RANK is "one"', PMI_RANK="one", PMI_SIZE="2")
+    ids(code=2, says="beyond 2 parts", PMI_RANK="2", PMI_SIZE="2")
+
+
+def stays():
+    """--stdin: jobs that come while others run, until the input ends."""
+    sheet("a.obj", 2)
+    out = [taut, "batch", "--stdin", "--out", "-", "--cache", caches, "--quiet"]
+    run = subprocess.Popen(out, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    job = lambda id, **more: json.dumps({"id": id, "args": ["check", "a.obj"]} | more) + "\n"
+
+    def answer(text):
+        run.stdin.write(text)
+        run.stdin.flush()
+        return json.loads(run.stdout.readline())
+
+    assert answer(job("a"))["code"] == 0
+    assert answer("\n" + job("b"))["id"] == "b"
+    bad = answer("no job\n")
+    assert (bad["id"], bad["code"]) == ("", 3) and "standard input, line 4: is no JSON" in bad["error"], bad
+    again = answer(job("a"))
+    assert again["id"] == "a" and again["code"] == 3 and "earlier job" in again["error"], again
+    run.stdin.write(job("c")[:-1])  # without its end
+    run.stdin.close()
+    assert json.loads(run.stdout.readline())["id"] == "c" and run.wait(timeout=60) == 10
+    # An input that ends at once, and one that is interrupted while it waits.
+    assert subprocess.run(out, stdin=subprocess.DEVNULL, capture_output=True, timeout=60).returncode == 0
+    run = subprocess.Popen(out, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL)
+    time.sleep(0.3)
+    run.send_signal(signal.SIGINT)
+    assert run.wait(timeout=60) == 130
+    for wrong in (["--manifest", "jobs.jsonl"], ["--shard", "1/2"]):
+        assert subprocess.run(out + wrong, stdin=subprocess.DEVNULL, capture_output=True).returncode in (2, 3)
+
+
 def workers():
     """Jobs at once have a cache each, and share the processors."""
     for k in range(3):

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "batch/batch_run.hpp"
 #include "batch/job.hpp"
 #include "batch/kernel_cache.hpp"
+#include "batch/scheduler_shard.hpp"
 #include "commands.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
@@ -56,13 +58,24 @@ std::string summary(const batch::tally& t, double seconds)
 
 exit_code run(batch_options options, const outputs& files, const run_clock& clock)
 {
-    const auto part = batch::parse_shard(options.shard);
+    const bool automatic = options.shard == "auto";
+    const auto part = automatic ? batch::scheduler_shard([](const char* name) { return std::getenv(name); })
+                                : batch::parse_shard(options.shard);
+    if (!part && automatic)
+        throw usage_error("--shard auto: no scheduler says which part this is (SLURM_ARRAY_TASK_ID, SGE_TASK_ID, "
+                          "AWS_BATCH_JOB_ARRAY_INDEX, JOB_COMPLETION_INDEX, SLURM_PROCID, OMPI_COMM_WORLD_RANK, "
+                          "PMI_RANK); give --shard i/N");
     if (!part) throw usage_error("--shard " + options.shard + ": is no i/N with i from 1 to N");
+    if (options.run.from_standard_input == !options.manifest.empty())
+        throw usage_error("jobs come from --manifest or from --stdin: give one of them");
+    if (options.run.from_standard_input && part->count > 1)
+        throw usage_error("--stdin takes all jobs that come; --shard is for a manifest");
     if (options.run.resume && io::impl::is_stream(options.out))
         throw usage_error("--resume needs the file of results: name it with --out");
     const char* const place = options.quiet ? nullptr : files.place_of_report();
 
-    std::vector<batch::job> jobs = batch::read_manifest(options.manifest), own;
+    std::vector<batch::job> jobs, own;
+    if (!options.run.from_standard_input) jobs = batch::read_manifest(options.manifest);
     for (std::size_t k = 0; k < jobs.size(); ++k)
         if (part->has(k)) own.push_back(std::move(jobs[k]));
     options.run.caches = options.cache.empty() ? batch::default_caches() : std::filesystem::path(options.cache);
@@ -106,12 +119,15 @@ command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launc
         app, "--manifest", o.manifest, "the manifest",
         R"(The jobs, one JSON object per line: {"id": "a", "args": ["unwrap", "a.obj", "-o", "flat.obj"]}, and in it, )"
         R"(if wanted, "time_limit": S and "memory_limit": BYTES)")
-        ->required()
         ->type_name("FILE.jsonl");
+    app.add_flag("--stdin", o.run.from_standard_input,
+                 "Take the jobs from standard input as they come, in the form of a manifest, until it ends");
     add_output(app, "--out", o.out, {.otherwise = standard_output},
                "Append the results, one JSON object per line; - is standard output")
         ->type_name("FILE.jsonl");
-    app.add_option("--shard", o.shard, "Only part i of N of the jobs, i from 1 to N")->type_name("i/N");
+    app.add_option("--shard", o.shard,
+                   "Only part i of N of the jobs, i from 1 to N; auto: as the scheduler says that started this")
+        ->type_name("i/N|auto");
     app.add_flag("--resume", o.run.resume,
                  "Leave out jobs that have a result in --out, where arguments and inputs are the same and the outputs "
                  "exist");

@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <deque>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -23,6 +24,7 @@
 #include <unistd.h>
 
 #include "batch/job_files.hpp"
+#include "batch/job_stream.hpp"
 #include "batch/kernel_cache.hpp"
 #include "shared/exit_codes.hpp"
 #include "shared/failure.hpp"
@@ -151,17 +153,21 @@ class batch_run
 public:
     batch_run(const std::vector<job>& jobs, result_file& results, const run_options& options,
               const std::function<void(const tally&)>& tell)
-        : jobs_(jobs), results_(results), options_(options), tell_(tell)
+        : jobs_(jobs.begin(), jobs.end()), results_(results), options_(options), tell_(tell)
     {
-        count_.jobs = jobs.size();
+        if (options.from_standard_input)
+            stream_.emplace(STDIN_FILENO, "standard input",
+                            [this](const std::string& id, const std::string& why) { refuse(id, why); });
         if (options.resume) before_ = results.read();
     }
 
     tally operator()()
     {
-        while (may_start() || count_.running > 0)
+        while (may_start() || count_.running > 0 || may_come())
         {
             if (interrupted()) stop();
+            if (may_come() && next_ + at_once_ > jobs_.size()) stream_->read(jobs_);
+            count_.jobs = jobs_.size() + refused_;
             fill();
             wait();
             look();
@@ -175,6 +181,19 @@ private:
     static constexpr int pause = 20; ///< milliseconds between two looks at what jobs use
 
     bool may_start() const { return next_ < jobs_.size() && !interrupted() && !failure_; }
+
+    bool may_come() const { return stream_ && !stream_->ended() && !interrupted() && !failure_; }
+
+    /// The answer to a line that is no job.
+    void refuse(const std::string& id, const std::string& why)
+    {
+        results_.append({{"id", id},
+                         {"args", result::array()},
+                         {"code", to_int(exit_code::unreadable_input)},
+                         {"outcome", "unreadable_input"},
+                         {"error", why}});
+        ++refused_, ++count_.done, ++count_.failed;
+    }
 
     /// Gives work to those who have none.
     void fill()
@@ -232,6 +251,7 @@ private:
         for (const auto& w : workers_)
             if (w.at_work)
                 for (const auto& one : w.at_work->process().news()) news.push_back(one);
+        if (may_come() && next_ >= jobs_.size()) news.push_back({stream_->file(), POLLIN, 0});
         if (!news.empty()) ::poll(news.data(), news.size(), pause);
     }
 
@@ -268,7 +288,9 @@ private:
             if (w.at_work) w.at_work->process().stop(SIGINT);
     }
 
-    const std::vector<job>& jobs_;
+    std::deque<job> jobs_; // those at work are referred to
+    std::optional<job_stream> stream_;
+    std::size_t refused_ = 0;
     result_file& results_;
     const run_options& options_;
     const std::function<void(const tally&)>& tell_;

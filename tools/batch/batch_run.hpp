@@ -17,10 +17,11 @@ namespace taut::tools::batch
 struct run_options
 {
     std::size_t at_once = 1;
-    bool resume = false;          ///< jobs whose results stand are left out
-    bool retry = false;           ///< but for those that failed
-    limits bounds;                ///< of jobs that have none of their own
-    std::filesystem::path caches; ///< of compiled kernels
+    bool resume = false;              ///< jobs whose results stand are left out
+    bool retry = false;               ///< but for those that failed
+    limits bounds;                    ///< of jobs that have none of their own
+    std::filesystem::path caches;     ///< of compiled kernels
+    bool from_standard_input = false; ///< jobs come by standard input while others run, until it ends
 };
 
 /// Progress of a run.
@@ -36,6 +37,7 @@ std::size_t most_jobs_at_once(std::size_t wanted);
 
 /// Runs jobs, each in a process of its own, and appends a result for each as it ends.
 /// tell: how far it is, from time to time
+/// A line of standard input that is no job has a result of code 3, and does not end the run.
 /// Where the system refuses one more process, it goes on with those it has. Interrupted, it asks the jobs at work to
 /// end and waits for them; they get no result. Throws io_error if a result cannot be written, and usage_error if not
 /// even one job can be started.

@@ -86,6 +86,12 @@ private:
 
 } // namespace
 
+std::optional<job> parse_job(const std::string& text, const std::string& path, std::size_t line)
+{
+    if (text.find_first_not_of(" \t\r") == std::string::npos) return std::nullopt;
+    return manifest_line(path, line, text).read();
+}
+
 std::vector<job> parse_manifest(std::istream& in, const std::string& path)
 {
     std::vector<job> jobs;
@@ -93,11 +99,13 @@ std::vector<job> parse_manifest(std::istream& in, const std::string& path)
     std::string text;
     for (std::size_t number = 1; std::getline(in, text); ++number)
     {
-        if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-        const manifest_line line(path, number, text);
-        jobs.push_back(line.read());
+        auto one = parse_job(text, path, number);
+        if (!one) continue;
+        jobs.push_back(std::move(*one));
         const auto [before, fresh] = line_of.emplace(jobs.back().id, number);
-        if (!fresh) line.refuse("has the id " + before->first + " of line " + std::to_string(before->second));
+        if (!fresh)
+            throw io::io_error(path, "has the id " + before->first + " of line " + std::to_string(before->second),
+                               io::impl::file_place{io::impl::file_place::line, number});
     }
     if (in.bad()) throw io::io_error(path, "cannot be read; name a file that can");
     return jobs;
