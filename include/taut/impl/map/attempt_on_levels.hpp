@@ -90,7 +90,7 @@ inline attempt attempt_on_levels(const map_run& run, const run_start& start, pre
                                  const std::vector<vec2>& from)
 {
     nested_params descent = descent_of(run);
-    if (run.vertices() >= nested_params::hard_vertices) descent.hard_from = 13; // others take 3 to 10, hard ones 16 and more
+    if (run.vertices() >= nested_params::hard_vertices) descent.hard_from = 10; // others take 3 to 8
     attempt a = attempt_on(*run.levels, descent, run, start, how, max_iterations, from);
     if (!a.hard || a.stopped) return a;
     constexpr double room = 8; // times what the run has taken so far; the slower descent takes about three
