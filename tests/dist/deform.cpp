@@ -112,7 +112,8 @@ TEST_CASE("dist deform: where there is no guess, bodies turn in parts")
 TEST_CASE("dist deform: an energy of one's own, and sums of energies")
 {
     const auto m = bar(3);
-    const any_energy own = 0.5 * energy::isometric{} + 0.5 * mips_power{};
+    using namespace energy;
+    const any_energy own = 0.5 * isometric{} + 0.5 * mips_power{};
     const auto [x, report] = over_all(m, stretched, {.energy = own});
     CHECK(report.converged);
     CHECK(report.energy == doctest::Approx(serial(m, stretched, own).report.energy).epsilon(1e-9));

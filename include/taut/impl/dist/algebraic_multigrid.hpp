@@ -88,11 +88,12 @@ private:
         require(PetscOptionsPrefixPush(nullptr, prefix.c_str()));
         const auto inserted = PetscOptionsInsertString(nullptr, options().c_str());
         require(PetscOptionsPrefixPop(nullptr));
-        if (inserted != 0)
-            throw parameter_error("solver.options", "PETSc does not understand '" + params_.options + "'");
         require(PCSetOptionsPrefix(made, prefix.c_str()));
         require(PCSetOperators(made, rows.matrix(), rows.matrix()));
-        require(PCSetFromOptions(made));
+        const bool taken = inserted == 0 && PCSetFromOptions(made) == 0;
+        if (!taken && !params_.options.empty() && safety_ == 0)
+            throw parameter_error("solver.options", "PETSc does not understand '" + params_.options + "'");
+        if (!taken) throw backend_error("PETSc: it has no preconditioner for '" + options() + "'");
         PCType type = nullptr;
         require(PCGetType(made, &type));
         if (dimension > 1 && !near.empty() && type && std::string(type) == PCGAMG) keep_rigid_motions(rows, dimension, near);

@@ -26,11 +26,11 @@ inline void require(PetscErrorCode code)
 class petsc_scope
 {
 public:
-    explicit petsc_scope(const communicator& all)
+    petsc_scope()
     {
         PetscBool ready = PETSC_FALSE;
         require(PetscInitialized(&ready));
-        if (!ready) initialise(all.raw());
+        if (!ready) initialise();
         require(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
     }
     petsc_scope(const petsc_scope&) = delete;
@@ -38,12 +38,12 @@ public:
     ~petsc_scope() { PetscPopErrorHandler(); }
 
 private:
-    static void initialise(MPI_Comm comm)
+    /// By each process alone: others need not take part, or have done so on another mesh.
+    static void initialise()
     {
-        // It outlives the communicator of one mesh.
-        MPI_Comm world = MPI_COMM_NULL;
-        communicator::require(MPI_Comm_dup(comm, &world), "MPI_Comm_dup");
-        PETSC_COMM_WORLD = world;
+        MPI_Comm self = MPI_COMM_NULL;
+        communicator::require(MPI_Comm_dup(MPI_COMM_SELF, &self), "MPI_Comm_dup");
+        PETSC_COMM_WORLD = self;
         require(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"));
         require(PetscInitializeNoArguments());
         int key = MPI_KEYVAL_INVALID;

@@ -33,7 +33,7 @@ public:
     using points = std::vector<vec<D>>;
 
     shape_body(const communicator& all, const mesh_piece<Element>& piece, const deform_params<Element>& params)
-        : petsc_(std::make_unique<petsc_scope>(all)),
+        : petsc_(std::make_unique<petsc_scope>()),
           params_(checked(all, params)),
           part_(made_part(all, piece)),
           rest_(part_, params_),
@@ -62,7 +62,7 @@ public:
     /// Replaces the constraints. Throws constraint_error.
     void constrain(const constraints<Element>& wanted)
     {
-        const petsc_scope petsc(part_.all);
+        const petsc_scope petsc;
         const auto before = held_.marks;
         held_.take(part_, wanted);
         changed_ = true;
@@ -86,7 +86,7 @@ public:
 
     report solve(const run_limits& limits)
     {
-        const petsc_scope petsc(part_.all);
+        const petsc_scope petsc;
         agreed_limits clock(part_.all, limits);
         report r;
         r.flips = certified(x_);

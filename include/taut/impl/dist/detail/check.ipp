@@ -13,7 +13,7 @@ dist_certificate check(MPI_Comm comm, const mesh_piece<Element>& piece)
 {
     constexpr int D = Element::dimension;
     const impl::communicator all(comm);
-    const impl::petsc_scope petsc(all);
+    const impl::petsc_scope petsc;
     const impl::part<Element> p(all, piece);
     std::vector<double> x;
     for (const vec3& point : p.points)
