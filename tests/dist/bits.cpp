@@ -93,9 +93,9 @@ TEST_CASE("dist bits: they depend neither on who has which cells nor on gaps in 
     const auto blocks = measured(MPI_COMM_WORLD, m), in_turn = measured(MPI_COMM_WORLD, m, {.in_turn = true});
     CHECK(blocks == in_turn);
     // Ids decide between vertices at one place of the curve alone, so their order is what counts.
-    const auto gaps = dist::deform<tetrahedron>(
-        MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m, {.stride = 1000003, .first = 7}),
-        {.constraints = ends(MPI_COMM_WORLD, m, stretched, {.stride = 1000003, .first = 7})});
+    const auto gaps =
+        dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m, {.stride = 1000003, .first = 7}),
+                                  {.constraints = ends(MPI_COMM_WORLD, m, stretched, {.stride = 1000003, .first = 7})});
     const auto plain = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m),
                                                  {.constraints = ends(MPI_COMM_WORLD, m, stretched)});
     CHECK(gaps.report.energy == plain.report.energy);
@@ -145,7 +145,8 @@ TEST_CASE("dist communicator: what is exchanged arrives in order; sums are the s
     const dist::impl::communicator all(MPI_COMM_WORLD);
     dist::impl::parcels<std::int64_t> to(all.ranks());
     for (std::size_t r = 0; r < all.ranks(); ++r)
-        for (std::size_t k = 0; k <= r; ++k) to[r].push_back(static_cast<std::int64_t>(100 * r + k) + 1000 * all.rank());
+        for (std::size_t k = 0; k <= r; ++k)
+            to[r].push_back(static_cast<std::int64_t>(100 * r + k) + 1000 * all.rank());
     const auto got = all.exchange(to);
     for (std::size_t r = 0; r < all.ranks(); ++r)
     {

@@ -19,12 +19,13 @@ namespace
 constexpr double pi = std::numbers::pi;
 
 template <class Where>
-session_result<tetrahedron> serial(const mesh<tetrahedron>& m, const Where& where, const any_energy& e = energy::isometric{})
+session_result<tetrahedron> serial(const mesh<tetrahedron>& m, const Where& where,
+                                   const any_energy& e = energy::isometric{})
 {
     queue q;
-    return deform(q, m, deform_params<tetrahedron>{.energy = e,
-                                                   .constraints = serial_ends(m, where),
-                                                   .precision = precision::fp64});
+    return deform(
+        q, m,
+        deform_params<tetrahedron>{.energy = e, .constraints = serial_ends(m, where), .precision = precision::fp64});
 }
 
 template <class Where>
@@ -102,8 +103,7 @@ TEST_CASE("dist deform: where there is no guess, bodies turn in parts")
                 c.pin(static_cast<std::int64_t>(v), 2, m.points()[v].z);
                 break;
             }
-    const auto [x, report] =
-        dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
+    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
     CHECK(report.converged);
     CHECK(report.steps > 5);
     CHECK(at_their_places(m, x, where));
@@ -160,12 +160,10 @@ TEST_CASE("dist deform: springs pull, and single coordinates are fixed")
         if (p.z == 4) c.spring(v, p + vec3(0.5, 0, 0.5), 0.1);
         if (p.z == 2) c.pin(v, 1, p.y);
     }
-    const auto [x, report] =
-        dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
+    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
     CHECK(report.converged);
     queue q;
-    const auto alone =
-        deform(q, m, deform_params<tetrahedron>{.constraints = one, .precision = precision::fp64});
+    const auto alone = deform(q, m, deform_params<tetrahedron>{.constraints = one, .precision = precision::fp64});
     CHECK(report.energy == doctest::Approx(alone.report.energy).epsilon(1e-8));
     const auto p = dealt(MPI_COMM_WORLD, m);
     for (std::size_t v = 0; v < x.size(); ++v)
@@ -187,8 +185,7 @@ TEST_CASE("dist deform: more processes than work")
     if (rank_of() == 0)
         for (int v = 0; v < 3; ++v) c.pin(v, m.points()[static_cast<std::size_t>(v)]);
     if (rank_of() == 0) c.pin(3, 0, 0.5);
-    const auto [x, report] =
-        dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
+    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
     CHECK(report.outcome == outcome::valid);
     CHECK(report.pins_held);
     CHECK(report.unknowns == 1);

@@ -161,8 +161,7 @@ TEST_CASE("dist faults: what an observer of one process throws in the middle of 
             return true;
         };
     expect<error>([&] { deform(dealt(MPI_COMM_WORLD, m), how); }, "enough of it");
-    if (rank_of() == last_rank())
-        how.limits.observer = [](const progress&) -> bool { throw std::bad_alloc(); };
+    if (rank_of() == last_rank()) how.limits.observer = [](const progress&) -> bool { throw std::bad_alloc(); };
     const auto c = attempt<std::bad_alloc>([&] { deform(dealt(MPI_COMM_WORLD, m), how); });
     if (rank_of() != last_rank()) CHECK(c.what.find("not enough memory on process") != std::string::npos);
 }

@@ -26,8 +26,8 @@ TEST_CASE("dist session: steps in time, with the tables of the first call")
         CHECK(next.report.seconds.plan == planned); // the same coordinates are fixed
         CHECK(next.report.energy > first.report.energy);
     }
-    const auto at_once = dist::deform<tetrahedron>(MPI_COMM_WORLD, p,
-                                                   {.constraints = ends(MPI_COMM_WORLD, m, twisted(0.6))});
+    const auto at_once =
+        dist::deform<tetrahedron>(MPI_COMM_WORLD, p, {.constraints = ends(MPI_COMM_WORLD, m, twisted(0.6))});
     CHECK(s.solve().report.energy == doctest::Approx(at_once.report.energy).epsilon(1e-8));
 
     // Released, it goes back to rest.
@@ -58,9 +58,9 @@ TEST_CASE("dist session: two at a time, of different processes")
     const first_processes one(1);
     double alone = 0;
     if (one)
-        alone = dist::deform<tetrahedron>(one.get(), dealt(one.get(), m),
-                                          {.constraints = ends(one.get(), m, stretched)})
-                    .report.energy;
+        alone =
+            dist::deform<tetrahedron>(one.get(), dealt(one.get(), m), {.constraints = ends(one.get(), m, stretched)})
+                .report.energy;
     MPI_Bcast(&alone, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
     CHECK(all.solve().report.energy == doctest::Approx(alone).epsilon(1e-9));
 }

@@ -162,7 +162,11 @@ std::function<exit_code()> of_parsed(const communicator& all, const CLI::App& ap
     return [&all, &app, body]
     {
         const char* place = nullptr;
-        all.together([&] { if (all.rank() == 0) place = outputs(files_of(app)).place_of_report(); });
+        all.together(
+            [&]
+            {
+                if (all.rank() == 0) place = outputs(files_of(app)).place_of_report();
+            });
         return body(all, place);
     };
 }

@@ -23,14 +23,15 @@ namespace taut::tools::mpi
 namespace
 {
 
-nlohmann::ordered_json to_json(const mpi_check_options& o, const dist::dist_certificate& c)
+nlohmann::ordered_json to_json(const mpi_check_options& o, const dist::certificate& c)
 {
-    return {{"schema", "taut.mpi.check/1"}, {"input", o.input},          {"elements", c.elements},
-            {"inverted", c.flipped},        {"inverted_ids", c.ids},     {"branch_edges", c.branched},
+    return {{"schema", "taut.mpi.check/1"}, {"input", o.input},
+            {"elements", c.elements},       {"inverted", c.flipped},
+            {"inverted_ids", c.ids},        {"branch_edges", c.branched},
             {"branch_ids", c.branch_ids},   {"valid", static_cast<bool>(c)}};
 }
 
-std::string text_of(const mpi_check_options& o, const dist::dist_certificate& c)
+std::string text_of(const mpi_check_options& o, const dist::certificate& c)
 {
     const auto list = [](const std::vector<std::int64_t>& ids)
     {
@@ -52,8 +53,9 @@ void declare_check(CLI::App& app, mpi_check_options& o)
     add_input(app, "MESH", o.input, "the input", "Tetrahedra: .mesh .msh .vtk .vtu .node .su2")->required();
     add_zone(app, o.zone);
     app.add_flag("--json", o.json, "Print JSON");
-    app.footer("exit codes: 0 certified; 2 usage; 3 unreadable input; 4 an element is inverted or flat, or the input is\n"
-               "  no mesh of tetrahedra");
+    app.footer(
+        "exit codes: 0 certified; 2 usage; 3 unreadable input; 4 an element is inverted or flat, or the input is\n"
+        "  no mesh of tetrahedra");
 }
 
 exit_code run_check(const dist::impl::communicator& all, const mpi_check_options& o)
@@ -72,8 +74,7 @@ exit_code run_check(const dist::impl::communicator& all, const mpi_check_options
     all.together(
         [&]
         {
-            if (all.rank() == 0)
-                write_standard_output(o.json ? tools::text_of(to_json(o, found)) : text_of(o, found));
+            if (all.rank() == 0) write_standard_output(o.json ? tools::text_of(to_json(o, found)) : text_of(o, found));
         });
     return found ? exit_code::valid : exit_code::unsuitable_input;
 }

@@ -106,8 +106,8 @@ std::string text_of(const mpi_report& r, const mpi_options& o)
     labelled_lines lines;
     lines.add("mesh", o.shape.input + ": " + count(r.vertices, "vertex", "vertices") + ", " + r.cells +
                           (o.shape.smoothing ? "" : ", " + count(r.pins) + " vertices held"));
-    lines.add("processes", count(r.processes.size()) + ", " + number(static_cast<double>(memory) / 1048576) +
-                               " MB of the largest");
+    lines.add("processes",
+              count(r.processes.size()) + ", " + number(static_cast<double>(memory) / 1048576) + " MB of the largest");
     lines.add("device", r.device);
     lines.add("inverted", count(r.before.inverted.size()) + " -> " + count(r.after.inverted.size()));
     lines.add("energy", number(run.energy) + (run.converged ? ", converged" : ", not converged") + ", " +

@@ -127,16 +127,24 @@ public:
     exit_code operator()()
     {
         tell("read");
-        numbers_.read = clock_.timed([&] { all_.together([&] { if (first()) reader_ = read(options_, report_); }); });
+        numbers_.read = clock_.timed(
+            [&]
+            {
+                all_.together(
+                    [&]
+                    {
+                        if (first()) reader_ = read(options_, report_);
+                    });
+            });
         require_not_interrupted();
         tell("distribute");
         solve();
         const auto outcome = report_.run.outcome;
         const bool late = outcome == outcome::stopped || (outcome == outcome::valid && report_.run.stopped);
-        code_ = asked_to_stop()                                 ? stopped_by_
-                : late                                          ? exit_code::time_limit
-                : outcome == outcome::valid                     ? exit_code::valid
-                                                                : exit_code::no_valid_map;
+        code_ = asked_to_stop()             ? stopped_by_
+                : late                      ? exit_code::time_limit
+                : outcome == outcome::valid ? exit_code::valid
+                                            : exit_code::no_valid_map;
         write();
         return code_;
     }
@@ -156,7 +164,11 @@ private:
     void require_not_interrupted()
     {
         const bool stop = asked_to_stop();
-        all_.together([&] { if (stop) throw interrupted_run("there was no mesh to write yet"); });
+        all_.together(
+            [&]
+            {
+                if (stop) throw interrupted_run("there was no mesh to write yet");
+            });
     }
 
     run_limits limits()
@@ -263,12 +275,10 @@ private:
                 const auto marks = reader_->pins.held();
                 std::vector<char> still(x_.size(), 0);
                 for (const idx v : reader_->fixed) still[static_cast<std::size_t>(v)] = 1;
-                const written_shape<element> written(*reader_->input, x_,
-                                                     [&](std::size_t v, int k)
-                                                     {
-                                                         return shape_.smoothing ? !still[v]
-                                                                                 : !(v < marks.size() && marks.test(v, k));
-                                                     });
+                const written_shape<element> written(
+                    *reader_->input, x_,
+                    [&](std::size_t v, int k)
+                    { return shape_.smoothing ? !still[v] : !(v < marks.size() && marks.test(v, k)); });
                 if (!written.note.empty()) found.notes.push_back(written.note);
                 if (!written.state.simplices) throw no_valid_map(written.defects(*reader_->input));
                 report_.after = written.state;

@@ -50,8 +50,7 @@ void share_machine(const dist::impl::communicator& all)
     propose("TAUT_THREADS", threads);
     propose("POCL_MAX_PTHREAD_COUNT", threads);
     if (variable("OMP_NUM_THREADS").empty()) // its runtime has looked already
-        if (void* const set = ::dlsym(RTLD_DEFAULT, "omp_set_num_threads"))
-            reinterpret_cast<void (*)(int)>(set)(1);
+        if (void* const set = ::dlsym(RTLD_DEFAULT, "omp_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
 
     fs::path caches = variable("POCL_CACHE_DIR");
     if (caches.empty())
@@ -71,8 +70,8 @@ queue own_queue(const dist::impl::communicator& all, const std::string& device)
 {
     const auto here = dist::impl::rank_on_machine(all);
     std::optional<queue> q;
-    all.together([&]
-                 { q = device.empty() ? dist::impl::open_own_queue(here) : queue(find_device(device, {}, "--device ")); });
+    all.together(
+        [&] { q = device.empty() ? dist::impl::open_own_queue(here) : queue(find_device(device, {}, "--device ")); });
     return *q;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -26,8 +27,8 @@ public:
     /// Collective. For other rows: all is made anew.
     void forget() { pc_ = {}; }
 
-    /// Collective. rows: the matrix. near: positions, D a vertex with a row, whose rigid motions hardly strain; or none.
-    /// tried: numbers at owned vertices to try it with.
+    /// Collective. rows: the matrix. near: positions, D a vertex with a row, whose rigid motions hardly strain; or
+    /// none. tried: numbers at owned vertices to try it with.
     void refresh(const free_rows& rows, int dimension, const numbers& near, const numbers& tried)
     {
         if (rows.total() == 0) return;
@@ -60,8 +61,8 @@ public:
 private:
     static constexpr int last_ = 2; ///< the block diagonal
 
-    /// Options of PETSc, by what one may trust. Chebyshev's bounds are estimated for each new matrix, with a margin: the
-    /// first ones turn the smoother indefinite later.
+    /// Options of PETSc, by what one may trust. Chebyshev's bounds are estimated for each new matrix, with a margin:
+    /// the first ones turn the smoother indefinite later.
     std::string options() const
     {
         if (safety_ == last_ || params_.preconditioner == preconditioner::block_jacobi) return "-pc_type pbjacobi";
@@ -96,7 +97,8 @@ private:
         if (!taken) throw backend_error("PETSc: it has no preconditioner for '" + options() + "'");
         PCType type = nullptr;
         require(PCGetType(made, &type));
-        if (dimension > 1 && !near.empty() && type && std::string(type) == PCGAMG) keep_rigid_motions(rows, dimension, near);
+        if (dimension > 1 && !near.empty() && type && std::string(type) == PCGAMG)
+            keep_rigid_motions(rows, dimension, near);
     }
 
     void keep_rigid_motions(const free_rows& rows, int dimension, const numbers& near)

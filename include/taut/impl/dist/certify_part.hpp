@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <taut/impl/dist/part.hpp>
@@ -22,11 +24,11 @@ namespace taut::dist::impl
 /// each vertex) by the owner of its vertex of the least number, which has all elements there.
 /// x: D numbers a vertex of the part; measure: of the cells at rest, in the same lengths.
 template <class Element>
-dist_certificate certify_part(const part<Element>& p, const std::vector<double>& x, const std::vector<double>& measure)
+certificate certify_part(const part<Element>& p, const std::vector<double>& x, const std::vector<double>& measure)
 {
     constexpr int D = Element::dimension;
     constexpr std::size_t most_ids = 16;
-    dist_certificate all;
+    certificate all;
     std::vector<std::int64_t> flipped, branches;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     bool finite = true;
@@ -38,14 +40,13 @@ dist_certificate certify_part(const part<Element>& p, const std::vector<double>&
                 for (int k = 0; k < D; ++k) points[v][k] = x[D * v + static_cast<std::size_t>(k)];
             const auto owned = [&](idx v) { return p.owns(v); };
             if (p.corners.empty()) return;
-            const auto here = certify<D>(std::span(p.corners), std::span<const vec<D>>(points), measure,
-                                         p.corners.size());
+            const auto here =
+                certify<D>(std::span(p.corners), std::span<const vec<D>>(points), measure, p.corners.size());
             least = here.min_det;
             most = here.max_det;
             finite = std::isfinite(least) && std::isfinite(most);
             for (const idx c : here.ids)
-                if (p.counted[static_cast<std::size_t>(c)])
-                    flipped.push_back(p.cell_ids[static_cast<std::size_t>(c)]);
+                if (p.counted[static_cast<std::size_t>(c)]) flipped.push_back(p.cell_ids[static_cast<std::size_t>(c)]);
             if constexpr (D == 2)
             {
                 for (const idx v : branch_points(std::span(p.corners), std::span<const vec<D>>(points), {}))
@@ -76,8 +77,7 @@ dist_certificate certify_part(const part<Element>& p, const std::vector<double>&
     if (all.branched > 0) all.branch_ids = first_of_all(std::move(branches), of_branch);
     all.min_det = p.all.least(finite ? least : -std::numeric_limits<double>::infinity());
     all.max_det = p.all.most(finite ? most : std::numeric_limits<double>::infinity());
-    if (p.all.any(!finite && !p.corners.empty()))
-        all.min_det = all.max_det = std::numeric_limits<double>::quiet_NaN();
+    if (p.all.any(!finite && !p.corners.empty())) all.min_det = all.max_det = std::numeric_limits<double>::quiet_NaN();
     return all;
 }
 

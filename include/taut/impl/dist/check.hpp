@@ -9,10 +9,10 @@
 namespace taut::dist
 {
 
-/// Counts inverted elements, and edges (in the plane vertices) that are gone around more than once, in exact arithmetic,
-/// of a mesh that the processes of a communicator have in pieces. Collective. Throws mesh_error, parameter_error for
-/// pieces that are no mesh, or have no vertices.
+/// Counts inverted elements, and edges (in the plane vertices) that are gone around more than once, in exact
+/// arithmetic, of a mesh that the processes of a communicator have in pieces. Collective. Throws mesh_error,
+/// parameter_error for pieces that are no mesh, or have no vertices.
 template <class Element>
-dist_certificate check(MPI_Comm comm, const mesh_piece<Element>& piece);
+certificate check(MPI_Comm comm, const mesh_piece<Element>& piece);
 
 } // namespace taut::dist

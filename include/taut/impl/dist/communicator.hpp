@@ -76,7 +76,8 @@ public:
     /// Sums of integers, entry by entry.
     void add(std::span<std::int64_t> x) const
     {
-        require(MPI_Allreduce(MPI_IN_PLACE, x.data(), count_of(x.size()), MPI_INT64_T, MPI_SUM, raw()), "MPI_Allreduce");
+        require(MPI_Allreduce(MPI_IN_PLACE, x.data(), count_of(x.size()), MPI_INT64_T, MPI_SUM, raw()),
+                "MPI_Allreduce");
     }
 
     /// Sums of doubles, entry by entry. They depend on the number of processes by rounding, not on the process.

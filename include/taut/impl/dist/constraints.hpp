@@ -10,7 +10,7 @@
 namespace taut::dist
 {
 
-/// Pins and springs of vertices by the caller's ids, which any process may give, whoever has the vertex: those of all
+/// Pins and springs of vertices by the caller's ids, which any process may give: those of all
 /// processes together hold. A coordinate may be pinned by several processes, to the same value.
 ///
 ///     taut::dist::constraints<taut::tetrahedron> c;

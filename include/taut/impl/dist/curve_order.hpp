@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <taut/impl/core/types.hpp>
@@ -83,7 +84,8 @@ struct number_ranges
     number_ranges() = default;
     number_ranges(std::int64_t total, int processes)
     {
-        for (std::int64_t r = 0; r <= processes; ++r) bounds.push_back(total / processes * r + total % processes * r / processes);
+        for (std::int64_t r = 0; r <= processes; ++r)
+            bounds.push_back(total / processes * r + total % processes * r / processes);
     }
     std::size_t owner(std::int64_t number) const
     {
@@ -91,8 +93,8 @@ struct number_ranges
     }
 };
 
-/// The vertices of a range of the curve, in its order; all of them have numbers by their places on it, which are written
-/// to their homes.
+/// The vertices of a range of the curve, in its order; all of them have numbers by their places on it, which are
+/// written to their homes.
 inline std::vector<keyed_vertex> in_curve_order(const communicator& all, homes& at_home, const number_ranges& ranges)
 {
     auto mine = keyed(all, at_home.known());

@@ -21,8 +21,8 @@ inline void require(PetscErrorCode code)
     throw backend_error("PETSc: error " + std::to_string(code) + (text ? std::string(": ") + text : std::string()));
 }
 
-/// Initialises PETSc, if the program has not, and has its errors returned within a scope. PETSc that is initialised here
-/// is finalised with MPI.
+/// Initialises PETSc, if the program has not, and has its errors returned within a scope. PETSc that is initialised
+/// here is finalised with MPI.
 class petsc_scope
 {
 public:

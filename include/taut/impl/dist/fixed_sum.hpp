@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -15,8 +16,8 @@
 namespace taut::dist::impl
 {
 
-/// Sum of doubles in fixed point: every bit of each term is kept, so that the result is the same bits in whatever order,
-/// and over whatever processes, terms are added (Neal 2015, "Fast exact summation using small and large
+/// Sum of doubles in fixed point: every bit of each term is kept, so that the result is the same bits in whatever
+/// order, and over whatever processes, terms are added (Neal 2015, "Fast exact summation using small and large
 /// superaccumulators"). A term that is not finite makes the sum infinite. Fewer than 2^31 terms in all.
 class fixed_sum
 {
@@ -37,8 +38,7 @@ public:
         if (exponent != 0) mantissa |= std::uint64_t{1} << 52U;
         const std::uint32_t offset = exponent == 0 ? 0 : exponent - 1, shift = offset % 32;
         const std::uint64_t low = mantissa << shift;
-        const auto first = static_cast<std::int64_t>(low & 0xffffffffU),
-                   second = static_cast<std::int64_t>(low >> 32U),
+        const auto first = static_cast<std::int64_t>(low & 0xffffffffU), second = static_cast<std::int64_t>(low >> 32U),
                    third = shift == 0 ? 0 : static_cast<std::int64_t>(mantissa >> (64 - shift));
         auto* const at = limbs_.data() + offset / 32;
         if (bits >> 63U)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -42,8 +43,8 @@ using petsc_preconditioner = petsc_object<PC, PCDestroy>;
 using petsc_solver = petsc_object<KSP, KSPDestroy>;
 using petsc_null_space = petsc_object<MatNullSpace, MatNullSpaceDestroy>;
 
-/// The rows of a matrix of B x B blocks, one block a vertex that may move: those of this process, complete, with columns
-/// ascending as PETSc wants them. Vertices that are pinned have neither rows nor columns.
+/// The rows of a matrix of B x B blocks, one block a vertex that may move: those of this process, complete, with
+/// columns ascending as PETSc wants them. Vertices that are pinned have neither rows nor columns.
 class free_rows
 {
 public:
@@ -161,8 +162,7 @@ private:
             for (std::size_t k = 0; k < B; ++k)
             {
                 for (std::size_t c = starts_[r]; c < starts_[r + 1]; ++c)
-                    for (std::size_t m = 0; m < B; ++m)
-                        j.push_back(columns_[c] * block_ + static_cast<PetscInt>(m));
+                    for (std::size_t m = 0; m < B; ++m) j.push_back(columns_[c] * block_ + static_cast<PetscInt>(m));
                 i.push_back(static_cast<PetscInt>(j.size()));
             }
         const auto n = static_cast<PetscInt>(B * vertices_.size());

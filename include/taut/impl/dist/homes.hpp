@@ -90,10 +90,10 @@ public:
         std::vector<std::int64_t> found;
         found.reserve(ids.size());
         for (const std::int64_t id : ids)
-            found.push_back(has_home(id)
-                                ? told[static_cast<std::size_t>(std::lower_bound(asked.begin(), asked.end(), id) -
-                                                                asked.begin())]
-                                : none);
+            found.push_back(
+                has_home(id)
+                    ? told[static_cast<std::size_t>(std::lower_bound(asked.begin(), asked.end(), id) - asked.begin())]
+                    : none);
         return found;
     }
 

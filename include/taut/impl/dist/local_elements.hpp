@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,9 +27,9 @@ struct element_model
     double total = 1; ///< sum of the weights of all elements
 };
 
-/// The elements of a part on the device of its process: energies, gradients, first flips and Hessians, by the kernels of
-/// the serial library. Vectors on the host have D numbers a vertex, of the vertices here. A part without elements has no
-/// device.
+/// The elements of a part on the device of its process: energies, gradients, first flips and Hessians, by the kernels
+/// of the serial library. Vectors on the host have D numbers a vertex, of the vertices here. A part without elements
+/// has no device.
 template <class Element>
 class local_elements
 {

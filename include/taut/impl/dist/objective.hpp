@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <limits>
 #include <span>
@@ -66,8 +67,8 @@ public:
         multigrid_.forget();
     }
 
-    /// The fixed coordinates of the targets, towards which linearize_towards() goes; D a vertex of the part, in lengths of
-    /// the run.
+    /// The fixed coordinates of the targets, towards which linearize_towards() goes; D a vertex of the part, in lengths
+    /// of the run.
     void aim(std::vector<double> targets) { aim_ = std::move(targets); }
 
     const dist_space& space() const { return space_; }
@@ -312,8 +313,7 @@ private:
             {
                 mat<D> K;
                 for (int i = 0; i < D; ++i)
-                    for (int j = 0; j < D; ++j)
-                        K[j][i] = values[place * D * D + static_cast<std::size_t>(i * D + j)];
+                    for (int j = 0; j < D; ++j) K[j][i] = values[place * D * D + static_cast<std::size_t>(i * D + j)];
                 if (v == w)
                     for (int i = 0; i < D; ++i) K[i][i] += stiff[v];
                 if (held_.restrained(v) || held_.restrained(w))
@@ -324,8 +324,7 @@ private:
                     if (v == w) K += typical * (mat<D>(1.0) - P); // of what cannot move
                 }
                 for (int i = 0; i < D; ++i)
-                    for (int j = 0; j < D; ++j)
-                        put(static_cast<std::size_t>(i), static_cast<std::size_t>(j), K[j][i]);
+                    for (int j = 0; j < D; ++j) put(static_cast<std::size_t>(i), static_cast<std::size_t>(j), K[j][i]);
             });
         // Alternating numbers try what an aligned vector would not.
         vector trial = tried ? *tried : space_.make();

@@ -64,7 +64,8 @@ public:
     /// The rigid motion of all pinned vertices together.
     const rigid_motion<D>& whole() const { return whole_; }
 
-    /// Positions of fixed coordinates at the fraction t of the path, D numbers a vertex of the part; exact where t is 1.
+    /// Positions of fixed coordinates at the fraction t of the path, D numbers a vertex of the part; exact where t
+    /// is 1.
     std::vector<double> places(double t) const
     {
         std::vector<double> all(to_.size(), 0.0);
@@ -128,7 +129,8 @@ private:
             }
             changed = false;
             for (std::size_t v = 0; v < name.size(); ++v)
-                if (const auto now = least[at(sets.find(static_cast<idx>(v)))]; joined[v] && now < name[v]) name[v] = now, changed = true;
+                if (const auto now = least[at(sets.find(static_cast<idx>(v)))]; joined[v] && now < name[v])
+                    name[v] = now, changed = true;
             part_.update(name);
             changed = part_.all.any(changed);
         }
@@ -179,7 +181,8 @@ private:
         for (std::size_t b = 0; b < n; ++b)
         {
             const double* const m = first.data() + b * (2 * D + 1);
-            for (int k = 0; k < D && m[2 * D] > 0; ++k) fits[b].from[k] = m[k] / m[2 * D], fits[b].to[k] = m[D + k] / m[2 * D];
+            for (int k = 0; k < D && m[2 * D] > 0; ++k)
+                fits[b].from[k] = m[k] / m[2 * D], fits[b].to[k] = m[D + k] / m[2 * D];
         }
         each(
             [&](std::size_t b, const point& p, const point& q)

@@ -13,7 +13,7 @@ namespace taut::dist
 {
 
 /// Certificate of a mesh over many processes, as taut::certificate of one; counts in 64 bits.
-struct dist_certificate
+struct certificate
 {
     std::int64_t elements = 0;
     std::int64_t flipped = 0;             ///< elements that are turned over, flat or not finite; exact
@@ -43,7 +43,7 @@ struct report
     int setups = 0;                 ///< of the preconditioner
     int fallbacks = 0;              ///< how often a safer preconditioner was needed
     std::int64_t unknowns = 0;      ///< vertices that may move
-    dist_certificate flips;         ///< of the shape that is returned
+    certificate flips;              ///< of the shape that is returned
     phase_seconds seconds;          ///< of this process
     std::int64_t own_vertices = 0, halo_vertices = 0, local_cells = 0; ///< of this process
     std::uint64_t device_bytes = 0;                                    ///< in buffers of its device

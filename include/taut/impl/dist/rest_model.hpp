@@ -38,8 +38,8 @@ public:
 
     /// Collective. Throws mesh_error.
     rest_model(const part<Element>& p, const deform_params<Element>& params)
-        : model{bound(params), taut::impl::types_of(params.precision == precision::automatic ? precision::fp64
-                                                                                             : params.precision)}
+        : model{bound(params),
+                taut::impl::types_of(params.precision == precision::automatic ? precision::fp64 : params.precision)}
     {
         double largest = 0;
         for (const vec3& x : p.points) largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
@@ -58,10 +58,11 @@ public:
             [&]
             {
                 if (!m) return;
-                l = std::make_shared<const layout>(*m, taut::impl::identity_order(*m), static_cast<idx>(p.own), *ideal, scale);
+                l = std::make_shared<const layout>(*m, taut::impl::identity_order(*m), static_cast<idx>(p.own), *ideal,
+                                                   scale);
                 measure.assign(l->measure.begin(), l->measure.begin() + l->cell_count);
-                weights = params.weights == energy::weighting::uniform ? std::vector<double>(measure.size(), 1.0)
-                                                                       : measure;
+                weights =
+                    params.weights == energy::weighting::uniform ? std::vector<double>(measure.size(), 1.0) : measure;
             });
         model.total = total(p, weights);
         set_gradient_scale(p);
@@ -89,8 +90,7 @@ private:
         for (const auto& c : p.corners)
         {
             typename Element::mapped_corners x;
-            for (std::size_t k = 0; k < x.size(); ++k)
-                x[k] = vec<D>(unit * p.points[static_cast<std::size_t>(c[k])]);
+            for (std::size_t k = 0; k < x.size(); ++k) x[k] = vec<D>(unit * p.points[static_cast<std::size_t>(c[k])]);
             all.push_back(std::abs(Element::determinant(x)) * Element::measure_factor);
         }
         return all;
@@ -135,8 +135,7 @@ private:
 
     [[noreturn]] static void refuse(const part<Element>& p, const mesh_finding& found)
     {
-        const bool of_vertices =
-            found.fault == mesh_fault::non_manifold_facet || found.fault == mesh_fault::non_finite;
+        const bool of_vertices = found.fault == mesh_fault::non_manifold_facet || found.fault == mesh_fault::non_finite;
         std::vector<idx> ids; // beyond 32 bits they are cut
         for (const idx i : found.ids)
             ids.push_back(static_cast<idx>(of_vertices ? p.ids[static_cast<std::size_t>(i)]
@@ -150,8 +149,8 @@ private:
         double one = Element::measure_factor;
         for (int k = 0; k < D; ++k) one *= W[k][k];
         const double edge = std::pow(each / one, 1.0 / D);
-        return std::make_unique<ideal_elements<Element>>(
-            std::vector<mat<D>>(count, taut::impl::invert_upper(W) / edge), std::vector<double>(count, each));
+        return std::make_unique<ideal_elements<Element>>(std::vector<mat<D>>(count, taut::impl::invert_upper(W) / edge),
+                                                         std::vector<double>(count, each));
     }
 
     /// 2 lambda |l|, where l_v = sum over cells at v of w_c |grad phi_v|, as characteristic_gradient().
@@ -179,8 +178,7 @@ private:
         }
         shared_sums squares(1);
         for (const double x : at_vertex) squares[0].add(x * x);
-        gradient_scale =
-            2 * taut::impl::stiffness<D>(model.energy) * std::sqrt(squares.totals(p.all)[0]) / model.total;
+        gradient_scale = 2 * taut::impl::stiffness<D>(model.energy) * std::sqrt(squares.totals(p.all)[0]) / model.total;
     }
 
     std::vector<double> empty_;

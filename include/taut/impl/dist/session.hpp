@@ -34,8 +34,8 @@ struct result
     explicit operator bool() const { return report.outcome == outcome::valid; }
 };
 
-/// Interactive session of one volume, or a mesh of the plane (z = 0), over the processes of a communicator. It keeps the
-/// distribution, the tables, the kernels, and, as long as the same coordinates are fixed, the preconditioner: later
+/// Interactive session of one volume, or a mesh of the plane (z = 0), over the processes of a communicator. It keeps
+/// the distribution, the tables, the kernels, and, as long as the same coordinates are fixed, the preconditioner: later
 /// calls of solve() cost their Newton steps and nothing else.
 ///
 ///     taut::dist::session<taut::tetrahedron> s(MPI_COMM_WORLD, piece, {.constraints = pins});
@@ -75,9 +75,10 @@ private:
 };
 
 /// Deforms a volume, or a mesh of the plane, that the processes of a communicator have in pieces, with as little
-/// distortion as the energy asks for, so that pins are met bit for bit and no element is inverted: one call of a session.
-/// The answer is in the distribution of the piece. Outcomes are those of taut::deform(), but for what is never proved
-/// infeasible here; a shape to begin with that has inverted elements is gave_up. Collective; throws as session does.
+/// distortion as the energy asks for, so that pins are met bit for bit and no element is inverted: one call of a
+/// session. The answer is in the distribution of the piece. Outcomes are those of taut::deform(), but for what is never
+/// proved infeasible here; a shape to begin with that has inverted elements is gave_up. Collective; throws as session
+/// does.
 template <class Element>
 result<Element> deform(MPI_Comm comm, const mesh_piece<Element>& piece, const deform_params<Element>& params = {})
 {

@@ -143,8 +143,7 @@ private:
     {
         numbers x(static_cast<std::size_t>(D) * part_.size());
         for (std::size_t v = 0; v < part_.size(); ++v)
-            for (int k = 0; k < D; ++k)
-                x[D * v + static_cast<std::size_t>(k)] = part_.points[v][k] * rest_.lengths;
+            for (int k = 0; k < D; ++k) x[D * v + static_cast<std::size_t>(k)] = part_.points[v][k] * rest_.lengths;
         if (!part_.all.any(!params_.initial.empty())) return x;
         part_.all.together(
             [&]
@@ -169,8 +168,7 @@ private:
             to[at.rank].push_back({at.place, params_.initial[i]});
         }
         for (const auto& [place, p] : part_.all.exchange(to).items)
-            for (int k = 0; k < D; ++k)
-                x[static_cast<std::size_t>(D * place + k)] = p[k] * rest_.lengths;
+            for (int k = 0; k < D; ++k) x[static_cast<std::size_t>(D * place + k)] = p[k] * rest_.lengths;
         part_.update(x, D);
         params_.initial = {};
         return x;
@@ -191,13 +189,13 @@ private:
         return x;
     }
 
-    dist_certificate certified(const numbers& x)
+    certificate certified(const numbers& x)
     {
         const auto timed = clock_.measure(&phase_seconds::certify);
         return certify_part(part_, x, rest_.measure);
     }
 
-    static std::string defects(const dist_certificate& c)
+    static std::string defects(const certificate& c)
     {
         const auto list = [](std::int64_t n, const std::string& things, const std::vector<std::int64_t>& ids)
         {
@@ -207,8 +205,9 @@ private:
             return text + (static_cast<std::int64_t>(shown) < n ? ", ...)" : ")");
         };
         if (c.flipped > 0)
-            return list(c.flipped, c.flipped == 1 ? std::string("inverted ") + Element::name
-                                                  : std::string("inverted ") + Element::names,
+            return list(c.flipped,
+                        c.flipped == 1 ? std::string("inverted ") + Element::name
+                                       : std::string("inverted ") + Element::names,
                         c.ids);
         return list(c.branched, D == 2 ? "vertices wound around twice" : "edges wound around twice, of vertices",
                     c.branch_ids);
@@ -239,8 +238,7 @@ private:
     {
         const pinned_bodies<Element> bodies(part_, held_, x_, rest_.lengths);
         if (bodies.parts() > 1 && draft(bodies)) return true;
-        if (!steps_)
-            steps_.emplace(*objective_, solve::impl::prescribed_params{.most_cost = D == 2 ? 10.0 : 1e4});
+        if (!steps_) steps_.emplace(*objective_, solve::impl::prescribed_params{.most_cost = D == 2 ? 10.0 : 1e4});
         const int parts = bodies.parts();
         bool arrived = true;
         for (int k = 1; k <= parts && arrived; ++k)
@@ -250,12 +248,10 @@ private:
             objective_->aim(way);
             const double left = gap(x_, way);
             if (!(left > 0)) continue;
-            const auto found = steps_->run(x_, left,
-                                           [&](const solve::impl::prescribed_report& at)
-                                           {
-                                               return clock.proceed({.iteration = r.steps + at.iterations,
-                                                                     .value = at.value});
-                                           });
+            const auto found =
+                steps_->run(x_, left,
+                            [&](const solve::impl::prescribed_report& at)
+                            { return clock.proceed({.iteration = r.steps + at.iterations, .value = at.value}); });
             r.steps += found.iterations;
             r.products += found.products;
             r.energy = found.value;

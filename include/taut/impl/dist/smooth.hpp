@@ -20,7 +20,8 @@ struct smooth_params
     /// Treatment of the boundary.
     smooth_boundary boundary = smooth_boundary::sliding;
 
-    /// Power of the energy, which is shape distortion: larger ones improve the worst elements first, 1 the mean. 1 to 8.
+    /// Power of the energy, which is shape distortion: larger ones improve the worst elements first, 1 the mean. 1
+    /// to 8.
     int worst_exponent = 2;
 
     /// Ids of vertices that are fixed, of all processes together.

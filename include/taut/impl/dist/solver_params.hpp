@@ -9,8 +9,8 @@ namespace taut::dist
 /// Preconditioners of the Newton systems, of PETSc.
 enum class preconditioner
 {
-    boomeramg,  ///< algebraic multigrid of hypre, HMIS coarsening: copes with slivers and many processes
-    gamg,       ///< smoothed aggregation of PETSc, with the rigid motions as near null space
+    boomeramg,   ///< algebraic multigrid of hypre, HMIS coarsening: copes with slivers and many processes
+    gamg,        ///< smoothed aggregation of PETSc, with the rigid motions as near null space
     block_jacobi ///< inverses of the D x D blocks of the diagonal: for tests, and what is left where the others fail
 };
 

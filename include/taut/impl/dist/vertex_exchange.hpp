@@ -31,8 +31,7 @@ public:
     {
         std::vector<PetscSFNode> nodes;
         nodes.reserve(from.size());
-        for (const auto& f : from)
-            nodes.push_back({static_cast<PetscInt>(f.rank), static_cast<PetscInt>(f.place)});
+        for (const auto& f : from) nodes.push_back({static_cast<PetscInt>(f.rank), static_cast<PetscInt>(f.place)});
         PetscSF made = nullptr;
         require(PetscSFCreate(all.raw(), &made));
         forest_ = std::shared_ptr<std::remove_pointer_t<PetscSF>>(made, destroy);

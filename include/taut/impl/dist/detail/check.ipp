@@ -3,13 +3,15 @@
 
 #include <taut/impl/dist/check.hpp>
 
+#include <vector>
+
 #include <taut/impl/dist/certify_part.hpp>
 
 namespace taut::dist
 {
 
 template <class Element>
-dist_certificate check(MPI_Comm comm, const mesh_piece<Element>& piece)
+certificate check(MPI_Comm comm, const mesh_piece<Element>& piece)
 {
     constexpr int D = Element::dimension;
     const impl::communicator all(comm);
@@ -22,5 +24,3 @@ dist_certificate check(MPI_Comm comm, const mesh_piece<Element>& piece)
 }
 
 } // namespace taut::dist
-
-template taut::dist::dist_certificate taut::dist::check(MPI_Comm, const mesh_piece<tetrahedron>&);

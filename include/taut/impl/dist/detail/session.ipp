@@ -3,6 +3,8 @@
 
 #include <taut/impl/dist/session.hpp>
 
+#include <memory>
+
 #include <taut/impl/dist/shape_body.hpp>
 
 namespace taut::dist
@@ -44,5 +46,3 @@ result<Element> session<Element>::solve(const run_limits& limits)
 }
 
 } // namespace taut::dist
-
-template class taut::dist::session<taut::tetrahedron>;

@@ -3,6 +3,15 @@
 
 #include <taut/impl/dist/smooth.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <taut/impl/constrain/boundary_slides.hpp>
 #include <taut/impl/dist/shape_body.hpp>
 #include <taut/impl/energy/shape_power.hpp>
@@ -29,8 +38,8 @@ kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& 
     if (p.corners.empty() || params.boundary == smooth_boundary::free) return kept;
     const mesh<Element> m(p.points, p.corners);
     auto facets = boundary_facets(m);
-    std::erase_if(facets, [&](const auto& f)
-                  { return std::none_of(f.begin(), f.end(), [&](idx v) { return p.owns(v); }); });
+    std::erase_if(facets,
+                  [&](const auto& f) { return std::none_of(f.begin(), f.end(), [&](idx v) { return p.owns(v); }); });
     if (params.boundary == smooth_boundary::fixed)
     {
         std::vector<char> seen(p.size(), 0);
@@ -119,6 +128,3 @@ result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const sm
 }
 
 } // namespace taut::dist
-
-template taut::dist::result<taut::tetrahedron> taut::dist::smooth(MPI_Comm, const mesh_piece<tetrahedron>&,
-                                                                  const smooth_params&);
