@@ -12,6 +12,7 @@
 #include <taut/impl/dist/fixed_sum.hpp>
 #include <taut/impl/dist/free_rows.hpp>
 #include <taut/impl/dist/pinned_bodies.hpp>
+#include <taut/impl/map/shape_path.hpp>
 
 namespace taut::dist::impl
 {
@@ -130,16 +131,26 @@ private:
             for (std::size_t k = 0; k < 3; ++k) turns[3 * v + k] = w[static_cast<int>(k)];
             for (std::size_t k = 0; k < D; ++k) x[D * v + k] = p[static_cast<int>(k)];
         }
-        fit(turns, 3, told, [](std::size_t, std::size_t) { return point(0.0); });
-        std::vector<mat<D>> wanted;
+        fit(*this, told)(turns, 3, [](std::size_t, std::size_t) { return point(0.0); });
+        std::vector<mat<D>> wanted; // rows: gradients of coordinates
         for (const auto& c : part_.corners)
         {
             vec3 mean(0.0);
             for (const idx v : c)
                 for (int k = 0; k < 3; ++k) mean[k] += turns[static_cast<std::size_t>(3 * v + k)] / double(K);
-            wanted.push_back(glm::transpose(rotation(mean))); // rows: gradients of coordinates
+            wanted.push_back(glm::transpose(rotation(mean)));
         }
-        fit(x, D, still, [&](std::size_t c, std::size_t k) { return wanted[c][static_cast<int>(k)]; });
+        fit shaped(*this, still);
+        const auto row = [&](std::size_t c, std::size_t k) { return wanted[c][static_cast<int>(k)]; };
+        shaped(x, D, row);
+        // The elements' own rotations: steps of Sorkine and Alexa 2007, "As-rigid-as-possible surface modeling".
+        for (int step = 0; step < 2; ++step)
+        {
+            for (std::size_t c = 0; c < wanted.size(); ++c)
+                if (const mat<D> F = gradient(c, x); glm::determinant(F) > 0)
+                    wanted[c] = glm::transpose(taut::impl::nearest_rotation<D>(F));
+            shaped(x, D, row);
+        }
         fixed_sum left;
         for (std::size_t c = 0; c < basis_.size(); ++c)
             if (part_.counted[c]) left.add(measure_[c] * norm2(glm::transpose(gradient(c, x)) - wanted[c]));
@@ -148,35 +159,55 @@ private:
         return {std::move(x), sum.totals(part_.all)[0]};
     }
 
-    /// Fits values, `width` a vertex, to gradients wanted(cell, component), where they may change.
-    template <class Wanted>
-    void fit(numbers& u, std::size_t width, const std::vector<char>& still, const Wanted& wanted) const
+    /// Fits values to gradients, where they may change: one matrix and its preconditioner, for any number of fits.
+    class fit
     {
-        free_rows rows(part_, pattern_, still, 1);
-        if (rows.total() == 0) return;
-        rows.set([&](std::size_t, std::size_t, std::size_t place, const auto& put) { put(0, 0, entries_[place]); });
-        const auto solver = make_solver(rows);
-        const auto b = rows.make_vector(), x = rows.make_vector();
-        numbers r(part_.own), change(part_.own);
-        for (std::size_t k = 0; k < width; ++k)
+    public:
+        fit(const harmonic_draft& of, const std::vector<char>& still)
+            : of_(of), rows_(of.part_, of.pattern_, still, 1), r_(of.part_.own), change_(of.part_.own)
         {
-            std::fill(r.begin(), r.end(), 0.0);
-            for (std::size_t c = 0; c < basis_.size(); ++c)
-            {
-                point missing = wanted(c, k);
-                for (std::size_t j = 0; j < K; ++j)
-                    missing -= u[width * static_cast<std::size_t>(part_.corners[c][j]) + k] * basis_[c][j];
-                for (std::size_t j = 0; j < K; ++j)
-                    if (const idx v = part_.corners[c][j]; part_.owns(v))
-                        r[static_cast<std::size_t>(v)] += measure_[c] * glm::dot(missing, basis_[c][j]);
-            }
-            rows.gather(r, b);
-            require(KSPSolve(solver.get(), b.get(), x.get()));
-            rows.scatter(x, change);
-            for (std::size_t v = 0; v < part_.own; ++v) u[width * v + k] += change[v];
+            if (rows_.total() == 0) return;
+            rows_.set([&](std::size_t, std::size_t, std::size_t place, const auto& put)
+                      { put(0, 0, of.entries_[place]); });
+            solver_ = of.make_solver(rows_);
+            b_ = rows_.make_vector();
+            x_ = rows_.make_vector();
         }
-        part_.update(u, static_cast<int>(width));
-    }
+
+        /// u: `width` values a vertex. wanted(cell, component): a gradient.
+        template <class Wanted>
+        void operator()(numbers& u, std::size_t width, const Wanted& wanted)
+        {
+            if (rows_.total() == 0) return;
+            const auto& p = of_.part_;
+            for (std::size_t k = 0; k < width; ++k)
+            {
+                std::fill(r_.begin(), r_.end(), 0.0);
+                for (std::size_t c = 0; c < of_.basis_.size(); ++c)
+                {
+                    const auto& basis = of_.basis_[c];
+                    point missing = wanted(c, k);
+                    for (std::size_t j = 0; j < K; ++j)
+                        missing -= u[width * static_cast<std::size_t>(p.corners[c][j]) + k] * basis[j];
+                    for (std::size_t j = 0; j < K; ++j)
+                        if (const idx v = p.corners[c][j]; p.owns(v))
+                            r_[static_cast<std::size_t>(v)] += of_.measure_[c] * glm::dot(missing, basis[j]);
+                }
+                rows_.gather(r_, b_);
+                require(KSPSolve(solver_.get(), b_.get(), x_.get()));
+                rows_.scatter(x_, change_);
+                for (std::size_t v = 0; v < p.own; ++v) u[width * v + k] += change_[v];
+            }
+            p.update(u, static_cast<int>(width));
+        }
+
+    private:
+        const harmonic_draft& of_;
+        free_rows rows_;
+        petsc_solver solver_;
+        petsc_vector b_, x_;
+        numbers r_, change_;
+    };
 
     petsc_solver make_solver(const free_rows& rows) const
     {

@@ -283,6 +283,8 @@ private:
     {
         auto how = params_.solve;
         how.stopping.time_limit = taut::impl::budget::unlimited; // clocks differ
+        // Set-ups of the preconditioner cost as much as ten products, so directions are more exact than elsewhere.
+        how.tuning.newton.pcg.gain = std::min(how.tuning.newton.pcg.gain, 0.05);
         const int before = r.steps;
         const auto found = solve::minimize(*objective_, x_, how,
                                            [&](progress p)
