@@ -278,4 +278,29 @@ TEST_CASE("dist deform: an initial shape; one with inverted elements is refused"
     CHECK(bad.x.empty());
 }
 
+TEST_CASE("dist deform: elements with all vertices pinned and inverted are a proof")
+{
+    const auto m = bar(2);
+    dist::constraints<tetrahedron> c;
+    if (rank_of() == 0)
+        for (const idx v : m.cells().back())
+            c.pin(v, m.points()[static_cast<std::size_t>(v)] * vec3(-1, 1, 1)); // mirrored
+    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
+    CHECK(report.outcome == outcome::infeasible);
+    CHECK(report.ids == std::vector<std::int64_t>{m.cell_count() - 1});
+    CHECK(report.reason.find("all vertices pinned") != std::string::npos);
+}
+
+TEST_CASE("dist deform: a bar of slivers, which cut every step of all, is bent")
+{
+    // Flat slices: tetrahedra of height 1 / 40 of their edges.
+    auto points = bar(4).points();
+    for (vec3& p : points) p.x *= 0.05;
+    const mesh<tetrahedron> m(points, bar(4).cells());
+    const auto where = [](const vec3& p) { return vec3(p.x, p.y * 1.3, p.z * 0.97); };
+    const auto r = over_all(m, where);
+    CHECK(r.report.outcome == outcome::valid);
+    CHECK(r.report.pins_held);
+}
+
 } // namespace taut::test

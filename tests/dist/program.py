@@ -258,6 +258,9 @@ def case_faults():
     b.medit("folded.mesh")
     fails("deform", "folded.mesh", "--rest", "bar.mesh", "-o", "x.mesh", code=6, word="untangle")
     assert stats_of_check("folded.mesh", code=4)["inverted"] > 0
+    with open("inverted.csv", "w") as f:
+        f.writelines("%d,%.17g,%.17g,%.17g\n" % (v, -p[0], p[1], p[2]) for v, p in enumerate(b.points))
+    fails("deform", "bar.mesh", "--pins", "inverted.csv", "-o", "x.mesh", code=7, word="all vertices pinned")
 
 
 def case_stops():

@@ -70,6 +70,10 @@ ending ended(const std::function<exit_code()>& body)
     {
         return fail(exit_code::no_valid_map, std::string("no valid map; ") + e.what());
     }
+    catch (const infeasible_problem& e)
+    {
+        return fail(exit_code::infeasible, std::string("infeasible; ") + e.what());
+    }
     catch (const interrupted_run& e)
     {
         return fail(interruption(), std::string("interrupted; ") + e.what());
@@ -178,7 +182,8 @@ ending run_program(const communicator& all, int argc, char** argv, std::chrono::
     program.require_subcommand(1);
     program.formatter(std::make_shared<wrapped_help>());
     program.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
-                   "  6 none was found; 8 time limit, with the best mesh written; 9 device, MPI or PETSc failed;\n"
+                   "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written; 9 device, MPI "
+                   "or PETSc failed;\n"
                    "  130 interrupted (Ctrl-C), 143 terminated, with the best mesh written if there was one");
     mpi_options deforming, smoothing;
     mpi_check_options checking;

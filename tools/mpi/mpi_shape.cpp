@@ -141,10 +141,11 @@ public:
         solve();
         const auto outcome = report_.run.outcome;
         const bool late = outcome == outcome::stopped || (outcome == outcome::valid && report_.run.stopped);
-        code_ = asked_to_stop()             ? stopped_by_
-                : late                      ? exit_code::time_limit
-                : outcome == outcome::valid ? exit_code::valid
-                                            : exit_code::no_valid_map;
+        code_ = asked_to_stop()                  ? stopped_by_
+                : late                           ? exit_code::time_limit
+                : outcome == outcome::valid      ? exit_code::valid
+                : outcome == outcome::infeasible ? exit_code::infeasible
+                                                 : exit_code::no_valid_map;
         write();
         return code_;
     }
@@ -265,9 +266,10 @@ private:
                 if (!first()) return;
                 tell("write");
                 auto& found = report_.run;
-                if (x_.empty() || code_ == exit_code::no_valid_map)
+                if (x_.empty() || code_ == exit_code::no_valid_map || code_ == exit_code::infeasible)
                 {
                     shown_.finish();
+                    if (code_ == exit_code::infeasible) throw infeasible_problem(found.reason);
                     throw no_valid_map(found.reason.empty() ? "nothing was written" : found.reason);
                 }
                 found.notes.insert(found.notes.end(), reader_->notes.begin(), reader_->notes.end());

@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include <taut/impl/dist/held_part.hpp>
 #include <taut/impl/dist/part.hpp>
 #include <taut/impl/dist/report.hpp>
 #include <taut/impl/exact/branch_edges.hpp>
@@ -79,6 +81,39 @@ certificate certify_part(const part<Element>& p, const std::vector<double>& x, c
     all.max_det = p.all.most(finite ? most : std::numeric_limits<double>::infinity());
     if (p.all.any(!finite && !p.corners.empty())) all.min_det = all.max_det = std::numeric_limits<double>::quiet_NaN();
     return all;
+}
+
+/// Collective. Elements that are inverted or flat whatever else moves, as all their vertices are pinned: their number,
+/// and the first of them. x: D numbers a vertex of the part, of pinned ones their targets.
+template <class Element>
+certificate pinned_inverted(const part<Element>& p, const held_part<Element>& held, const std::vector<double>& x)
+{
+    constexpr int D = Element::dimension;
+    std::vector<std::int64_t> ids;
+    p.all.together(
+        [&]
+        {
+            for (std::size_t c = 0; c < p.corners.size(); ++c)
+            {
+                const auto& cell = p.corners[c];
+                if (!p.counted[c] || !std::all_of(cell.begin(), cell.end(),
+                                                  [&](idx v) { return held.pinned(static_cast<std::size_t>(v)); }))
+                    continue;
+                std::array<vec<D>, part<Element>::K> corners;
+                for (std::size_t k = 0; k < corners.size(); ++k)
+                    for (int i = 0; i < D; ++i) corners[k][i] = x[static_cast<std::size_t>(D * cell[k] + i)];
+                if (std::apply([](const auto&... at) { return orient(at...).sign; }, corners) <= 0)
+                    ids.push_back(p.cell_ids[c]);
+            }
+        });
+    certificate found{.elements = p.cells, .flipped = p.all.sum(static_cast<std::int64_t>(ids.size()))};
+    if (found.flipped == 0) return found;
+    std::sort(ids.begin(), ids.end());
+    ids.resize(std::min<std::size_t>(ids.size(), 16));
+    found.ids = p.all.gathered(ids);
+    std::sort(found.ids.begin(), found.ids.end());
+    found.ids.resize(std::min<std::size_t>(found.ids.size(), 16));
+    return found;
 }
 
 } // namespace taut::dist::impl

@@ -128,6 +128,27 @@ public:
         m.download(m.w, out);
     }
 
+    /// Moves single vertices of the worst elements (vertex_relaxation.hpp), at positions x, which it changes; returns
+    /// whether there were any. still: a flag per vertex: it does not move.
+    bool relax(numbers& x, const std::vector<bool>& still)
+    {
+        if (!made_) return false;
+        auto& m = *made_;
+        if (!m.relaxation)
+        {
+            using relaxing = taut::impl::relaxation_kernels<Element>;
+            m.relaxation.emplace(
+                m.q, m.l, std::make_shared<const relaxing>(m.q, m.model.energy, m.model.types),
+                std::shared_ptr<const taut::impl::element_arrays<Element>>(std::shared_ptr<void>(), &m.arrays), still);
+        }
+        else
+            m.relaxation->keep_still(still);
+        m.upload(x, m.x);
+        if ((*m.relaxation)(m.x).vertices == 0) return false;
+        m.download(m.x, x);
+        return true;
+    }
+
     /// The pattern of the matrix, with rows of all vertices here; those of the halo lack elements.
     const taut::impl::block_pattern* pattern() const { return made_ ? &made_->matrix.pattern() : nullptr; }
     /// Its values, D * D a place of the pattern, by rows.
@@ -141,8 +162,9 @@ private:
     {
         on_device(queue given, std::shared_ptr<const layout> mesh_layout,
                   const std::vector<typename mesh<Element>::cell>& cells, std::size_t owned,
-                  const std::vector<double>& weights, const element_model<Element>& model)
+                  const std::vector<double>& weights, const element_model<Element>& of)
             : q(std::move(given)),
+              model(of),
               l(std::move(mesh_layout)),
               own(owned),
               kernel(std::make_shared<const kernels>(q, model.energy, model.types, taut::impl::capping_elements::left)),
@@ -218,6 +240,7 @@ private:
         }
 
         queue q;
+        element_model<Element> model;
         std::shared_ptr<const layout> l;
         std::size_t own;
         std::shared_ptr<const kernels> kernel;
@@ -229,6 +252,7 @@ private:
         taut::impl::block_matrix matrix;
         taut::impl::block_assembly assemble;
         std::optional<taut::impl::block_matrix> exact;
+        std::optional<taut::impl::vertex_relaxation<Element>> relaxation;
         numbers rows;
     };
 

@@ -216,9 +216,39 @@ public:
                     x[D * v + static_cast<std::size_t>(k)] = aim_[D * v + static_cast<std::size_t>(k)];
     }
 
+    /// Relaxes single vertices of the worst elements, each process those that have no vertex of another beside them;
+    /// returns whether any process had one.
+    bool relax(point& x)
+    {
+        const auto timed = clock_.measure(&phase_seconds::values);
+        if (inner_.empty()) find_inner();
+        bool moved = false;
+        attempt(
+            [&]
+            {
+                std::vector<bool> still(part_.size());
+                for (std::size_t v = 0; v < still.size(); ++v) still[v] = inner_[v] == 0 || held_.restrained(v);
+                for (const auto& s : held_.springs) still[s.vertex] = true;
+                moved = elements_.relax(x, still);
+            });
+        part_.all.agree(std::exchange(failure_, nullptr));
+        if (!part_.all.any(moved)) return false;
+        part_.update(x, D);
+        return true;
+    }
+
     std::int64_t unknowns() const { return rows_.total(); }
 
 private:
+    void find_inner()
+    {
+        inner_.assign(part_.size(), 1);
+        for (const auto& c : part_.corners)
+            if (std::any_of(c.begin(), c.end(), [&](idx v) { return !part_.owns(v); }))
+                for (const idx v : c) inner_[static_cast<std::size_t>(v)] = 0;
+        if (inner_.empty()) inner_.push_back(0);
+    }
+
     template <class F>
     void attempt(const F& f)
     {
@@ -378,6 +408,7 @@ private:
     dist_space space_;
     free_rows rows_;
     std::vector<double> displaced_, aim_;
+    std::vector<char> inner_; ///< a flag per vertex: all its neighbours are owned here
     double gradient_scale_ = 1, value_scale_ = 0, rounding_ = 1e-14, lengths_ = 1, change_ = 0;
     bool exact_ = false;
     std::exception_ptr failure_; ///< of this process, not told yet

@@ -101,6 +101,14 @@ public:
         last_ = x_;
         r.outcome = outcome::valid;
         prepare();
+        if (const auto pinned = pinned_inverted(part_, held_, aimed_); pinned.flipped > 0)
+        {
+            r.outcome = outcome::infeasible;
+            r.ids = pinned.ids;
+            r.reason = defects(pinned) + " with all vertices pinned; move or free a vertex of each";
+            r.distance = gap(x_, aimed_) / rest_.lengths;
+            return finished(std::move(r));
+        }
         if (clock.proceed())
         {
             bool arrived = !apart();
