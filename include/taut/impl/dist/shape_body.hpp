@@ -134,6 +134,8 @@ public:
     }
 
 private:
+    static constexpr int longest_system = 400; ///< products: of slivers; short ones would lead nowhere
+
     static deform_params<Element> checked(const communicator& all, const deform_params<Element>& params)
     {
         all.together([&] { params.validate(); });
@@ -246,7 +248,10 @@ private:
     {
         const pinned_bodies<Element> bodies(part_, held_, x_, rest_.lengths);
         if (bodies.parts() > 1 && draft(bodies)) return true;
-        if (!steps_) steps_.emplace(*objective_, solve::impl::prescribed_params{.most_cost = D == 2 ? 10.0 : 1e4});
+        if (!steps_)
+            steps_.emplace(*objective_,
+                           solve::impl::prescribed_params{.pcg = {.max_steps = longest_system, .gain = 0.01},
+                                                          .most_cost = D == 2 ? 10.0 : 1e4});
         const int parts = bodies.parts();
         bool arrived = true;
         for (int k = 1; k <= parts && arrived; ++k)
@@ -293,6 +298,7 @@ private:
         how.stopping.time_limit = taut::impl::budget::unlimited; // clocks differ
         // Set-ups of the preconditioner cost as much as ten products, so directions are more exact than elsewhere.
         how.tuning.newton.pcg.gain = std::min(how.tuning.newton.pcg.gain, 0.05);
+        how.tuning.newton.pcg.max_steps = std::max(how.tuning.newton.pcg.max_steps, longest_system / 4);
         const int before = r.steps;
         const auto found = solve::minimize(*objective_, x_, how,
                                            [&](progress p)
