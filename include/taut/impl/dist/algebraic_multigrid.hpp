@@ -27,6 +27,19 @@ public:
     /// Collective. For other rows: all is made anew.
     void forget() { pc_ = {}; }
 
+    /// Collective. From now on systems are solved by factorisation, for want of anything better; false where PETSc
+    /// lacks MUMPS, or that is so already.
+    bool use_factors()
+    {
+        MatSolverType type = MATSOLVERMUMPS;
+        PetscBool package = PETSC_FALSE, found = PETSC_FALSE;
+        if (factors_ || MatSolverTypeGet(type, MATMPIAIJ, MAT_FACTOR_LU, &package, &found, nullptr) != 0 || !found)
+            return false;
+        factors_ = true;
+        pc_ = {};
+        return true;
+    }
+
     /// Collective. rows: the matrix. near: positions, D a vertex with a row, whose rigid motions hardly strain; or
     /// none. tried: numbers at owned vertices to try it with.
     void refresh(const free_rows& rows, int dimension, const numbers& near, const numbers& tried)
@@ -65,6 +78,7 @@ private:
     /// the first ones turn the smoother indefinite later.
     std::string options() const
     {
+        if (factors_ && safety_ == 0) return "-pc_type lu -pc_factor_mat_solver_type mumps";
         if (safety_ == last_ || params_.preconditioner == preconditioner::block_jacobi) return "-pc_type pbjacobi";
         const std::string gamg = "-pc_type gamg -pc_gamg_use_sa_esteig 0 -pc_gamg_reuse_interpolation 1 "
                                  "-pc_gamg_threshold -1 -mg_levels_ksp_chebyshev_esteig 0,0.1,0,";
@@ -85,7 +99,7 @@ private:
         require(PCCreate(all_.raw(), &made));
         pc_ = petsc_preconditioner(made);
         // Under a prefix of its own, so that the options of a program are not ours.
-        const std::string prefix = "taut_" + std::to_string(safety_) + "_";
+        const std::string prefix = "taut_" + std::to_string(safety_) + (factors_ ? "_lu_" : "_");
         require(PetscOptionsPrefixPush(nullptr, prefix.c_str()));
         const auto inserted = PetscOptionsInsertString(nullptr, options().c_str());
         require(PetscOptionsPrefixPop(nullptr));
@@ -131,6 +145,7 @@ private:
     solver_params params_;
     petsc_preconditioner pc_;
     petsc_vector in_, out_;
+    bool factors_ = false;
     int safety_ = 0, setups_ = 0, fallbacks_ = 0;
 };
 

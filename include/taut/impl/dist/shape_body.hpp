@@ -248,6 +248,17 @@ private:
     {
         const pinned_bodies<Element> bodies(part_, held_, x_, rest_.lengths);
         if (bodies.parts() > 1 && draft(bodies)) return true;
+        if (follow_parts(bodies, clock, r)) return true;
+        constexpr std::int64_t most = 200000; // vertices, whose factors fit into memory
+        if (clock.over() || objective_->unknowns() > most || !multigrid_.use_factors()) return false;
+        // Directions of multigrid may be too coarse for slivers.
+        r.notes.push_back("steps stuck; from there on systems are solved by factorisation");
+        r.reason.clear();
+        return follow_parts(pinned_bodies<Element>(part_, held_, x_, rest_.lengths), clock, r);
+    }
+
+    bool follow_parts(const pinned_bodies<Element>& bodies, agreed_limits& clock, report& r)
+    {
         if (!steps_)
             steps_.emplace(*objective_,
                            solve::impl::prescribed_params{.pcg = {.max_steps = longest_system, .gain = 0.01},
