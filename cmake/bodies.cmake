@@ -6,6 +6,7 @@ if(NOT EXISTS ${taut_source_dir})
     set(taut_source_dir ${CMAKE_CURRENT_LIST_DIR}/../src)
 endif()
 file(GLOB taut_sources ${taut_source_dir}/*.cpp)
+list(FILTER taut_sources EXCLUDE REGEX "/dist[^/]*.cpp$") # of a library of its own (dist.cmake)
 find_package(nlohmann_json QUIET)
 if(NOT nlohmann_json_FOUND)
     list(FILTER taut_sources EXCLUDE REGEX "/gltf.cpp$") # glTF is JSON

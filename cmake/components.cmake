@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The components of find_package(taut COMPONENTS ...). headers and taut are there in any case. gltf and eigen are those of
-# taut/gltf.hpp and taut/eigen.hpp: taut::gltf and taut::eigen are taut::headers with the library that each needs.
+# The components of find_package(taut COMPONENTS ...). headers and taut are there in any case. dist is that of taut/dist.hpp;
+# gltf and eigen are those of taut/gltf.hpp and taut/eigen.hpp: taut::gltf and taut::eigen are taut::headers with the library that each needs.
 set(taut_headers_FOUND TRUE)
 set(taut_taut_FOUND TRUE)
 function(taut_component name package target)
@@ -17,6 +17,15 @@ function(taut_component name package target)
         set(taut_NOT_FOUND_MESSAGE "component ${name} needs the package ${package}" PARENT_SCOPE)
     endif()
 endfunction()
+# taut::dist has bodies of its own, which need MPI and PETSc.
+if("dist" IN_LIST taut_FIND_COMPONENTS)
+    include("${CMAKE_CURRENT_LIST_DIR}/dist.cmake")
+    if(taut_dist_found)
+        set(taut_dist_FOUND TRUE)
+    else()
+        set(taut_NOT_FOUND_MESSAGE "component dist needs MPI and PETSc")
+    endif()
+endif()
 if("gltf" IN_LIST taut_FIND_COMPONENTS)
     taut_component(gltf nlohmann_json nlohmann_json::nlohmann_json)
 endif()

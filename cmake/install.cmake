@@ -11,7 +11,7 @@ configure_package_config_file(cmake/taut-config.cmake.in ${PROJECT_BINARY_DIR}/t
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/taut-config-version.cmake
                                  COMPATIBILITY SameMajorVersion ARCH_INDEPENDENT)
 install(DIRECTORY src DESTINATION ${taut_config_dir})
-install(FILES cmake/dependencies.cmake cmake/compression.cmake cmake/bodies.cmake cmake/components.cmake
+install(FILES cmake/dependencies.cmake cmake/compression.cmake cmake/bodies.cmake cmake/components.cmake cmake/dist.cmake
               ${PROJECT_BINARY_DIR}/taut-config.cmake
               ${PROJECT_BINARY_DIR}/taut-config-version.cmake
         DESTINATION ${taut_config_dir})

@@ -2,7 +2,7 @@
 """What a header declares, read without a compiler: for names.py and the site's reference (docs/site/cpp_reference.py)."""
 import re
 
-PUBLIC = ("taut", "taut::io", "taut::energy", "taut::solve")
+PUBLIC = ("taut", "taut::io", "taut::energy", "taut::solve", "taut::dist")
 QUIET = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)+'", re.S)
 DECLARED = re.compile(r"(?:^|\s)(?:class|struct|enum class|enum|concept|using|namespace)\s+(?:\[\[\w+\]\]\s+)?(\w+)")
 
@@ -87,7 +87,7 @@ def declared(text):
     for m in re.finditer(r"^namespace ([\w:]+)\n\{", code, re.M):
         space = m.group(1)
         inner = space in PUBLIC
-        if not inner and not re.fullmatch(r"taut(::(io|energy|solve))?::impl(::\w+)?", space):
+        if not inner and not re.fullmatch(r"taut(::(io|energy|solve|dist))?::impl(::\w+)?", space):
             raise SystemExit(f"namespace {space} is neither public nor impl")
         if not inner:
             continue

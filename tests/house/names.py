@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """names.py ROOT [--rows]: the public names of the headers are those of docs/reference/names.md and have docstrings.
 
-Public is what a header declares in taut, taut::io, taut::energy or taut::solve; the rest is in the impl of one of them.
+Public is what a header declares in taut, taut::io, taut::energy, taut::solve or taut::dist; the rest is in the impl of one of them.
 The page has a section for each header of include/taut. Each name stands in one section, of a header that brings it,
 with a meaning. A docstring starts with a noun phrase or a verb in the third person, never with What, Whether, Who, How, ...
 --rows prints the rows of names that the page lacks, with the first sentence of their comments."""

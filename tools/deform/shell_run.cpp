@@ -38,12 +38,6 @@
 namespace taut::tools
 {
 
-bool names_surface(const std::string& path)
-{
-    const auto kind = extension(path);
-    return kind == ".obj" || kind == ".off" || kind == ".ply" || kind == ".stl";
-}
-
 shell_run::shell_run(const shape_options& options, run_clock clock, progress& progress, const char* place_of_report)
     : options_(options), clock_(clock), progress_(progress), place_of_report_(place_of_report)
 {

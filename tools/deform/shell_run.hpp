@@ -19,9 +19,6 @@
 namespace taut::tools
 {
 
-/// Returns whether a file is one of a surface in space, by its extension.
-bool names_surface(const std::string& path);
-
 /// One run of `taut deform` on a surface in space.
 class shell_run
 {

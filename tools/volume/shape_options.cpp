@@ -7,8 +7,8 @@
 #include <taut/impl/energy/neo_hookean.hpp>
 #include <taut/impl/energy/shape.hpp>
 
-#include "deform/shell_run.hpp"
 #include "shared/choices.hpp"
+#include "shared/outputs.hpp"
 #include "shared/shared_options.hpp"
 #include "volume/group_targets.hpp"
 #include "volume/volume_case.hpp"
@@ -96,6 +96,12 @@ void declare_smooth(CLI::App& app, shape_options& o)
     app.add_option("--worst", o.worst_exponent, "Exponent of the energy: 1 improves the mean, more the worst elements")
         ->type_name("1..8")
         ->check(CLI::Range(1, 8));
+}
+
+bool names_surface(const std::string& path)
+{
+    const auto kind = extension(path);
+    return kind == ".obj" || kind == ".off" || kind == ".ply" || kind == ".stl";
 }
 
 void check(const shape_options& o)

@@ -54,6 +54,9 @@ inline constexpr const char* nothing_held =
 void declare_deform(CLI::App& app, shape_options& options);
 void declare_smooth(CLI::App& app, shape_options& options);
 
+/// Returns whether a file is one of a surface in space, by its extension.
+bool names_surface(const std::string& path);
+
 /// Throws usage_error for an output that is no file where it has to be one.
 void check(const shape_options& options);
 

@@ -14,18 +14,11 @@
 #include <taut/impl/constrain/boundary_slides.hpp>
 #include <taut/impl/energy/shape_power.hpp>
 #include <taut/impl/map/deform.hpp>
+#include <taut/impl/map/smooth_boundary.hpp>
 #include <taut/impl/measure/shape_quality.hpp>
 
 namespace taut
 {
-
-/// Treatment of the boundary of a mesh during smoothing.
-enum class smooth_boundary
-{
-    fixed,   ///< nothing
-    sliding, ///< move in its own flat parts and along the straight creases between them; what is curved stays
-    free     ///< all; the shape changes
-};
 
 /// Parameters of smooth(). Every field has a sensible default.
 template <class Element>

@@ -62,17 +62,31 @@ struct layout
 
     /// The same with ideal elements that are not those of the mesh.
     layout(const mesh<Element>& local, mesh_order numbers, idx free, const ideal_elements<Element>& ideal)
+        : layout(local, std::move(numbers), free, ideal,
+                 usual_scale(static_cast<double>(local.cell_count()),
+                             std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0)))
+    {
+    }
+
+    /// The same with a scale, a power of two: of a part of a mesh that of the whole.
+    layout(const mesh<Element>& local, mesh_order numbers, idx free, const ideal_elements<Element>& ideal,
+           double by_scale)
         : order(std::move(numbers)),
           free_count(free),
           vertex_count(local.vertex_count()),
           cell_count(local.cell_count()),
+          scale(by_scale),
           vertex_corners(taut::impl::vertex_corners(local))
     {
-        const double total = std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0);
-        scale = std::exp2(std::round(std::log2(static_cast<double>(cell_count) / total) / D));
         cell_stride = padded(local.cells().size(), step);
         vertex_stride = padded(local.points().size(), step);
         spread(local.cells(), ideal);
+    }
+
+    /// The scale of cells that have a measure together: a power of two.
+    static double usual_scale(double cells, double measure)
+    {
+        return std::exp2(std::round(std::log2(cells / measure) / D));
     }
 
     /// Takes what the user says of the cells, in the numbers of this layout; local: the mesh that it is of. Throws

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/dist/check.hpp>
+
+#include <vector>
+
+#include <taut/impl/dist/certify_part.hpp>
+
+namespace taut::dist
+{
+
+template <class Element>
+certificate check(MPI_Comm comm, const mesh_piece<Element>& piece)
+{
+    constexpr int D = Element::dimension;
+    const impl::communicator all(comm);
+    const impl::petsc_scope petsc;
+    const impl::part<Element> p(all, piece);
+    std::vector<double> x;
+    for (const vec3& point : p.points)
+        for (int k = 0; k < D; ++k) x.push_back(point[k]);
+    return impl::certify_part(p, x, {});
+}
+
+} // namespace taut::dist

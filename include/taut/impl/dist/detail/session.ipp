@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/dist/session.hpp>
+
+#include <memory>
+
+#include <taut/impl/dist/shape_body.hpp>
+
+namespace taut::dist
+{
+
+template <class Element>
+session<Element>::session(MPI_Comm comm, const mesh_piece<Element>& piece, const deform_params<Element>& params)
+    : body_(std::make_unique<impl::shape_body<Element>>(impl::communicator(comm), piece, params)),
+      limits_(params.limits)
+{
+}
+template <class Element>
+session<Element>::~session() = default;
+template <class Element>
+session<Element>::session(session&&) noexcept = default;
+template <class Element>
+session<Element>& session<Element>::operator=(session&&) noexcept = default;
+
+template <class Element>
+session<Element>& session<Element>::constrain(const constraints<Element>& wanted)
+{
+    body_->constrain(wanted);
+    return *this;
+}
+
+template <class Element>
+result<Element> session<Element>::solve()
+{
+    return solve(limits_);
+}
+
+template <class Element>
+result<Element> session<Element>::solve(const run_limits& limits)
+{
+    result<Element> r;
+    r.report = body_->solve(limits);
+    if (r.report.flips) r.x = body_->answer();
+    return r;
+}
+
+} // namespace taut::dist

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <taut/impl/core/types.hpp>
+
+namespace taut::dist
+{
+
+/// Piece of a mesh that one process has, in any distribution: each cell is in one piece, and each vertex in one at
+/// least, with the same position in all.
+template <class Element>
+struct mesh_piece
+{
+    std::vector<std::int64_t> ids; ///< numbers of vertices, from 0, the same on all processes; they may have gaps
+    std::vector<vec3> points;      ///< rest positions, one per id
+    std::vector<std::array<std::int64_t, static_cast<std::size_t>(Element::corners)>> cells; ///< ids of their corners
+};
+
+} // namespace taut::dist

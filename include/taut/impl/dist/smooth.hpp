@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <mpi.h>
+
+#include <taut/impl/dist/session.hpp>
+#include <taut/impl/map/smooth_boundary.hpp>
+
+namespace taut::dist
+{
+
+/// Parameters of smooth() over many processes, those of taut::smooth_params that are supported. All processes give the
+/// same but for `fixed`, `queue` and `limits`.
+struct smooth_params
+{
+    /// Treatment of the boundary.
+    smooth_boundary boundary = smooth_boundary::sliding;
+
+    /// Power of the energy, which is shape distortion: larger ones improve the worst elements first, 1 the mean. 1
+    /// to 8.
+    int worst_exponent = 2;
+
+    /// Ids of vertices that are fixed, of all processes together.
+    std::vector<std::int64_t> fixed = {};
+
+    /// Sine of the angle up to which a boundary is flat or straight.
+    double flat = 1e-4;
+
+    solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
+    solver_params solver = {};
+    std::optional<taut::queue> queue = {};
+    run_limits limits = {};
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        limits.validate();
+        if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
+        if (!(flat >= 0 && flat < 1)) throw parameter_error("flat", "must be in [0, 1)");
+    }
+};
+
+/// Moves the vertices of a volume, or a mesh of the plane, that the processes have in pieces, to improve the shapes of
+/// its elements, without inverting one. Connectivity is kept. A mesh with inverted elements is gave_up. Collective;
+/// throws as session does.
+template <class Element>
+result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params = {});
+
+} // namespace taut::dist

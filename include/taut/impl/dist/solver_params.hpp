@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace taut::dist
+{
+
+/// Preconditioners of the Newton systems, of PETSc.
+enum class preconditioner
+{
+    boomeramg,   ///< algebraic multigrid of hypre, HMIS coarsening: copes with slivers and many processes
+    gamg,        ///< smoothed aggregation of PETSc, with the rigid motions as near null space
+    block_jacobi ///< inverses of the D x D blocks of the diagonal: for tests, and what is left where the others fail
+};
+
+/// Parameters of the linear solver.
+struct solver_params
+{
+    dist::preconditioner preconditioner = preconditioner::boomeramg;
+
+    /// Options of PETSc that overrule those of the preconditioner, as `-pc_type gamg -pc_gamg_threshold 0.01`.
+    std::string options = {};
+};
+
+/// Stable name of a preconditioner.
+constexpr const char* to_string(preconditioner p)
+{
+    switch (p)
+    {
+    case preconditioner::boomeramg:
+        return "boomeramg";
+    case preconditioner::gamg:
+        return "gamg";
+    case preconditioner::block_jacobi:
+        return "block-jacobi";
+    }
+    return "unknown";
+}
+
+} // namespace taut::dist

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#include <taut/impl/dist/detail/check.ipp>
+#include <taut/impl/dist/detail/session.ipp>
+#include <taut/impl/dist/detail/smooth.ipp>
+
+namespace taut::dist
+{
+
+template class session<tetrahedron>;
+template result<tetrahedron> smooth(MPI_Comm, const mesh_piece<tetrahedron>&, const smooth_params&);
+template certificate check(MPI_Comm, const mesh_piece<tetrahedron>&);
+
+} // namespace taut::dist

@@ -1,0 +1,323 @@
+# SPDX-License-Identifier: MIT
+"""program.py CASE TAUT_MPI TAUT MPIEXEC FOLDER: taut-mpi as a user meets it, under mpirun, in an emptied FOLDER."""
+import json
+import math
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+
+class bar:
+    """A bar of n x n x 4n cubes of six tetrahedra, jittered inside: 1 x 1 x 4."""
+
+    def __init__(self, n):
+        r = random.Random(1)
+        self.points, self.cells, self.end, self.start = [], [], [], []
+        for k in range(4 * n + 1):
+            for j in range(n + 1):
+                for i in range(n + 1):
+                    p = [i / n, j / n, k / n]
+                    for c in range(3):
+                        if 0 < p[c] < (4 if c == 2 else 1):
+                            p[c] += r.uniform(-0.15, 0.15) / n
+                    if k == 0:
+                        self.start.append(len(self.points))
+                    if k == 4 * n:
+                        self.end.append(len(self.points))
+                    self.points.append(p)
+
+        def at(i, j, k):
+            return (k * (n + 1) + j) * (n + 1) + i
+
+        for k in range(4 * n):
+            for j in range(n):
+                for i in range(n):
+                    for o, order in enumerate([(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]):
+                        p = [i, j, k]
+                        t = [at(*p)]
+                        for axis in order:
+                            p[axis] += 1
+                            t.append(at(*p))
+                        if o >= 3:
+                            t[1], t[2] = t[2], t[1]
+                        self.cells.append(t)
+
+    def medit(self, path):
+        with open(path, "w") as f:
+            ref = {v: 1 for v in self.start} | {v: 2 for v in self.end}
+            f.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(self.points)}\n")
+            f.writelines("%.17g %.17g %.17g %d\n" % (*p, ref.get(v, 0)) for v, p in enumerate(self.points))
+            f.write(f"Tetrahedra\n{len(self.cells)}\n")
+            f.writelines("%d %d %d %d 0\n" % tuple(v + 1 for v in t) for t in self.cells)
+            f.write("End\n")
+
+    def faces(self, vertices):
+        """Triangles whose corners are all among these."""
+        wanted = set(vertices)
+        for t in self.cells:
+            inside = [v for v in t if v in wanted]
+            if len(inside) == 3:
+                yield inside
+
+    def su2(self, path):
+        with open(path, "w") as f:
+            f.write(f"NDIME= 3\nNELEM= {len(self.cells)}\n")
+            f.writelines("10 %d %d %d %d %d\n" % (*t, k) for k, t in enumerate(self.cells))
+            f.write(f"NPOIN= {len(self.points)}\n")
+            f.writelines("%.17g %.17g %.17g %d\n" % (*p, k) for k, p in enumerate(self.points))
+            f.write("NMARK= 2\n")
+            for name, group in (("start", self.start), ("end", self.end)):
+                faces = list(self.faces(group))
+                f.write(f"MARKER_TAG= {name}\nMARKER_ELEMS= {len(faces)}\n")
+                f.writelines("5 %d %d %d\n" % tuple(face) for face in faces)
+
+    def vtu(self, path):
+        with open(path, "w") as f:
+            f.write('<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>\n')
+            f.write(f'<Piece NumberOfPoints="{len(self.points)}" NumberOfCells="{len(self.cells)}">\n')
+            f.write('<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">\n')
+            f.writelines("%.17g %.17g %.17g\n" % tuple(p) for p in self.points)
+            f.write('</DataArray></Points><Cells><DataArray type="Int32" Name="connectivity" format="ascii">\n')
+            f.writelines("%d %d %d %d\n" % tuple(t) for t in self.cells)
+            f.write('</DataArray><DataArray type="Int32" Name="offsets" format="ascii">\n')
+            f.writelines("%d\n" % (4 * k + 4) for k in range(len(self.cells)))
+            f.write('</DataArray><DataArray type="UInt8" Name="types" format="ascii">\n')
+            f.writelines("10\n" for _ in self.cells)
+            f.write("</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>\n")
+
+    def gmsh(self, path):
+        with open(path, "w") as f:
+            f.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(self.points)}\n")
+            f.writelines("%d %.17g %.17g %.17g\n" % (k + 1, *p) for k, p in enumerate(self.points))
+            f.write(f"$EndNodes\n$Elements\n{len(self.cells)}\n")
+            f.writelines("%d 4 2 1 1 %d %d %d %d\n" % (k + 1, *(v + 1 for v in t)) for k, t in enumerate(self.cells))
+            f.write("$EndElements\n")
+
+    def pins(self, path, where):
+        with open(path, "w") as f:
+            f.writelines("%d,%.17g,%.17g,%.17g\n" % (v, *self.points[v]) for v in self.start)
+            f.writelines("%d,%.17g,%.17g,%.17g\n" % (v, *where(self.points[v])) for v in self.end)
+
+
+def stretched(p):
+    return (p[0], p[1], 1.5 * p[2])
+
+
+def command(*arguments, processes=2):
+    return [mpiexec, "-n", str(processes), taut_mpi, *arguments]
+
+
+def run(*arguments, code=0, processes=2):
+    """What was printed, by place; it ended with `code`."""
+    done = subprocess.run(command(*arguments, processes=processes), capture_output=True, text=True, timeout=200)
+    assert done.returncode == code, (done.returncode, done.stdout, done.stderr)
+    return done.stdout, done.stderr
+
+
+def fails(*arguments, code, word, processes=2):
+    """It fails with one message that says `word`, and writes nothing."""
+    before = sorted(os.listdir("."))
+    out, err = run(*arguments, code=code, processes=processes)
+    messages = [line for line in err.splitlines() if line.startswith("taut-mpi: error:")]
+    assert len(messages) == 1 and word in messages[0], err
+    assert out == "", out
+    assert sorted(os.listdir(".")) == before, os.listdir(".")
+
+
+def serial(*arguments):
+    done = subprocess.run([taut, *arguments], capture_output=True, text=True, timeout=200)
+    assert done.returncode == 0, (done.stdout, done.stderr)
+    return done.stdout
+
+
+def stats(path):
+    with open(path) as f:
+        return json.load(f)
+
+
+def near(a, b, digits):
+    assert abs(a - b) <= 10.0**-digits * abs(b), (a, b)
+
+
+def points_of(path):
+    """Of a MEDIT file."""
+    with open(path) as f:
+        lines = f.read().split("\n")
+    first = lines.index("Vertices") + 2
+    return [tuple(map(float, line.split()[:3])) for line in lines[first:first + int(lines[first - 1])]]
+
+
+def case_deform():
+    b = bar(4)
+    b.medit("bar.mesh")
+    b.pins("pins.csv", stretched)
+    serial("deform", "bar.mesh", "--pins", "pins.csv", "-o", "one.mesh", "--stats", "one.json")
+    one = stats("one.json")
+    for processes in (1, 2, 3):
+        out, err = run("deform", "bar.mesh", "--pins", "pins.csv", "-o", "all.mesh", "--stats", "all.json",
+                       processes=processes)
+        assert err == "", err
+        assert "converged" in out and out.count("energy") == 1, out
+        found = stats("all.json")
+        near(found["energy"], one["energy"], 8)  # the serial one computes in float
+        assert abs(found["iterations"] - one["iterations"]) <= 1
+        assert found["inverted"] == 0 and found["pins_held"] and found["converged"]
+        assert len(found["processes"]) == processes
+        assert sum(p["vertices"] for p in found["processes"]) == len(b.points)
+        for p in found["processes"]:
+            assert p["peak_memory_bytes"] > 0 and p["seconds"]["setup"] > 0
+            assert processes == 1 or p["sent"]["solve"]["messages"] > 0
+        x = points_of("all.mesh")
+        assert all(x[v] == tuple(b.points[v]) for v in b.start)
+        assert all(x[v] == stretched(b.points[v]) for v in b.end)
+        serial("check", "all.mesh")
+    run("check", "all.mesh")
+    assert stats_of_check("all.mesh")["valid"]
+    run("deform", "bar.mesh", "--pins", "pins.csv", "-o", "quiet.mesh", "--quiet", "--preconditioner", "gamg",
+        "--energy", "neo-hookean")
+    run("deform", "bar.mesh", "--pins", "pins.csv", "-o", "own.mesh", "--petsc", "-pc_type gamg", "--stats", "own.json")
+    near(stats("own.json")["energy"], one["energy"], 8)
+
+
+def stats_of_check(path, code=0):
+    return json.loads(run("check", path, "--json", code=code)[0])
+
+
+def case_formats():
+    b = bar(3)
+    b.su2("bar.su2")
+    b.medit("bar.mesh")
+    b.vtu("bar.vtu")
+    b.gmsh("bar.msh")
+    b.pins("pins.csv", stretched)
+    with open("end.csv", "w") as f:
+        f.writelines("%d,%.17g,%.17g,%.17g\n" % (v, *stretched(b.points[v])) for v in b.end)
+    energies = []
+    for name in ("bar.mesh", "bar.vtu", "bar.msh", "bar.su2"):
+        out = "out" + os.path.splitext(name)[1]
+        run("deform", name, "--pins", "pins.csv", "-o", out, "--stats", "s.json")
+        energies.append(stats("s.json")["energy"])
+        serial("check", out)
+    # Groups of a file, by name, by a file of places, and by a motion.
+    for move in ("end=end.csv", "end:translate:0,0,2"):
+        run("deform", "bar.su2", "--fix", "start", "--move", move, "-o", "group.su2", "--stats", "s.json")
+        energies.append(stats("s.json")["energy"])
+    with open("bar.su2") as f, open("group.su2") as g:
+        assert f.read().split("NMARK=")[1] == g.read().split("NMARK=")[1]  # the markers are the same text
+    for e in energies:
+        near(e, energies[0], 9)
+    # A shape that is no longer that at rest.
+    run("deform", "out.mesh", "--rest", "bar.mesh", "--pins", "pins.csv", "-o", "rest.mesh", "--stats", "s.json")
+    near(stats("s.json")["energy"], energies[0], 8)
+
+
+def case_smooth():
+    b = bar(3)
+    b.medit("bar.mesh")
+    out, _ = run("smooth", "bar.mesh", "-o", "smooth.mesh", "--stats", "s.json")
+    assert "before" in out
+    found = stats("s.json")
+    assert found["quality"]["mean_ratio"]["mean"] > found["quality_start"]["mean_ratio"]["mean"]
+    x = points_of("smooth.mesh")
+    for p, q in zip(b.points, x):
+        assert all(a == c for a, c, side in zip(p, q, (1, 1, 4)) if a in (0, side)), (p, q)
+    run("smooth", "bar.mesh", "-o", "fixed.mesh", "--boundary", "fixed")
+
+
+def case_faults():
+    b = bar(2)
+    b.medit("bar.mesh")
+    b.pins("pins.csv", stretched)
+    fails("deform", "none.mesh", "-o", "x.mesh", code=3, word="none.mesh")
+    with open("bad.csv", "w") as f:
+        f.write("99999,0,0,0\n")
+    fails("deform", "bar.mesh", "--pins", "bad.csv", "-o", "x.mesh", code=3, word="99999")
+    fails("deform", "bar.mesh", "-o", "nowhere/x.mesh", code=2, word="nowhere")
+    fails("deform", "bar.mesh", "-o", "bar.mesh", code=2, word="overwrite")
+    fails("deform", "bar.mesh", code=2, word="--output")
+    fails("unwrap", "bar.mesh", code=2, word="--help")
+    fails("deform", "bar.mesh", "-o", "x.mesh", "--refine", code=2, word="--refine")
+    fails("deform", "bar.mesh", "--pins", "pins.csv", "-o", "x.mesh", "--petsc", "-pc_type nonsense", code=2,
+          word="nonsense")
+    fails("deform", "bar.mesh", "--fix", "nobody", "-o", "x.mesh", code=4, word="nobody")
+    fails("deform", "bar.mesh", "-o", "x.mesh", "--device", "nosuchdevice", code=5, word="nosuchdevice")
+    with open("broken.mesh", "w") as f:
+        f.write(open("bar.mesh").read()[:1500])
+    fails("deform", "broken.mesh", "-o", "x.mesh", code=3, word="broken.mesh")
+    hexahedron = "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n" + "".join(
+        f"{x} {y} {z} 0\n" for z, x, y in ((0, 0, 0), (0, 1, 0), (0, 1, 1), (0, 0, 1), (1, 0, 0), (1, 1, 0), (1, 1, 1),
+                                           (1, 0, 1)))
+    with open("hexahedron.mesh", "w") as f:
+        f.write(hexahedron + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n")
+    fails("deform", "hexahedron.mesh", "-o", "x.mesh", code=4, word="taut deform")
+    b.points[b.end[0] + 40 - len(b.points)] = [5, 5, 5]
+    b.medit("folded.mesh")
+    fails("deform", "folded.mesh", "--rest", "bar.mesh", "-o", "x.mesh", code=6, word="untangle")
+    assert stats_of_check("folded.mesh", code=4)["inverted"] > 0
+    with open("inverted.csv", "w") as f:
+        f.writelines("%d,%.17g,%.17g,%.17g\n" % (v, -p[0], p[1], p[2]) for v, p in enumerate(b.points))
+    fails("deform", "bar.mesh", "--pins", "inverted.csv", "-o", "x.mesh", code=7, word="all vertices pinned")
+
+
+def case_stops():
+    b = bar(8)
+    b.medit("bar.mesh")
+    # It buckles, which takes many steps.
+    b.pins("pins.csv", lambda p: (p[0], p[1], 0.4 * p[2]))
+    out, err = run("deform", "bar.mesh", "--pins", "pins.csv", "-o", "late.mesh", "--time-limit", "0.2", code=8)
+    serial("check", "late.mesh")
+    for name, code in ((signal.SIGTERM, 143), (signal.SIGINT, 130)):
+        with open("progress.txt", "w") as told:
+            began = subprocess.Popen(command("deform", "bar.mesh", "--pins", "pins.csv", "-o", f"{code}.mesh",
+                                             "--progress", "json"), stdout=subprocess.DEVNULL, stderr=told)
+        for _ in range(1000):
+            with open("progress.txt") as f:
+                if '"deform"' in f.read():
+                    break
+            time.sleep(0.02)
+        processes = [int(p) for p in children(began.pid)]
+        assert len(processes) == 2, processes
+        os.kill(processes[-1], name)  # one of them is asked, all stop
+        assert began.wait(timeout=60) == code, (began.returncode, open("progress.txt").read()[-2000:])
+        serial("check", f"{code}.mesh")
+
+
+def children(parent):
+    """Processes of taut-mpi that mpiexec has started."""
+    found = []
+    for name in os.listdir("/proc"):
+        if not name.isdigit():
+            continue
+        try:
+            with open(f"/proc/{name}/stat") as f:
+                fields = f.read().rsplit(")", 1)[1].split()
+            if int(fields[1]) == parent and os.path.basename(os.readlink(f"/proc/{name}/exe")) == "taut-mpi":
+                found.append(name)
+        except OSError:
+            pass
+    return found
+
+
+def case_memory():
+    """Too little memory for one process ends all, and nothing is written."""
+    b = bar(10)
+    b.medit("bar.mesh")
+    b.pins("pins.csv", stretched)
+    task = [taut_mpi, "deform", "bar.mesh", "--pins", "pins.csv", "-o", "x.mesh"]
+    subprocess.run([mpiexec, "-n", "2", *task], check=True, capture_output=True, timeout=200)  # kernels are compiled
+    os.remove("x.mesh")
+    done = subprocess.run([mpiexec, "-n", "1", *task, ":", "-n", "1", "sh", "-c", 'ulimit -v 450000; exec "$@"', "sh",
+                           *task], capture_output=True, text=True, timeout=100)
+    assert done.returncode != 0, (done.stdout, done.stderr)
+    assert not os.path.exists("x.mesh") and not [n for n in os.listdir(".") if "x.mesh" in n], os.listdir(".")
+
+
+case, taut_mpi, taut, mpiexec, folder = sys.argv[1:]
+shutil.rmtree(folder, ignore_errors=True)
+os.makedirs(folder)
+os.chdir(folder)
+globals()["case_" + case]()

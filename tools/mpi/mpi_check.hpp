@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <taut/impl/dist/communicator.hpp>
+
+#include "shared/exit_codes.hpp"
+
+namespace taut::tools::mpi
+{
+
+/// Options of `taut-mpi check`.
+struct mpi_check_options
+{
+    std::string input;
+    bool json = false;
+    int zone = 0;
+};
+
+void declare_check(CLI::App& app, mpi_check_options& options);
+
+/// Certifies the elements of a volume: 0, or 4 where one is inverted or flat. Of all processes.
+exit_code run_check(const dist::impl::communicator& all, const mpi_check_options& options);
+
+} // namespace taut::tools::mpi

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <taut/impl/dist/solver_params.hpp>
+
+#include "volume/shape_options.hpp"
+
+namespace taut::tools::mpi
+{
+
+/// Options of `taut-mpi deform` and `taut-mpi smooth`: those of the serial program, and of the linear solver.
+struct mpi_options
+{
+    shape_options shape;
+    dist::solver_params solver;
+};
+
+/// Declare the options of either command, without those that are of one process.
+void declare_deform(CLI::App& app, mpi_options& options);
+void declare_smooth(CLI::App& app, mpi_options& options);
+
+} // namespace taut::tools::mpi
