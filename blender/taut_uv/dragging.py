@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 from bpy.props import FloatVectorProperty
 
 from . import running, scene
@@ -22,20 +23,15 @@ class Canvas:
             own = (drag.corners >= s.first_corner[k]) & (drag.corners < s.first_corner[k + 1])
             if own.any():
                 self._parts.append((name, own, (drag.corners[own] - s.first_corner[k]).tolist()))
-        self._loops = {}
+        self._edited = {}
 
     def draw(self, uv) -> None:
-        import bmesh
-        import numpy as np
-
         for name, own, corners in self._parts:
             ob = bpy.data.objects[name]
             if ob.mode == "EDIT":
-                if name not in self._loops:  # which hold as long as nothing else edits the mesh
-                    self._loops[name] = scene.edited_corners(ob)
-                loops, layer = self._loops[name]
-                scene.write_corners(loops, layer, corners, uv[own])
-                bmesh.update_edit_mesh(ob.data, loop_triangles=False, destructive=False)
+                if name not in self._edited:
+                    self._edited[name] = scene.EditedMap(ob)
+                self._edited[name].write(corners, uv[own])
             else:
                 layer = ob.data.uv_layers.active.uv
                 whole = np.empty(2 * len(layer), np.float32)

@@ -27,14 +27,15 @@ class TAUT_OT_unwrap(Command, bpy.types.Operator):
     cut: BoolProperty(name="Cut Where Needed", default=False,
                       description="Cut islands that cannot be laid flat, and mark the cuts as seams; else they are reported")
     pack: BoolProperty(name="Pack", default=True, description="Pack islands without pins into the unit square")
+    rotate: BoolProperty(name="Rotate", default=True, description="Islands may be rotated where that packs them better")
     weights: properties.weights()
     padding: properties.padding()
     resolution: properties.resolution()
     time_limit: properties.time_limit()
 
-    def options(self):
+    def arguments(self):
         return dict(energy=self.energy, no_overlap=self.no_overlap, cut=self.cut, weighted=bool(self.weights),
-                    pack=self.pack, padding=self.padding, resolution=self.resolution, time_limit=self.time_limit)
+                    pack=self.pack, rotate=self.rotate, padding=self.padding, resolution=self.resolution, time_limit=self.time_limit)
 
 
 class TAUT_OT_relax(Command, bpy.types.Operator):
@@ -52,7 +53,7 @@ class TAUT_OT_relax(Command, bpy.types.Operator):
     weights: properties.weights()
     time_limit: properties.time_limit()
 
-    def options(self):
+    def arguments(self):
         return dict(axis=self.axis, hold_border=self.hold_border, energy=self.energy, no_overlap=self.no_overlap,
                     weighted=bool(self.weights), time_limit=self.time_limit)
 
@@ -71,7 +72,7 @@ class TAUT_OT_straighten(Command, bpy.types.Operator):
     no_overlap: properties.no_overlap()
     time_limit: properties.time_limit()
 
-    def options(self):
+    def arguments(self):
         return dict(axis=self.axis, spacing=self.spacing, energy=self.energy, no_overlap=self.no_overlap,
                     time_limit=self.time_limit)
 
@@ -102,7 +103,7 @@ class TAUT_OT_atlas(Command, bpy.types.Operator):
     resolution: properties.resolution()
     time_limit: properties.time_limit()
 
-    def options(self):
+    def arguments(self):
         return dict(charts=self.charts, prefer=self.prefer, keep_seams=self.keep_seams, mark_seams=self.mark_seams,
                     symmetric=self.symmetric, max_distortion=self.max_distortion, rotate=self.rotate, tiles=self.tiles,
                     density=self.density, weighted=bool(self.weights), padding=self.padding, resolution=self.resolution,
@@ -118,7 +119,7 @@ class TAUT_OT_check(Command, bpy.types.Operator):
     flips: BoolProperty(name="Flipped", default=True, description="Select faces that are flipped within their islands")
     overlaps: BoolProperty(name="Overlapping", default=True, description="Select faces that overlap others")
 
-    def options(self):
+    def arguments(self):
         return dict(flips=self.flips, overlaps=self.overlaps)
 
 

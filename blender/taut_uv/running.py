@@ -41,12 +41,11 @@ def told(operator, reader, result: Result, what: str) -> set:
 
 
 class Command:
-    """Base of operators: `command` is a function of core, `options()` its arguments."""
+    """Base of operators: `command` is a function of core, `arguments()` its arguments."""
 
     bl_options = {"REGISTER", "UNDO"}
     command = None
     makes_map = False
-    asks = ()
     _timer = None
 
     @classmethod
@@ -54,22 +53,18 @@ class Command:
         return current is None and (context.mode == "EDIT_MESH" or
                                     context.mode == "OBJECT" and any(o.type == "MESH" for o in context.selected_objects))
 
-    def options(self) -> dict:
+    def arguments(self) -> dict:
         return {}
 
     def read(self, context) -> scene.Reader:
-        options = self.options()
-        reader = scene.Reader(scene.objects(context), new_map=self.makes_map, uv_selection=scene.by_uv_selection(context),
-                              weights=getattr(self, "weights", ""))
-        if "weighted" in options and not getattr(self, "weights", ""):
-            self.weights = ""
-        return reader
+        return scene.Reader(scene.objects(context), new_map=self.makes_map, uv_selection=scene.by_uv_selection(context),
+                            weights=getattr(self, "weights", ""))
 
     def begin(self, context):
         """The arrays, and the job that works on them. Raises Trouble and library.Missing."""
         taut = module()
         reader = self.read(context)
-        return reader, Task(taut, type(self).command, reader.surface, **self.options())
+        return reader, Task(taut, type(self).command, reader.surface, **self.arguments())
 
     def execute(self, context):
         try:

@@ -68,24 +68,26 @@ class Reader:
     def _read(self, ob, layer, group) -> tuple[Surface, np.ndarray]:
         mesh = ob.data
         mesh.calc_loop_triangles()
-        vertex = _get(mesh.loops, "vertex_index", np.int32)[:, 0].astype(np.int64)
-        start = _get(mesh.polygons, "loop_start", np.int32)[:, 0].astype(np.int64)
-        total = _get(mesh.polygons, "loop_total", np.int32)[:, 0].astype(np.int64)
+        vertex = _get(mesh.loops, "vertex_index", np.int32).astype(np.int64)
+        start = _get(mesh.polygons, "loop_start", np.int32).astype(np.int64)
+        total = _get(mesh.polygons, "loop_total", np.int32).astype(np.int64)
         face = np.repeat(np.arange(len(start)), total)
         following = np.arange(len(vertex)) + 1
         following[start + total - 1] = start
         matrix = np.array(ob.matrix_world, dtype=np.float64)
         V = _get(mesh.vertices, "co", np.float32, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-        visible = ~_get(mesh.polygons, "hide", bool)[:, 0]
+        visible = ~_get(mesh.polygons, "hide", bool)
         edit = ob.mode == "EDIT"
-        chosen = visible & (_get(mesh.polygons, "select", bool)[:, 0] if edit else True)
-        pinned = _flags(layer.pin, len(vertex))
-        line = _get(mesh.edges, "select", bool)[:, 0]
-        edge = _get(mesh.loops, "edge_index", np.int32)[:, 0].astype(np.int64)
-        grabbed = _get(mesh.vertices, "select", bool)[:, 0][vertex] & visible[face]
+        chosen = visible & (_get(mesh.polygons, "select", bool) if edit else True)
+        line = _get(mesh.edges, "select", bool)
+        edge = _get(mesh.loops, "edge_index", np.int32).astype(np.int64)
+        grabbed = _get(mesh.vertices, "select", bool)[vertex] & visible[face]
+        if edit:
+            uv, pinned, picked, along = _edited_map(ob, len(vertex))
+        else:
+            uv, pinned = _get(layer.uv, "vector", np.float32, 2), _flags(layer.pin, len(vertex))
         if self._uv_selection and edit:
-            picked = uv_selected(mesh, layer, "vertex") & chosen[face]
-            along = uv_selected(mesh, layer, "edge") & chosen[face]
+            picked, along = picked & chosen[face], along & chosen[face]
             all_picked = np.ones(len(start), bool)
             np.logical_and.at(all_picked, face, picked)
             chosen, grabbed = chosen & all_picked, picked
@@ -95,9 +97,9 @@ class Reader:
         surface = Surface(
             V=V, vertex=vertex, face=face, edge=edge, next=following,
             triangles=_get(mesh.loop_triangles, "loops", np.int32, 3).astype(np.int64),
-            triangle_face=_get(mesh.loop_triangles, "polygon_index", np.int32)[:, 0].astype(np.int64),
-            edges=_get(mesh.edges, "vertices", np.int32, 2).astype(np.int64), seam=_get(mesh.edges, "use_seam", bool)[:, 0],
-            uv=_get(layer.uv, "vector", np.float32, 2).astype(np.float64), pinned=pinned, chosen=chosen, line=line,
+            triangle_face=_get(mesh.loop_triangles, "polygon_index", np.int32).astype(np.int64),
+            edges=_get(mesh.edges, "vertices", np.int32, 2).astype(np.int64), seam=_get(mesh.edges, "use_seam", bool),
+            uv=uv.astype(np.float64), pinned=pinned, chosen=chosen, line=line,
             weight=weight, names=[ob.name])
         return surface, grabbed
 
@@ -118,17 +120,20 @@ class Reader:
 
 def _flags(collection, count: int) -> np.ndarray:
     """Flags of a collection that is empty where none is set."""
-    return _get(collection, "value", bool)[:, 0] if len(collection) == count else np.zeros(count, bool)
+    return _get(collection, "value", bool) if len(collection) == count else np.zeros(count, bool)
 
 
-def uv_selected(mesh, layer, kind: str) -> np.ndarray:
-    """Selected corners, or edges from corners, of the UV editor."""
-    selection = getattr(layer, f"{kind}_selection", None)
-    if selection is not None:
-        return _flags(selection, len(mesh.loops))
-    name = {"vertex": ".uv_select_vert", "edge": ".uv_select_edge"}[kind]  # from Blender 5.0 on
-    attribute = mesh.attributes.get(name)
-    return _flags(attribute.data if attribute else [], len(mesh.loops))
+def _edited_map(ob, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Coordinates, pins, and the UV editor's selection of corners and of edges from corners, of a mesh that is edited."""
+    edited = EditedMap(ob)
+    loops, layer = edited.corners, edited.layer
+    uv, flags = np.empty((count, 2), np.float32), np.zeros((3, count), bool)
+    own = count > 0 and hasattr(loops[0], "uv_select_vert")  # from Blender 5.0 on
+    for i, loop in enumerate(loops):
+        at = loop[layer]
+        uv[i] = at.uv
+        flags[:, i] = (at.pin_uv, loop.uv_select_vert, loop.uv_select_edge) if own else (at.pin_uv, at.select, at.select_edge)
+    return uv, flags[0], flags[1], flags[2]
 
 
 def _painted(mesh, index: int) -> np.ndarray:
@@ -173,23 +178,29 @@ def _write_mesh(mesh, uv, changed, seam) -> None:
     mesh.update()
 
 
-def edited_corners(ob) -> tuple:
-    """Corners of a mesh that is edited, in their order, and the layer of its UV map."""
-    bm = bmesh.from_edit_mesh(ob.data)
-    return [loop for face in bm.faces for loop in face.loops], bm.loops.layers.uv.verify()
+class EditedMap:
+    """The UV map of a mesh that is edited: good as long as nothing else edits the mesh."""
 
+    def __init__(self, ob) -> None:
+        self._mesh = ob.data
+        self._bm = bmesh.from_edit_mesh(ob.data)  # its corners live as long as it does
+        self.layer = self._bm.loops.layers.uv.verify()
+        self.corners = [loop for face in self._bm.faces for loop in face.loops]
 
-def write_corners(loops, layer, corners, uv) -> None:
-    """Writes coordinates of some corners of a mesh that is edited."""
-    for i, place in zip(corners, uv.tolist()):
-        loops[i][layer].uv = place
+    def write(self, corners, uv) -> None:
+        """Writes coordinates of some corners."""
+        for i, place in zip(corners, uv.tolist()):
+            self.corners[i][self.layer].uv = place
+        self.shown()
+
+    def shown(self) -> None:
+        bmesh.update_edit_mesh(self._mesh, loop_triangles=False, destructive=False)
 
 
 def _write_edited(ob, uv, changed, seam, changed_edges) -> None:
     bm = bmesh.from_edit_mesh(ob.data)
     if len(changed):
-        loops, layer = edited_corners(ob)
-        write_corners(loops, layer, changed.tolist(), uv[changed])
+        EditedMap(ob).write(changed.tolist(), uv[changed])
     if seam is not None:
         bm.edges.ensure_lookup_table()
         for e in changed_edges.tolist():
@@ -212,8 +223,8 @@ def select_edited(ob, faces: np.ndarray) -> None:
 
 def _select(mesh, faces: np.ndarray) -> None:
     bpy.context.tool_settings.mesh_select_mode = (False, False, True)
-    vertex, edge = _get(mesh.loops, "vertex_index", np.int32)[:, 0], _get(mesh.loops, "edge_index", np.int32)[:, 0]
-    total = _get(mesh.polygons, "loop_total", np.int32)[:, 0]
+    vertex, edge = _get(mesh.loops, "vertex_index", np.int32), _get(mesh.loops, "edge_index", np.int32)
+    total = _get(mesh.polygons, "loop_total", np.int32)
     of_corner = np.repeat(faces, total)
     vertices, edges = np.zeros(len(mesh.vertices), bool), np.zeros(len(mesh.edges), bool)
     vertices[vertex[of_corner]] = True

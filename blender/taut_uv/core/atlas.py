@@ -6,13 +6,12 @@ from __future__ import annotations
 import numpy as np
 
 from .islands import islands_of
+from .layout import Layout
 from .messages import Trouble, about_faces, about_vertices
-from .plane import areas, in_single, orientation, signed_areas
+from .plane import in_single, orientation
 from .surface import Surface
 from .unwrap import torn_edges
 from .work import Clock, Result
-
-_MOST_TILES = 100
 
 
 def atlas(taut, s: Surface, *, prefer: str = "seams", charts: str = "auto", keep_seams: bool = False,
@@ -42,22 +41,22 @@ def atlas(taut, s: Surface, *, prefer: str = "seams", charts: str = "auto", keep
     if made is None:
         result.complete = False
         return result
-    layout = _Layout(taut, s, made, some, pinned, clock, padding, resolution, max(tiles, 1), rotate)
+    layout = Layout(taut, s, made, some, pinned, clock, padding, resolution, max(tiles, 1), rotate)
     if weighted:
         layout.repack(np.maximum(s.weight[s.vertex[s.triangles[some]]].mean(1), 0.05))
     if density > 0:
-        layout.to_density(density, result)
+        layout.to_density(density)
     write_atlas(s, result, made, layout, some)
     if mark_seams:
         place = np.full(s.corners, -1)
-        place[s.triangles[some].reshape(-1)] = made.faces.reshape(-1)
+        place[s.triangles[some].reshape(-1)] = layout.faces.reshape(-1)
         inside = np.zeros(len(s.edges), bool)
         inside[s.edge[s.chosen[s.face]]] = True
         result.seam = np.where(inside, torn_edges(s, place), s.seam)
     result.complete = result.complete and made.complete
-    result.notes += made.repairs + made.notes
-    result.numbers.update(charts=made.charts, tiles=int(layout.tile[made.chart >= 0].max(initial=0)) + 1,
-                          density=layout.scale() * resolution, utilization=made.utilization, distortion=made.distortion)
+    result.notes += layout.notes + made.repairs + made.notes
+    result.numbers.update(charts=layout.charts(), tiles=len(np.unique(layout.tile[made.chart >= 0])),
+                          density=layout.scale() * resolution, distortion=made.distortion)
     return result
 
 
@@ -76,11 +75,11 @@ def _made(taut, s, result, some, pinned, clock, *, charts, keep_seams, symmetric
     F = s.vertex[corners]
     given = dict(polygons=s.triangle_face[some], single=True, symmetric=symmetric, time_limit=clock.left, **options)
     if charts == "keep":
-        given.update(charts="keep", parts=_parts(s, some))
+        given["charts"] = "keep"
         known = np.ptp(s.uv[corners].reshape(-1, 2), axis=0).min() > 0
         if pinned.any() or known and _fits(s, some):
             given["uv"] = s.uv[corners]
-    elif keep_seams and s.seam.any():
+    if (charts == "keep" or keep_seams) and s.seam.any():
         given["seams"] = s.edges[s.seam]
     if max_distortion > 4:
         given["max_distortion"] = max_distortion
@@ -102,14 +101,6 @@ def _made(taut, s, result, some, pinned, clock, *, charts, keep_seams, symmetric
         raise Trouble(f"no atlas was made: {e}") from e
     except taut.TautError as e:
         raise _explained(e, s, some, used) from e
-
-
-def _parts(s: Surface, some: np.ndarray) -> np.ndarray:
-    """The island between seams that each triangle is of."""
-    label = np.full(s.faces, -1)
-    for k, island in enumerate(islands_of(s)):
-        label[island.faces] = k
-    return label[s.triangle_face[some]]
 
 
 def _fits(s: Surface, some: np.ndarray) -> bool:
@@ -136,71 +127,17 @@ def _explained(error, s: Surface, some: np.ndarray, used: np.ndarray) -> Trouble
     return Trouble(str(error))
 
 
-class _Layout:
-    """Where the charts of an atlas lie."""
-
-    def __init__(self, taut, s, made, some, pinned, clock, padding, resolution, tiles, rotate) -> None:
-        self._taut, self._made, self._pinned, self._clock = taut, made, pinned, clock
-        self._padding, self._resolution, self._tiles, self._rotate = padding, resolution, tiles, rotate
-        self._area = areas(s.V, s.vertex[s.triangles[some]])
-        self._factors = None
-        self._stays = pinned
-        self.uv, self.tile = made.uv.copy(), made.tile.copy()
-
-    def scale(self) -> float:
-        """Lengths in the plane by lengths in space, of what is not pinned."""
-        ours = ~self._stays & (self._made.chart >= 0)
-        flat = np.abs(signed_areas(self.uv, self._made.faces))
-        return float(np.sqrt(flat[ours].sum() / self._area[ours].sum()))
-
-    def repack(self, factors: np.ndarray | None = None, padding: float | None = None, tiles: int | None = None) -> None:
-        """Packs the charts anew; factors : of lengths of triangles."""
-        if factors is not None:
-            self._factors = factors
-        self._tiles = tiles or self._tiles
-        own = self._made.chart >= 0
-        packed = self._taut.pack(
-            self._made.uv, self._made.faces[own], fixed=self._stays[own] if self._stays.any() else None,
-            padding=self._padding if padding is None else padding, resolution=self._resolution, tiles=self._tiles,
-            rotate=self._rotate, densities=None if self._factors is None else self._factors[own],
-            time_limit=self._clock.left)
-        self.uv = packed.uv
-        self.tile[own] = packed.tile
-
-    def to_density(self, density: float, result: Result) -> None:
-        """Makes the scale what is asked, with more tiles where that takes them."""
-        target = density / self._resolution
-        while self.scale() < target and self._tiles < _MOST_TILES:
-            more = int(np.ceil(self._tiles * (target / self.scale()) ** 2))
-            self.repack(tiles=min(max(more, self._tiles + 1), _MOST_TILES))
-        if self.scale() < target:
-            result.notes.append(f"{self.scale() * self._resolution:.4g} texels per unit is the most that {_MOST_TILES} "
-                                "tiles have room for")
-            return
-        # Charts are made smaller, and so are the distances between them: they are packed farther apart before.
-        self.repack(padding=self._padding * self.scale() / target)
-        factor = min(target / self.scale(), 1.0)
-        moved = np.zeros(len(self.uv), bool)
-        corner = np.zeros((len(self.uv), 2))
-        ours = ~self._stays & (self._made.chart >= 0)
-        moved[self._made.faces[ours]] = True
-        corner[self._made.faces[ours]] = np.c_[self.tile[ours] % 10, self.tile[ours] // 10][:, None]
-        self.uv[moved] = corner[moved] + (self.uv[moved] - corner[moved]) * factor
-        if self._tiles > 1:
-            result.notes.append(f"{self._tiles} tiles hold {density:.4g} texels per unit")
-
-
-def write_atlas(s: Surface, result: Result, made, layout: _Layout, some: np.ndarray) -> None:
+def write_atlas(s: Surface, result: Result, made, layout: Layout, some: np.ndarray) -> None:
     """Writes coordinates by corner; what is wrong with faces is a problem."""
     corners = s.triangles[some]
     own = made.chart >= 0
-    uv, flat = in_single(layout.uv, made.faces[own])
+    uv, flat = in_single(layout.uv, layout.faces[own])
     if len(flat):
         result.problems.append(about_faces(s, s.triangle_face[some[np.flatnonzero(own)[flat]]],
                                            "too small for the numbers of UV maps; dissolve what is so small"))
     place = np.full(s.corners, -1)
-    place[corners.reshape(-1)] = made.faces.reshape(-1)
-    divided = (place[corners] != made.faces).any(1)
+    place[corners.reshape(-1)] = layout.faces.reshape(-1)
+    divided = (place[corners] != layout.faces).any(1)
     if divided.any():
         result.problems.append(about_faces(s, s.triangle_face[some[divided]],
                                            "a seam divides it; triangulate it (Ctrl T) and make the atlas again"))

@@ -12,7 +12,8 @@ from .surface import Surface
 from .work import Clock, Result
 
 
-def pack_islands(taut, result: Result, placed, loose, padding: float, resolution: int, clock: Clock):
+def pack_islands(taut, result: Result, placed, loose, padding: float, resolution: int, rotate: bool,
+                 clock: Clock):
     """Maps of the loose islands, packed into the unit square around those that are placed, where these lie in it."""
     inside = [p for p in placed if (p[1] >= 0).all() and (p[1] <= 1).all()]
     if len(inside) < len(placed):
@@ -23,7 +24,8 @@ def pack_islands(taut, result: Result, placed, loose, padding: float, resolution
     F = np.concatenate([i.F + at for (i, _, _), at in zip(parts, first)])
     fixed = np.repeat([True] * len(inside) + [False] * len(loose), [len(i.F) for i, _, _ in parts])
     try:
-        made = taut.pack(uv, F, fixed=fixed, padding=padding, resolution=resolution, time_limit=clock.left)
+        made = taut.pack(uv, F, fixed=fixed, padding=padding, resolution=resolution, rotate=rotate,
+                         time_limit=clock.left)
     except taut.Cancelled as e:
         result.complete = False
         if e.best is None:

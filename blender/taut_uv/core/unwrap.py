@@ -17,8 +17,8 @@ _CUT = ("closed_surface", "handles", "several_boundaries")
 
 
 def unwrap(taut, s: Surface, *, energy: str = "isometric", no_overlap: bool = False, cut: bool = False,
-           weighted: bool = False, pack: bool = True, padding: float = 2, resolution: int = 1024,
-           time_limit: float = 0) -> Result:
+           weighted: bool = False, pack: bool = True, rotate: bool = True, padding: float = 2,
+           resolution: int = 1024, time_limit: float = 0) -> Result:
     """Lay the islands of the chosen faces flat.
 
     Islands with pinned corners lie as these say; the others are packed into the unit square, around them. An island that
@@ -49,7 +49,7 @@ def unwrap(taut, s: Surface, *, energy: str = "isometric", no_overlap: bool = Fa
         if not complete:
             result.complete = False
             break
-    _place(taut, s, result, placed, loose, pack, padding, resolution, clock)
+    _place(taut, s, result, placed, loose, pack, (padding, resolution, rotate), clock)
     result.numbers["islands"] = len(placed) + len(loose)
     return result
 
@@ -161,10 +161,10 @@ def parts_of_atlas(s: Surface, island: Island, made) -> list[tuple[Island, np.nd
     return parts
 
 
-def _place(taut, s, result, placed, loose, pack, padding, resolution, clock):
+def _place(taut, s, result, placed, loose, pack, packing, clock):
     """Packs what no pin holds, rounds all, and writes it."""
     if loose and pack:
-        loose = pack_islands(taut, result, placed, loose, padding, resolution, clock)
+        loose = pack_islands(taut, result, placed, loose, *packing, clock)
     for island, x, (b, bc) in placed + loose:
         fixed = np.zeros(x.shape, bool)
         fixed[b] = True
