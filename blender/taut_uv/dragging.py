@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 from bpy.props import FloatVectorProperty
 
 from . import running, scene
@@ -33,13 +32,7 @@ class Canvas:
                     self._edited[name] = scene.EditedMap(ob)
                 self._edited[name].write(corners, uv[own])
             else:
-                layer = ob.data.uv_layers.active.uv
-                whole = np.empty(2 * len(layer), np.float32)
-                layer.foreach_get("vector", whole)
-                whole = whole.reshape(-1, 2)
-                whole[corners] = uv[own]
-                layer.foreach_set("vector", whole.reshape(-1))
-                ob.data.update()
+                scene.write_map(ob.data, corners, uv[own])
 
 
 class TAUT_OT_live(bpy.types.Operator):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import bpy
+import numpy as np
 
 from . import scene
 from .core import library
@@ -93,9 +94,13 @@ class Command:
         return told(self, reader, result, self.bl_label)
 
     def invoke(self, context, event):
-        global current
         if context.window is None or bpy.app.background:
             return self.execute(context)
+        return self.launch(context)
+
+    def launch(self, context):
+        """Starts the job; modal() watches it."""
+        global current
         try:
             self._reader, current = self.begin(context)
         except (Trouble, library.Missing) as e:
@@ -140,8 +145,6 @@ def select_problem(reader, problem) -> None:
     for name in reader.names:
         ob = bpy.data.objects.get(name)
         if ob is not None and ob.mode == "EDIT":
-            import numpy as np
-
             faces = np.zeros(len(ob.data.polygons), bool)
             faces[named.get(name, [])] = True
             scene.select_edited(ob, faces)

@@ -167,12 +167,19 @@ def write(reader: Reader, result: Result) -> None:
                 _select(ob.data, result.selected[faces])
 
 
+def write_map(mesh, corners, uv) -> None:
+    """Writes coordinates of some corners of a mesh in object mode. By its attribute: what is written to `layer.uv` all at
+    once, undo does not see (Blender 4.5)."""
+    data = mesh.attributes[mesh.uv_layers.active.name].data
+    whole = _get(data, "vector", np.float32, 2)
+    whole[corners] = uv
+    data.foreach_set("vector", whole.reshape(-1))
+    mesh.update()
+
+
 def _write_mesh(mesh, uv, changed, seam) -> None:
     if len(changed):
-        layer = mesh.uv_layers.active
-        whole = _get(layer.uv, "vector", np.float32, 2)
-        whole[changed] = uv[changed]
-        layer.uv.foreach_set("vector", whole.reshape(-1))
+        write_map(mesh, changed, uv[changed])
     if seam is not None:
         mesh.edges.foreach_set("use_seam", np.ascontiguousarray(seam))
     mesh.update()

@@ -75,7 +75,8 @@ def uv_of(ob, values=None):
         ob.data.uv_layers.new(name="UVMap")
     layer = ob.data.uv_layers.active.uv
     if values is not None:
-        layer.foreach_set("vector", np.asarray(values, np.float32).reshape(-1))
+        data = ob.data.attributes[ob.data.uv_layers.active.name].data
+        data.foreach_set("vector", np.asarray(values, np.float32).reshape(-1))
         ob.data.update()
     uv = np.empty(2 * len(layer), np.float32)
     layer.foreach_get("vector", uv)

@@ -11,13 +11,13 @@ from .messages import Trouble, about_faces, about_vertices
 from .plane import in_single, orientation
 from .surface import Surface
 from .unwrap import torn_edges
-from .work import Clock, Result
+from .work import Clock, Result, untold
 
 
 def atlas(taut, s: Surface, *, prefer: str = "seams", charts: str = "auto", keep_seams: bool = False,
           symmetric: bool = False, max_distortion: float = 0, padding: float = 2, resolution: int = 1024, tiles: int = 1,
           rotate: bool = True, density: float = 0, weighted: bool = False, mark_seams: bool = True,
-          time_limit: float = 0) -> Result:
+          time_limit: float = 0, tell=untold) -> Result:
     """One atlas of the chosen faces of all objects.
 
     prefer : "seams", "packing" or "one", as taut.atlas()
@@ -42,6 +42,7 @@ def atlas(taut, s: Surface, *, prefer: str = "seams", charts: str = "auto", keep
         result.complete = False
         return result
     layout = Layout(taut, s, made, some, pinned, clock, padding, resolution, max(tiles, 1), rotate)
+    tell("packing")
     if weighted:
         layout.repack(np.maximum(s.weight[s.vertex[s.triangles[some]]].mean(1), 0.05))
     if density > 0:

@@ -9,10 +9,10 @@ from .islands import islands_of
 from .messages import Trouble
 from .plane import areas, orientation, signed_areas
 from .surface import Surface
-from .work import Result
+from .work import Result, untold
 
 
-def check(taut, s: Surface, *, flips: bool = True, overlaps: bool = True, time_limit: float = 0) -> Result:
+def check(taut, s: Surface, *, flips: bool = True, overlaps: bool = True, time_limit: float = 0, tell=untold) -> Result:
     """Select faces that are flipped within their islands, and faces that overlap others. Nothing else changes.
 
     An island that is mirrored as a whole has no flips; a note counts such islands.

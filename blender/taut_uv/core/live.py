@@ -16,6 +16,7 @@ class _Held:
     """An island that is open in a session."""
 
     def __init__(self, taut, s: Surface, island: Island, grabbed: np.ndarray, scale: float) -> None:
+        self._taut, self._surface = taut, s
         self.island, self.grabbed = island, np.flatnonzero(grabbed)
         self.before = island.of_corners(s.uv)
         if not scale > 0 or not np.isfinite(self.before).all():
@@ -35,17 +36,24 @@ class _Held:
         self._start = x[self.grabbed].copy()
         try:
             self._session = taut.Session(island.V * scale, island.F, initial=x, b=pinned, bc=x[pinned])
+            self._session.move(self.grabbed, self._start)
+            self.x = self._session.solve(steps=1).x
         except taut.TautError as e:
             raise Trouble(explained(e, s, island)) from e
 
-    def frame(self, shift: np.ndarray, seconds: float | None):
-        """Moves what is grabbed to where it began, plus a shift, and goes on for so long."""
+    def frame(self, shift: np.ndarray, seconds: float | None) -> tuple[float, str]:
+        """Moves what is grabbed to where it began, plus a shift, and goes on for so long. How far it is from there, and
+        why, where it cannot get there."""
         step = shift * [-1, 1] if self._mirror else shift
         target = (self._start + step).astype(np.float32).astype(np.float64)
-        self._session.move(self.grabbed, target)
-        made = self._session.solve(time=seconds)
-        self.x = made.x
-        return made
+        reason = ""
+        try:
+            self._session.move(self.grabbed, target)
+            made = self._session.solve(time=seconds)
+            self.x, reason = made.x, made.reason
+        except self._taut.NoMap as e:  # the last map stays
+            reason = explained(e, self._surface, self.island).message
+        return float(np.linalg.norm(self.x[self.grabbed] - target, axis=1).max()), reason
 
     def rounded(self) -> tuple[np.ndarray, int]:
         """The map as single precision holds it, and how many triangles rounding flattens."""
@@ -72,7 +80,7 @@ class Drag:
     def __init__(self, taut, s: Surface, grabbed: np.ndarray) -> None:
         """grabbed : (c,) bool, corners that are dragged. Pinned corners stay; where an island has none, the vertex that
         is farthest from what is grabbed."""
-        self._taut, self._surface = taut, s
+        self._surface = s
         sizes = island_scales(s)
         islands = [i for i in islands_of(s, np.ones(s.faces, bool), by_uv=True) if grabbed[i.corners].any()]
         if not islands:
@@ -88,8 +96,8 @@ class Drag:
         share = None if seconds is None else seconds / len(self._held)
         self.distance, self.reason = 0.0, ""
         for held in self._held:
-            made = held.frame(shift, share)
-            self.distance, self.reason = max(self.distance, made.distance), self.reason or made.reason
+            distance, reason = held.frame(shift, share)
+            self.distance, self.reason = max(self.distance, distance), self.reason or reason
         return self.coordinates()
 
     def finish(self, shift, seconds: float = 2.0) -> np.ndarray:

@@ -11,11 +11,11 @@ from .placing import write_island
 from .plane import areas, mirrored, rigid_fit, signed_areas
 from .surface import Surface
 from .unwrap import triangle_weights
-from .work import Clock, Result
+from .work import Clock, Result, untold
 
 
 def relax(taut, s: Surface, *, axis: str = "both", hold_border: bool = False, energy: str = "isometric",
-          no_overlap: bool = False, weighted: bool = False, time_limit: float = 0) -> Result:
+          no_overlap: bool = False, weighted: bool = False, time_limit: float = 0, tell=untold) -> Result:
     """Relax the chosen faces within their islands, as they lie in the UV editor.
 
     Held are all corners of faces that are not chosen, and pinned ones. axis: "both", or "u" or "v", the one coordinate
@@ -32,7 +32,9 @@ def relax(taut, s: Surface, *, axis: str = "both", hold_border: bool = False, en
     held_corner = stays[place] | _spread(place, s.pinned)
     sizes = island_scales(s)
     moved = 0
-    for island in islands_of(s, by_uv=True):
+    islands = islands_of(s, by_uv=True)
+    for k, island in enumerate(islands):
+        tell(f"island {k + 1} of {len(islands)}")
         if clock.over:
             result.complete = False
             break

@@ -10,11 +10,11 @@ from .messages import Trouble, about_vertices, explained, listed
 from .placing import write_island
 from .relax import island_scales, relaxed
 from .surface import Surface
-from .work import Clock, Result
+from .work import Clock, Result, untold
 
 
 def straighten(taut, s: Surface, *, axis: str = "auto", spacing: str = "free", energy: str = "isometric",
-               no_overlap: bool = False, time_limit: float = 0) -> Result:
+               no_overlap: bool = False, time_limit: float = 0, tell=untold) -> Result:
     """Straighten the marked edges, line by line, as they lie in the UV editor.
 
     axis : "u", "v" or "auto"
@@ -31,6 +31,7 @@ def straighten(taut, s: Surface, *, axis: str = "auto", spacing: str = "free", e
         ends = marked_edges(s, island)
         if len(ends) == 0:
             continue
+        tell(f"line {lines + 1}")
         try:
             paths = paths_of(s, island, ends)
             pins, held = pins_of_paths(s, island, paths, axis, spacing)

@@ -10,7 +10,7 @@ from .messages import Trouble, about_faces, about_vertices, explained
 from .placing import pack_islands, write_island
 from .plane import areas, mirrored, rigid_fit
 from .surface import Surface
-from .work import Clock, Result
+from .work import Clock, Result, untold
 
 #: Faults of islands that a cut can mend.
 _CUT = ("closed_surface", "handles", "several_boundaries")
@@ -18,7 +18,7 @@ _CUT = ("closed_surface", "handles", "several_boundaries")
 
 def unwrap(taut, s: Surface, *, energy: str = "isometric", no_overlap: bool = False, cut: bool = False,
            weighted: bool = False, pack: bool = True, rotate: bool = True, padding: float = 2,
-           resolution: int = 1024, time_limit: float = 0) -> Result:
+           resolution: int = 1024, time_limit: float = 0, tell=untold) -> Result:
     """Lay the islands of the chosen faces flat.
 
     Islands with pinned corners lie as these say; the others are packed into the unit square, around them. An island that
@@ -30,7 +30,8 @@ def unwrap(taut, s: Surface, *, energy: str = "isometric", no_overlap: bool = Fa
     if not islands:
         raise Trouble("no face is selected; select some, or all")
     placed, loose = [], []
-    for island in islands:
+    for k, island in enumerate(islands):
+        tell(f"island {k + 1} of {len(islands)}")
         if clock.over:
             result.complete = False
             break

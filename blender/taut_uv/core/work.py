@@ -50,6 +50,10 @@ class Result:
         return Result(s.uv.copy(), np.zeros(s.corners, bool))
 
 
+def untold(note: str) -> None:
+    """What a command tells where nobody asks."""
+
+
 class Clock:
     """What is left of a time limit in seconds; 0 or less: there is none."""
 
@@ -74,9 +78,13 @@ class Task:
     """
 
     def __init__(self, taut: Any, command: Any, surface: Surface, **options: Any) -> None:
-        self._job = taut.start(command, taut, surface, **options)
+        self.note = ""
+        self._job = taut.start(command, taut, surface, tell=self._tell, **options)
         self._began = time.monotonic()
         self.stopped = False
+
+    def _tell(self, note: str) -> None:
+        self.note = note
 
     @property
     def done(self) -> bool:
@@ -91,7 +99,7 @@ class Task:
         """Where it stands, in a line."""
         p = self._job.progress
         value = "" if p.value != p.value else f", energy {p.value:.4g}"
-        return f"{p.stage or 'begins'}{value}, {self.seconds:.1f} s"
+        return f"{self.note + ': ' if self.note else ''}{p.stage or 'begins'}{value}, {self.seconds:.1f} s"
 
     @property
     def usable(self) -> bool:
