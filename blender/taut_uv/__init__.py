@@ -16,7 +16,13 @@ import bpy
 from . import dragging, operators, panel, properties, running
 from .core import library
 
-CLASSES = [properties.TautSettings, properties.TautPreferences, *operators.CLASSES, dragging.TAUT_OT_live, *panel.CLASSES]
+CLASSES = [
+    properties.TautSettings,
+    properties.TautPreferences,
+    *operators.CLASSES,
+    dragging.TAUT_OT_live,
+    *panel.CLASSES,
+]
 
 
 def library_state() -> str:

@@ -64,8 +64,11 @@ class TAUT_OT_live(bpy.types.Operator):
     def conclude(self, shift):
         self._canvas.draw(self._drag.finish(shift))
         if self._drag.distance > 0:
-            self.report({"WARNING"}, f"the vertices stopped {self._drag.distance:.3g} before their places, where the map would "
-                                     "fold" + (f": {self._drag.reason}" if self._drag.reason else ""))
+            why = f": {self._drag.reason}" if self._drag.reason else ""
+            self.report(
+                {"WARNING"},
+                f"the vertices stopped {self._drag.distance:.3g} before their places, where the map would fold{why}",
+            )
         self._drag.close()
         return {"FINISHED"}
 

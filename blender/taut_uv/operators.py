@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from . import properties, running
 from .core.atlas import atlas
@@ -24,8 +24,11 @@ class TAUT_OT_unwrap(Command, bpy.types.Operator):
 
     energy: properties.energy()
     no_overlap: properties.no_overlap()
-    cut: BoolProperty(name="Cut Where Needed", default=False,
-                      description="Cut islands that cannot be laid flat, and mark the cuts as seams; else they are reported")
+    cut: BoolProperty(
+        name="Cut Where Needed",
+        default=False,
+        description="Cut islands that cannot be laid flat, and mark the cuts as seams",
+    )
     pack: BoolProperty(name="Pack", default=True, description="Pack islands without pins into the unit square")
     rotate: BoolProperty(name="Rotate", default=True, description="Islands may be rotated where that packs them better")
     weights: properties.weights()
@@ -34,8 +37,17 @@ class TAUT_OT_unwrap(Command, bpy.types.Operator):
     time_limit: properties.time_limit()
 
     def arguments(self):
-        return dict(energy=self.energy, no_overlap=self.no_overlap, cut=self.cut, weighted=bool(self.weights),
-                    pack=self.pack, rotate=self.rotate, padding=self.padding, resolution=self.resolution, time_limit=self.time_limit)
+        return dict(
+            energy=self.energy,
+            no_overlap=self.no_overlap,
+            cut=self.cut,
+            weighted=bool(self.weights),
+            pack=self.pack,
+            rotate=self.rotate,
+            padding=self.padding,
+            resolution=self.resolution,
+            time_limit=self.time_limit,
+        )
 
 
 class TAUT_OT_relax(Command, bpy.types.Operator):
@@ -44,9 +56,15 @@ class TAUT_OT_relax(Command, bpy.types.Operator):
     bl_idname, bl_label = "taut.relax", "Relax"
     command = staticmethod(relax)
 
-    axis: EnumProperty(name="Axis", default="both", items=[("both", "U and V", "Both coordinates may change"),
-                                                           ("u", "U only", "V of each vertex stays, bit for bit"),
-                                                           ("v", "V only", "U of each vertex stays, bit for bit")])
+    axis: EnumProperty(
+        name="Axis",
+        default="both",
+        items=[
+            ("both", "U and V", "Both coordinates may change"),
+            ("u", "U only", "V of each vertex stays, bit for bit"),
+            ("v", "V only", "U of each vertex stays, bit for bit"),
+        ],
+    )
     hold_border: BoolProperty(name="Hold Border", default=False, description="Open borders of islands stay, too")
     energy: properties.energy()
     no_overlap: properties.no_overlap()
@@ -54,8 +72,14 @@ class TAUT_OT_relax(Command, bpy.types.Operator):
     time_limit: properties.time_limit()
 
     def arguments(self):
-        return dict(axis=self.axis, hold_border=self.hold_border, energy=self.energy, no_overlap=self.no_overlap,
-                    weighted=bool(self.weights), time_limit=self.time_limit)
+        return dict(
+            axis=self.axis,
+            hold_border=self.hold_border,
+            energy=self.energy,
+            no_overlap=self.no_overlap,
+            weighted=bool(self.weights),
+            time_limit=self.time_limit,
+        )
 
 
 class TAUT_OT_straighten(Command, bpy.types.Operator):
@@ -64,17 +88,35 @@ class TAUT_OT_straighten(Command, bpy.types.Operator):
     bl_idname, bl_label = "taut.straighten", "Straighten"
     command = staticmethod(straighten)
 
-    axis: EnumProperty(name="Axis", default="auto", items=[("auto", "Auto", "The axis along which a line is longer"),
-                                                           ("u", "U", "Lines of equal V"), ("v", "V", "Lines of equal U")])
-    spacing: EnumProperty(name="Spacing", default="free", items=[("free", "Free", "Where the island is least distorted"),
-                                                                 ("length", "Length", "As far apart as in space")])
+    axis: EnumProperty(
+        name="Axis",
+        default="auto",
+        items=[
+            ("auto", "Auto", "The axis along which a line is longer"),
+            ("u", "U", "Lines of equal V"),
+            ("v", "V", "Lines of equal U"),
+        ],
+    )
+    spacing: EnumProperty(
+        name="Spacing",
+        default="free",
+        items=[
+            ("free", "Free", "Where the island is least distorted"),
+            ("length", "Length", "As far apart as in space"),
+        ],
+    )
     energy: properties.energy()
     no_overlap: properties.no_overlap()
     time_limit: properties.time_limit()
 
     def arguments(self):
-        return dict(axis=self.axis, spacing=self.spacing, energy=self.energy, no_overlap=self.no_overlap,
-                    time_limit=self.time_limit)
+        return dict(
+            axis=self.axis,
+            spacing=self.spacing,
+            energy=self.energy,
+            no_overlap=self.no_overlap,
+            time_limit=self.time_limit,
+        )
 
 
 class TAUT_OT_atlas(Command, bpy.types.Operator):
@@ -84,30 +126,57 @@ class TAUT_OT_atlas(Command, bpy.types.Operator):
     command = staticmethod(atlas)
     makes_map = True
 
-    charts: EnumProperty(name="Charts", default="auto", items=[("auto", "Make", "Charts are made"),
-                                                               ("keep", "Keep", "Charts are those between the seams")])
-    prefer: EnumProperty(name="Prefer", default="seams", items=[("seams", "Short Seams", "Few charts along short seams"),
-                                                                ("packing", "Packing", "More charts, which fill tiles well"),
-                                                                ("one", "One", "One chart a part, where it can be")])
-    keep_seams: BoolProperty(name="Keep Seams", default=False, description="Seams that are marked are seams of the atlas, too")
-    mark_seams: BoolProperty(name="Mark Seams", default=True, description="Mark the seams of the atlas, and clear others")
-    symmetric: BoolProperty(name="Symmetric", default=False,
-                            description="Charts are mirror images of each other, in the plane of symmetry of the selection")
-    max_distortion: FloatProperty(name="Max Distortion", default=0, min=0,
-                                  description="Bound of the mean energy of a chart, above 4, which is none; 0: the usual one")
+    charts: EnumProperty(
+        name="Charts",
+        default="auto",
+        items=[("auto", "Make", "Charts are made"), ("keep", "Keep", "Charts are those between the seams")],
+    )
+    prefer: EnumProperty(
+        name="Prefer",
+        default="seams",
+        items=[
+            ("seams", "Short Seams", "Few charts along short seams"),
+            ("packing", "Packing", "More charts, which fill tiles well"),
+            ("one", "One", "One chart a part, where it can be"),
+        ],
+    )
+    keep_seams: BoolProperty(name="Keep Seams", default=False, description="Seams that are marked are seams of it, too")
+    mark_seams: BoolProperty(name="Mark Seams", default=True, description="Mark the seams of the atlas, clear others")
+    symmetric: BoolProperty(
+        name="Symmetric",
+        default=False,
+        description="Charts are mirror images of each other, in the plane of symmetry of the selection",
+    )
+    max_distortion: FloatProperty(
+        name="Max Distortion",
+        default=0,
+        min=0,
+        description="Bound of the mean energy of a chart, above 4, which is none; 0: the usual one",
+    )
     rotate: BoolProperty(name="Rotate", default=True, description="Charts may be rotated")
-    tiles: IntProperty(name="UDIM Tiles", default=1, min=1, max=100, description="Ten in a row from 1001 on")
-    density: FloatProperty(name="Texel Density", default=0, min=0, description="Texels per unit of the scene; 0: fill the tiles")
+    tiles: properties.tiles()
+    density: properties.density()
     weights: properties.weights()
     padding: properties.padding()
     resolution: properties.resolution()
     time_limit: properties.time_limit()
 
     def arguments(self):
-        return dict(charts=self.charts, prefer=self.prefer, keep_seams=self.keep_seams, mark_seams=self.mark_seams,
-                    symmetric=self.symmetric, max_distortion=self.max_distortion, rotate=self.rotate, tiles=self.tiles,
-                    density=self.density, weighted=bool(self.weights), padding=self.padding, resolution=self.resolution,
-                    time_limit=self.time_limit)
+        return dict(
+            charts=self.charts,
+            prefer=self.prefer,
+            keep_seams=self.keep_seams,
+            mark_seams=self.mark_seams,
+            symmetric=self.symmetric,
+            max_distortion=self.max_distortion,
+            rotate=self.rotate,
+            tiles=self.tiles,
+            density=self.density,
+            weighted=bool(self.weights),
+            padding=self.padding,
+            resolution=self.resolution,
+            time_limit=self.time_limit,
+        )
 
 
 class TAUT_OT_check(Command, bpy.types.Operator):

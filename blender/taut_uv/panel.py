@@ -28,7 +28,9 @@ class _Panel:
             column.operator_context = "INVOKE_DEFAULT"
             column.operator("taut.live")
         column = layout.column(align=True)
-        self.button(column, "taut.atlas", settings, "padding", "resolution", "tiles", "density", "weights", "time_limit")
+        self.button(
+            column, "taut.atlas", settings, "padding", "resolution", "tiles", "density", "weights", "time_limit"
+        )
         column.operator("taut.check")
         column = layout.column(align=True)
         for name in ("resolution", "padding", "tiles", "density", "time_limit"):

@@ -14,7 +14,9 @@ ENERGIES = [
 
 
 def energy():
-    return EnumProperty(name="Energy", items=ENERGIES, default="isometric", description="What is kept as it is in space")
+    return EnumProperty(
+        name="Energy", items=ENERGIES, default="isometric", description="What is kept as it is in space"
+    )
 
 
 def no_overlap():
@@ -26,18 +28,39 @@ def weights():
 
 
 def time_limit():
-    return FloatProperty(name="Time Limit", default=0, min=0, soft_max=600, subtype="TIME_ABSOLUTE", unit="TIME_ABSOLUTE",
-                         description="Seconds, after which what is done is kept; 0: none")
+    return FloatProperty(
+        name="Time Limit",
+        default=0,
+        min=0,
+        soft_max=600,
+        unit="TIME_ABSOLUTE",
+        description="Seconds, after which what is done is kept; 0: none",
+    )
 
 
 def padding():
-    return FloatProperty(name="Padding", default=2, min=0, max=256, subtype="PIXEL",
-                         description="Least distance of islands in texels")
+    return FloatProperty(
+        name="Padding", default=2, min=0, max=256, subtype="PIXEL", description="Least distance of islands in texels"
+    )
 
 
 def resolution():
-    return IntProperty(name="Resolution", default=1024, min=16, max=65536, subtype="PIXEL",
-                       description="Texels along a side of a tile")
+    return IntProperty(
+        name="Resolution", default=1024, min=16, max=65536, subtype="PIXEL", description="Texels along a side of a tile"
+    )
+
+
+def tiles():
+    return IntProperty(name="UDIM Tiles", default=1, min=1, max=100, description="Ten in a row from 1001 on")
+
+
+def density():
+    return FloatProperty(
+        name="Texel Density",
+        default=0,
+        min=0,
+        description="Texels per unit of the scene, on as many tiles as that takes; 0: tiles are filled",
+    )
 
 
 class TautSettings(bpy.types.PropertyGroup):
@@ -45,9 +68,8 @@ class TautSettings(bpy.types.PropertyGroup):
 
     padding: padding()
     resolution: resolution()
-    tiles: IntProperty(name="UDIM Tiles", default=1, min=1, max=100, description="Tiles of the atlas, ten in a row from 1001 on")
-    density: FloatProperty(name="Texel Density", default=0, min=0,
-                           description="Texels per unit of the scene, with as many tiles as that takes; 0: charts fill the tiles")
+    tiles: tiles()
+    density: density()
     weights: weights()
     time_limit: time_limit()
 
@@ -55,8 +77,12 @@ class TautSettings(bpy.types.PropertyGroup):
 class TautPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    folder: StringProperty(name="Folder of taut", subtype="DIR_PATH", default="",
-                           description="Where the Python package taut lies, where it did not come with the add-on")
+    folder: StringProperty(
+        name="Folder of taut",
+        subtype="DIR_PATH",
+        default="",
+        description="Where the Python package taut lies, where it did not come with the add-on",
+    )
 
     def draw(self, context):
         from . import library_state

@@ -33,10 +33,14 @@ def told(operator, reader, result: Result, what: str) -> set:
     for note in result.notes:
         operator.report({"INFO"}, note)
     if not result.complete:
-        operator.report({"WARNING"}, f"{what} ended early; " + ("what is done is kept" if did else "nothing was done yet"))
+        operator.report(
+            {"WARNING"}, f"{what} ended early; " + ("what is done is kept" if did else "nothing was done yet")
+        )
     elif did:
-        numbers = ", ".join(f"{name} {value:.4g}" if isinstance(value, float) else f"{name} {value}"
-                            for name, value in result.numbers.items())
+        numbers = ", ".join(
+            f"{name} {value:.4g}" if isinstance(value, float) else f"{name} {value}"
+            for name, value in result.numbers.items()
+        )
         operator.report({"INFO"}, f"{what}: {numbers}")
     return {"FINISHED"} if did else {"CANCELLED"}
 
@@ -51,15 +55,22 @@ class Command:
 
     @classmethod
     def poll(cls, context):
-        return current is None and (context.mode == "EDIT_MESH" or
-                                    context.mode == "OBJECT" and any(o.type == "MESH" for o in context.selected_objects))
+        return current is None and (
+            context.mode == "EDIT_MESH"
+            or context.mode == "OBJECT"
+            and any(o.type == "MESH" for o in context.selected_objects)
+        )
 
     def arguments(self) -> dict:
         return {}
 
     def read(self, context) -> scene.Reader:
-        return scene.Reader(scene.objects(context), new_map=self.makes_map, uv_selection=scene.by_uv_selection(context),
-                            weights=getattr(self, "weights", ""))
+        return scene.Reader(
+            scene.objects(context),
+            new_map=self.makes_map,
+            uv_selection=scene.by_uv_selection(context),
+            weights=getattr(self, "weights", ""),
+        )
 
     def begin(self, context):
         """The arrays, and the job that works on them. Raises Trouble and library.Missing."""
@@ -117,7 +128,9 @@ class Command:
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         if not current.done:
-            context.workspace.status_text_set(f"taut {self.bl_label}: {current.line}   Esc: stop, and keep what is done")
+            context.workspace.status_text_set(
+                f"taut {self.bl_label}: {current.line}   Esc: stop, and keep what is done"
+            )
             redraw(context)
             return {"PASS_THROUGH"}
         return self.end(context)

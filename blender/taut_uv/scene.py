@@ -23,7 +23,7 @@ def objects(context) -> list:
     found = context.objects_in_mode if context.mode == "EDIT_MESH" else context.selected_objects
     meshes, seen = [], set()
     for ob in found:
-        if ob.type == "MESH" and ob.data.name not in seen and len(ob.data.polygons if ob.mode != "EDIT" else ob.data.loops):
+        if ob.type == "MESH" and ob.data.name not in seen and (ob.mode == "EDIT" or len(ob.data.polygons)):
             seen.add(ob.data.name)
             meshes.append(ob)
     if not meshes:
@@ -34,8 +34,12 @@ def objects(context) -> list:
 def by_uv_selection(context) -> bool:
     """Whether a selection is that of the UV editor, which has one of its own."""
     space = context.space_data
-    return (context.mode == "EDIT_MESH" and space is not None and space.type == "IMAGE_EDITOR"
-            and not context.tool_settings.use_uv_select_sync)
+    return (
+        context.mode == "EDIT_MESH"
+        and space is not None
+        and space.type == "IMAGE_EDITOR"
+        and not context.tool_settings.use_uv_select_sync
+    )
 
 
 class Reader:
@@ -95,12 +99,22 @@ class Reader:
             line[edge[along]] = True
         weight = np.ones(len(V)) if group is None else _painted(mesh, group.index)
         surface = Surface(
-            V=V, vertex=vertex, face=face, edge=edge, next=following,
+            V=V,
+            vertex=vertex,
+            face=face,
+            edge=edge,
+            next=following,
             triangles=_get(mesh.loop_triangles, "loops", np.int32, 3).astype(np.int64),
             triangle_face=_get(mesh.loop_triangles, "polygon_index", np.int32).astype(np.int64),
-            edges=_get(mesh.edges, "vertices", np.int32, 2).astype(np.int64), seam=_get(mesh.edges, "use_seam", bool),
-            uv=uv.astype(np.float64), pinned=pinned, chosen=chosen, line=line,
-            weight=weight, names=[ob.name])
+            edges=_get(mesh.edges, "vertices", np.int32, 2).astype(np.int64),
+            seam=_get(mesh.edges, "use_seam", bool),
+            uv=uv.astype(np.float64),
+            pinned=pinned,
+            chosen=chosen,
+            line=line,
+            weight=weight,
+            names=[ob.name],
+        )
         return surface, grabbed
 
     def unchanged(self) -> bool:
@@ -112,8 +126,10 @@ class Reader:
                 return False
             if ob.mode == "EDIT":
                 ob.update_from_editmode()
-            if len(ob.data.loops) != s.first_corner[k + 1] - s.first_corner[k] or \
-                    len(ob.data.edges) != s.first_edge[k + 1] - s.first_edge[k]:
+            if (
+                len(ob.data.loops) != s.first_corner[k + 1] - s.first_corner[k]
+                or len(ob.data.edges) != s.first_edge[k + 1] - s.first_edge[k]
+            ):
                 return False
         return True
 
@@ -124,7 +140,7 @@ def _flags(collection, count: int) -> np.ndarray:
 
 
 def _edited_map(ob, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Coordinates, pins, and the UV editor's selection of corners and of edges from corners, of a mesh that is edited."""
+    """Of a mesh that is edited: coordinates, pins, and the UV editor's selection of corners and of edges from them."""
     edited = EditedMap(ob)
     loops, layer = edited.corners, edited.layer
     uv, flags = np.empty((count, 2), np.float32), np.zeros((3, count), bool)
@@ -132,7 +148,8 @@ def _edited_map(ob, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.
     for i, loop in enumerate(loops):
         at = loop[layer]
         uv[i] = at.uv
-        flags[:, i] = (at.pin_uv, loop.uv_select_vert, loop.uv_select_edge) if own else (at.pin_uv, at.select, at.select_edge)
+        picked = (loop.uv_select_vert, loop.uv_select_edge) if own else (at.select, at.select_edge)
+        flags[:, i] = at.pin_uv, *picked
     return uv, flags[0], flags[1], flags[2]
 
 
@@ -168,8 +185,10 @@ def write(reader: Reader, result: Result) -> None:
 
 
 def write_map(mesh, corners, uv) -> None:
-    """Writes coordinates of some corners of a mesh in object mode. By its attribute: what is written to `layer.uv` all at
-    once, undo does not see (Blender 4.5)."""
+    """Writes coordinates of some corners of a mesh in object mode.
+
+    By its attribute: undo does not see what is written to `layer.uv` all at once (Blender 4.5).
+    """
     data = mesh.attributes[mesh.uv_layers.active.name].data
     whole = _get(data, "vector", np.float32, 2)
     whole[corners] = uv
@@ -236,6 +255,10 @@ def _select(mesh, faces: np.ndarray) -> None:
     vertices, edges = np.zeros(len(mesh.vertices), bool), np.zeros(len(mesh.edges), bool)
     vertices[vertex[of_corner]] = True
     edges[edge[of_corner]] = True
-    for collection, values in ((mesh.vertices, vertices), (mesh.edges, edges), (mesh.polygons, np.ascontiguousarray(faces))):
+    for collection, values in (
+        (mesh.vertices, vertices),
+        (mesh.edges, edges),
+        (mesh.polygons, np.ascontiguousarray(faces)),
+    ):
         collection.foreach_set("select", values)
     mesh.update()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Judges UV maps as they are read back from meshes of the scene: in rational numbers, by no code of taut or the add-on."""
+"""Judges UV maps as read back from meshes of the scene, in rational numbers, by no code of taut or the add-on."""
 
 from fractions import Fraction
 
@@ -99,7 +99,9 @@ def mirrored(r):
 
 
 def _areas(t):
-    return ((t[:, 1, 0] - t[:, 0, 0]) * (t[:, 2, 1] - t[:, 0, 1]) - (t[:, 1, 1] - t[:, 0, 1]) * (t[:, 2, 0] - t[:, 0, 0])) / 2
+    return (
+        (t[:, 1, 0] - t[:, 0, 0]) * (t[:, 2, 1] - t[:, 0, 1]) - (t[:, 1, 1] - t[:, 0, 1]) * (t[:, 2, 0] - t[:, 0, 0])
+    ) / 2
 
 
 def _clip(subject, a, b):
@@ -141,7 +143,7 @@ def overlaps(*reads):
     found = set()
     for at, i in enumerate(order):
         until = np.searchsorted(low[order, 0], high[i, 0])
-        for j in order[at + 1:until]:
+        for j in order[at + 1 : until]:
             if low[j, 1] >= high[i, 1] or low[i, 1] >= high[j, 1] or of[i] == of[j]:
                 continue
             if not _parted(t[i], t[j]) and common_area(t[i], t[j]) > 0:

@@ -37,10 +37,16 @@ def hill(n=16, height=0.6, name="Hill"):
 
 def tube(sides=16, rings=6, caps=True, name="Tube"):
     """A cylinder of quads with n-gons as caps."""
-    V = [(math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides), 2 * r / rings)
-         for r in range(rings + 1) for k in range(sides)]
-    F = [(r * sides + k, r * sides + (k + 1) % sides, (r + 1) * sides + (k + 1) % sides, (r + 1) * sides + k)
-         for r in range(rings) for k in range(sides)]
+    V = [
+        (math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides), 2 * r / rings)
+        for r in range(rings + 1)
+        for k in range(sides)
+    ]
+    F = [
+        (r * sides + k, r * sides + (k + 1) % sides, (r + 1) * sides + (k + 1) % sides, (r + 1) * sides + k)
+        for r in range(rings)
+        for k in range(sides)
+    ]
     if caps:
         F += [tuple(range(sides))[::-1], tuple(rings * sides + k for k in range(sides))]
     return made(name, V, F)

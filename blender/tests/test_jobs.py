@@ -22,8 +22,11 @@ def sheets(count, n=6):
     V = np.array([v.co[:] for v in one.data.vertices])
     F = np.array([p.vertices[:] for p in one.data.polygons])
     bpy.data.objects.remove(one)
-    return made("Sheets", np.concatenate([V + [3 * k, 0, 0] for k in range(count)]),
-                np.concatenate([F + k * len(V) for k in range(count)]))
+    return made(
+        "Sheets",
+        np.concatenate([V + [3 * k, 0, 0] for k in range(count)]),
+        np.concatenate([F + k * len(V) for k in range(count)]),
+    )
 
 
 def start(command, **options):
@@ -166,11 +169,20 @@ class Modal(running.Command):
 
     def __init__(self):
         self.said, self.status = [], []
-        wm = types.SimpleNamespace(event_timer_add=lambda *a, **k: "timer", modal_handler_add=lambda o: None,
-                                   event_timer_remove=lambda t: None, )
+        wm = types.SimpleNamespace(
+            event_timer_add=lambda *a, **k: "timer",
+            modal_handler_add=lambda o: None,
+            event_timer_remove=lambda t: None,
+        )
         self.context = types.SimpleNamespace(
-            window="window", window_manager=wm, workspace=types.SimpleNamespace(status_text_set=self.status.append),
-            screen=None, mode=bpy.context.mode, selected_objects=bpy.context.selected_objects, space_data=None)
+            window="window",
+            window_manager=wm,
+            workspace=types.SimpleNamespace(status_text_set=self.status.append),
+            screen=None,
+            mode=bpy.context.mode,
+            selected_objects=bpy.context.selected_objects,
+            space_data=None,
+        )
 
     def report(self, level, text):
         self.said.append((next(iter(level)), text))

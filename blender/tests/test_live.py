@@ -88,11 +88,21 @@ def test_mouse_and_timer_events_move_it_and_escape_restores():
     view = types.SimpleNamespace(region_to_view=lambda x, y: (x / 1000, y / 1000))
     gone = []
     context = types.SimpleNamespace(
-        region=types.SimpleNamespace(view2d=view), workspace=types.SimpleNamespace(status_text_set=gone.append),
-        window_manager=types.SimpleNamespace(event_timer_remove=gone.append))
+        region=types.SimpleNamespace(view2d=view),
+        workspace=types.SimpleNamespace(status_text_set=gone.append),
+        window_manager=types.SimpleNamespace(event_timer_remove=gone.append),
+    )
     live = dragging.TAUT_OT_live
-    me = types.SimpleNamespace(_drag=drag, _canvas=canvas, _from=(0.1, 0.1), _timer="timer", shift=(0, 0), place=live.place,
-                               leave=lambda c: live.leave(me, c), conclude=lambda shift: live.conclude(me, shift))
+    me = types.SimpleNamespace(
+        _drag=drag,
+        _canvas=canvas,
+        _from=(0.1, 0.1),
+        _timer="timer",
+        shift=(0, 0),
+        place=live.place,
+        leave=lambda c: live.leave(me, c),
+        conclude=lambda shift: live.conclude(me, shift),
+    )
     event = lambda kind, x=0: types.SimpleNamespace(type=kind, value="PRESS", mouse_region_x=x, mouse_region_y=100)
     assert live.modal(me, context, event("MOUSEMOVE", 150)) == {"RUNNING_MODAL"} and np.allclose(me.shift, (0.05, 0))
     assert live.modal(me, context, event("TIMER")) == {"RUNNING_MODAL"}

@@ -153,7 +153,9 @@ def test_a_closed_loop_and_a_branch_are_errors_with_remedies():
     ob = hill(12)
     flat(ob)
     co = [v.co for v in ob.data.vertices]
-    ring = [e.index for e in ob.data.edges if all(abs(max(abs(co[v].x), abs(co[v].y)) - 0.5) < 1e-4 for v in e.vertices)]
+    ring = [
+        e.index for e in ob.data.edges if all(abs(max(abs(co[v].x), abs(co[v].y)) - 0.5) < 1e-4 for v in e.vertices)
+    ]
     select(ob, edges=ring)
     with pytest.raises(RuntimeError, match="Hill: vertices .*closed loop.*deselect an edge, or mark a seam"):
         bpy.ops.taut.straighten()

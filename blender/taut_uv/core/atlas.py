@@ -14,10 +14,25 @@ from .unwrap import torn_edges
 from .work import Clock, Result, untold
 
 
-def atlas(taut, s: Surface, *, prefer: str = "seams", charts: str = "auto", keep_seams: bool = False,
-          symmetric: bool = False, max_distortion: float = 0, padding: float = 2, resolution: int = 1024, tiles: int = 1,
-          rotate: bool = True, density: float = 0, weighted: bool = False, mark_seams: bool = True,
-          time_limit: float = 0, tell=untold) -> Result:
+def atlas(
+    taut,
+    s: Surface,
+    *,
+    prefer: str = "seams",
+    charts: str = "auto",
+    keep_seams: bool = False,
+    symmetric: bool = False,
+    max_distortion: float = 0,
+    padding: float = 2,
+    resolution: int = 1024,
+    tiles: int = 1,
+    rotate: bool = True,
+    density: float = 0,
+    weighted: bool = False,
+    mark_seams: bool = True,
+    time_limit: float = 0,
+    tell=untold,
+) -> Result:
     """One atlas of the chosen faces of all objects.
 
     prefer : "seams", "packing" or "one", as taut.atlas()
@@ -35,9 +50,23 @@ def atlas(taut, s: Surface, *, prefer: str = "seams", charts: str = "auto", keep
     if len(some) == 0:
         raise Trouble("no face is selected; select some, or all")
     pinned = pinned_triangles(s, some)
-    made = _made(taut, s, result, some, pinned, clock, prefer=prefer, charts=charts, keep_seams=keep_seams,
-                 symmetric=symmetric, max_distortion=max_distortion, padding=padding, resolution=resolution, tiles=tiles,
-                 rotate=rotate)
+    made = _made(
+        taut,
+        s,
+        result,
+        some,
+        pinned,
+        clock,
+        prefer=prefer,
+        charts=charts,
+        keep_seams=keep_seams,
+        symmetric=symmetric,
+        max_distortion=max_distortion,
+        padding=padding,
+        resolution=resolution,
+        tiles=tiles,
+        rotate=rotate,
+    )
     if made is None:
         result.complete = False
         return result
@@ -56,8 +85,12 @@ def atlas(taut, s: Surface, *, prefer: str = "seams", charts: str = "auto", keep
         result.seam = np.where(inside, torn_edges(s, place), s.seam)
     result.complete = result.complete and made.complete
     result.notes += layout.notes + made.repairs + made.notes
-    result.numbers.update(charts=layout.charts(), tiles=len(np.unique(layout.tile[made.chart >= 0])),
-                          density=layout.scale() * resolution, distortion=made.distortion)
+    result.numbers.update(
+        charts=layout.charts(),
+        tiles=len(np.unique(layout.tile[made.chart >= 0])),
+        density=layout.scale() * resolution,
+        distortion=made.distortion,
+    )
     return result
 
 
@@ -123,8 +156,13 @@ def _explained(error, s: Surface, some: np.ndarray, used: np.ndarray) -> Trouble
         why = str(error).split(f"triangle {triangle} ", 1)[1].split(";")[0]
         if " that of triangle" in why:
             why = "overlaps another pinned one"
-        return Trouble(about_faces(s, s.triangle_face[some[[triangle]]], f"its pinned island {why}; clear its pins (Alt P), "
-                                   "or move it into the tiles"))
+        return Trouble(
+            about_faces(
+                s,
+                s.triangle_face[some[[triangle]]],
+                f"its pinned island {why}; clear its pins (Alt P), or move it into the tiles",
+            )
+        )
     return Trouble(str(error))
 
 
@@ -134,20 +172,31 @@ def write_atlas(s: Surface, result: Result, made, layout: Layout, some: np.ndarr
     own = made.chart >= 0
     uv, flat = in_single(layout.uv, layout.faces[own])
     if len(flat):
-        result.problems.append(about_faces(s, s.triangle_face[some[np.flatnonzero(own)[flat]]],
-                                           "too small for the numbers of UV maps; dissolve what is so small"))
+        result.problems.append(
+            about_faces(
+                s,
+                s.triangle_face[some[np.flatnonzero(own)[flat]]],
+                "too small for the numbers of UV maps; dissolve what is so small",
+            )
+        )
     place = np.full(s.corners, -1)
     place[corners.reshape(-1)] = layout.faces.reshape(-1)
     divided = (place[corners] != layout.faces).any(1)
     if divided.any():
-        result.problems.append(about_faces(s, s.triangle_face[some[divided]],
-                                           "a seam divides it; triangulate it (Ctrl T) and make the atlas again"))
+        result.problems.append(
+            about_faces(
+                s, s.triangle_face[some[divided]], "a seam divides it; triangulate it (Ctrl T) and make the atlas again"
+            )
+        )
     touched = place >= 0
     result.uv[touched] = uv[place[touched]]
     result.changed |= touched
     if (~own).any():
-        result.problems.append(about_faces(s, s.triangle_face[some[~own]],
-                                           "left out of the atlas, as it has no area or makes no surface; delete it, or "
-                                           "Mesh > Clean Up > Degenerate Dissolve"))
-
-
+        result.problems.append(
+            about_faces(
+                s,
+                s.triangle_face[some[~own]],
+                "left out of the atlas, as it has no area or makes no surface; delete it, or "
+                "Mesh > Clean Up > Degenerate Dissolve",
+            )
+        )

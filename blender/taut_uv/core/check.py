@@ -35,7 +35,7 @@ def check(taut, s: Surface, *, flips: bool = True, overlaps: bool = True, time_l
 
 
 def flipped_faces(s: Surface) -> tuple[np.ndarray, int]:
-    """Faces with a triangle that runs against its island, or is flat in the plane but not in space; mirrored islands."""
+    """Faces with a triangle that runs against its island, or is flat in the plane alone; how many islands mirror."""
     bad, mirrored = [], 0
     for island in islands_of(s, by_uv=True):
         x = s.uv[s.triangles[island.triangles]].reshape(-1, 2)
@@ -65,7 +65,7 @@ def overlapping_faces(s: Surface) -> np.ndarray:
     a, b = candidate_pairs(t)
     hit = np.zeros(len(a), bool)
     for i in range(0, len(a), 1 << 20):
-        hit[i:i + (1 << 20)] = _have_area_in_common(t[a[i:i + (1 << 20)]], t[b[i:i + (1 << 20)]])
+        hit[i : i + (1 << 20)] = _have_area_in_common(t[a[i : i + (1 << 20)]], t[b[i : i + (1 << 20)]])
     faces = np.sort(np.c_[s.triangle_face[triangles[a[hit]]], s.triangle_face[triangles[b[hit]]]], 1)
     return np.unique(faces[faces[:, 0] != faces[:, 1]], axis=0)
 

@@ -63,8 +63,8 @@ def roots(count: int, pairs: np.ndarray) -> np.ndarray:
 
 
 def sides_of_edges(s: Surface, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of corners whose edges are the same one, of edges that exactly two of the marked faces have, and the corners
-    whose edges have three or more."""
+    """Pairs of corners with an edge in common that just two of the marked faces have; and corners whose edges three
+    or more have."""
     used = np.flatnonzero(faces[s.face])
     order = used[np.argsort(s.edge[used], kind="stable")]
     _, start, times = np.unique(s.edge[order], return_index=True, return_counts=True)
@@ -108,10 +108,20 @@ def islands_of(s: Surface, faces: np.ndarray | None = None, *, by_uv: bool = Fal
     for i, j in zip(bounds[:-1], bounds[1:]):
         corners = order[i:j]
         root = part[s.face[corners[0]]]
-        triangles = triangle_order[np.searchsorted(sorted_parts, root): np.searchsorted(sorted_parts, root, "right")]
+        triangles = triangle_order[np.searchsorted(sorted_parts, root) : np.searchsorted(sorted_parts, root, "right")]
         _, first, local = np.unique(place[corners], return_index=True, return_inverse=True)
         first, local = corners[first], local.reshape(-1)
         number[corners] = local
-        found.append(Island(corners, local, s.vertex[first], first, s.V[s.vertex[first]], number[s.triangles[triangles]],
-                            triangles, np.unique(s.face[corners])))
+        found.append(
+            Island(
+                corners,
+                local,
+                s.vertex[first],
+                first,
+                s.V[s.vertex[first]],
+                number[s.triangles[triangles]],
+                triangles,
+                np.unique(s.face[corners]),
+            )
+        )
     return found

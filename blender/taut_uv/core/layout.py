@@ -42,8 +42,19 @@ class Layout:
     notes : list of str
     """
 
-    def __init__(self, taut, s: Surface, made, some: np.ndarray, pinned: np.ndarray, clock: Clock, padding: float,
-                 resolution: int, tiles: int, rotate: bool) -> None:
+    def __init__(
+        self,
+        taut,
+        s: Surface,
+        made,
+        some: np.ndarray,
+        pinned: np.ndarray,
+        clock: Clock,
+        padding: float,
+        resolution: int,
+        tiles: int,
+        rotate: bool,
+    ) -> None:
         self._taut, self._clock = taut, clock
         self._padding, self._resolution, self._tiles, self._rotate = padding, resolution, tiles, rotate
         self._area = areas(s.V, s.vertex[s.triangles[some]])
@@ -67,9 +78,16 @@ class Layout:
         self._tiles = tiles or self._tiles
         own = self._own
         packed = self._taut.pack(
-            self.uv, self.faces[own], fixed=~self._moves[own] if (own & ~self._moves).any() else None,
-            padding=self._padding if padding is None else padding, resolution=self._resolution, tiles=self._tiles,
-            rotate=self._rotate, densities=None if factors is None else factors[own], time_limit=self._clock.left)
+            self.uv,
+            self.faces[own],
+            fixed=~self._moves[own] if (own & ~self._moves).any() else None,
+            padding=self._padding if padding is None else padding,
+            resolution=self._resolution,
+            tiles=self._tiles,
+            rotate=self._rotate,
+            densities=None if factors is None else factors[own],
+            time_limit=self._clock.left,
+        )
         self.uv = packed.uv
         self.tile[own] = packed.tile
 
@@ -118,7 +136,7 @@ class Layout:
         self.uv[moved] = corner[moved] + (self.uv[moved] - corner[moved]) * factor
 
     def _divide(self, most: float) -> None:
-        """Divides charts that are longer, between polygons, across their longest direction: what is left is as it was."""
+        """Divides charts that are longer, between polygons, across their longest direction. Maps stay as they are."""
         centre = self.uv[self.faces].mean(1)
         count = np.zeros(self._polygon.max() + 1)
         sums = np.zeros((len(count), 2))

@@ -20,5 +20,6 @@ def taut(folder: str = ""):
     except ImportError as e:
         version = f"{sys.version_info.major}.{sys.version_info.minor}"
         raise Missing(
-            f"the Python package taut cannot be loaded ({e}); install the zip that contains it, or name the folder of a "
-            f"taut for Python {version} in the preferences of the add-on") from e
+            f"the Python package taut cannot be loaded ({e}); install the zip that contains it, or name the folder of "
+            f"a taut for Python {version} in the preferences of the add-on"
+        ) from e

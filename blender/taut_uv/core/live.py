@@ -25,8 +25,13 @@ class _Held:
         x = mirrored(self.before) if self._mirror else self.before
         wrong = orientation(x, island.F) <= 0
         if wrong.any():
-            raise Trouble(about_faces(s, s.triangle_face[island.triangles[wrong]],
-                                      "flipped UVs, which Live cannot drag; Relax or Unwrap them first"))
+            raise Trouble(
+                about_faces(
+                    s,
+                    s.triangle_face[island.triangles[wrong]],
+                    "flipped UVs, which Live cannot drag; Relax or Unwrap them first",
+                )
+            )
         pinned = np.setdiff1d(np.flatnonzero(island.any_corner(s.pinned)), self.grabbed)
         if len(pinned) == 0:  # else a dragged vertex would take the whole island with it
             away = np.linalg.norm(x - x[self.grabbed].mean(0), axis=1)

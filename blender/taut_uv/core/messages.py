@@ -29,7 +29,7 @@ class Trouble(RuntimeError):
 
 
 def listed(s: Surface, kind: str, ids, most: int = 5) -> str:
-    """"Cube: faces 3, 4 and 17 more"."""
+    """ "Cube: faces 3, 4 and 17 more"."""
     plurals = {"face": "faces", "vertex": "vertices", "edge": "edges"}
     words = []
     for name, numbers in s.named(kind, ids):
@@ -63,8 +63,8 @@ _OF_VERTICES = {
 }
 _OF_ISLANDS = {
     "closed_surface": "a closed island, which cannot be laid flat; mark seams, use Atlas, or check Cut Where Needed",
-    "handles": "an island with a handle, which cannot be laid flat; mark a seam along it, use Atlas, or check Cut Where "
-               "Needed",
+    "handles": "an island with a handle, which cannot be laid flat; mark a seam along it, use Atlas, or check "
+    "Cut Where Needed",
 }
 
 
@@ -85,7 +85,9 @@ def explained(error: Exception, s: Surface, island: Island) -> Problem:
         what = f"these pins admit no map without folds ({_before_ids(error)}); move them, or clear some (Alt P)"
         return _of_either(s, island, ids, str(error), what)
     if name == "NoMap":
-        what = f"no map without folds was found ({_before_ids(error)}); clear or move pins, mark a seam, or give more time"
+        what = (
+            f"no map without folds was found ({_before_ids(error)}); clear or move pins, mark a seam, or give more time"
+        )
         return about_faces(s, island.faces, what)
     return about_faces(s, island.faces, str(error))
 

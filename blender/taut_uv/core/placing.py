@@ -12,8 +12,7 @@ from .surface import Surface
 from .work import Clock, Result
 
 
-def pack_islands(taut, result: Result, placed, loose, padding: float, resolution: int, rotate: bool,
-                 clock: Clock):
+def pack_islands(taut, result: Result, placed, loose, padding: float, resolution: int, rotate: bool, clock: Clock):
     """Maps of the loose islands, packed into the unit square around those that are placed, where these lie in it."""
     inside = [p for p in placed if (p[1] >= 0).all() and (p[1] <= 1).all()]
     if len(inside) < len(placed):
@@ -24,8 +23,9 @@ def pack_islands(taut, result: Result, placed, loose, padding: float, resolution
     F = np.concatenate([i.F + at for (i, _, _), at in zip(parts, first)])
     fixed = np.repeat([True] * len(inside) + [False] * len(loose), [len(i.F) for i, _, _ in parts])
     try:
-        made = taut.pack(uv, F, fixed=fixed, padding=padding, resolution=resolution, rotate=rotate,
-                         time_limit=clock.left)
+        made = taut.pack(
+            uv, F, fixed=fixed, padding=padding, resolution=resolution, rotate=rotate, time_limit=clock.left
+        )
     except taut.Cancelled as e:
         result.complete = False
         if e.best is None:
@@ -34,8 +34,8 @@ def pack_islands(taut, result: Result, placed, loose, padding: float, resolution
     except taut.TautError as e:
         result.notes.append(f"islands are not packed: {e}")
         return side_by_side(loose)
-    at = first[len(inside):]
-    return [(island, made.uv[i:i + len(x)], pins) for (island, x, pins), i in zip(loose, at)]
+    at = first[len(inside) :]
+    return [(island, made.uv[i : i + len(x)], pins) for (island, x, pins), i in zip(loose, at)]
 
 
 def side_by_side(loose):
@@ -52,7 +52,7 @@ def side_by_side(loose):
 
 
 def write_island(s: Surface, result: Result, island: Island, x: np.ndarray, fixed: np.ndarray) -> Problem | None:
-    """Writes the map of an island as single precision holds it; what rounding flattens and nothing helps is a problem."""
+    """Writes the map of an island as single precision holds it. Triangles that this flattens are a problem."""
     if signed_areas(x, island.F).sum() < 0:  # pins may mirror an island
         y, flat = in_single(mirrored(x), island.F, fixed)
         y = mirrored(y)
@@ -62,5 +62,8 @@ def write_island(s: Surface, result: Result, island: Island, x: np.ndarray, fixe
     result.changed[island.corners] = True
     if len(flat) == 0:
         return None
-    return about_faces(s, s.triangle_face[island.triangles[flat]],
-                       "too small for the numbers of UV maps; scale the island up, or dissolve what is so small")
+    return about_faces(
+        s,
+        s.triangle_face[island.triangles[flat]],
+        "too small for the numbers of UV maps; scale the island up, or dissolve what is so small",
+    )

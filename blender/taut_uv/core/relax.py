@@ -14,12 +14,22 @@ from .unwrap import triangle_weights
 from .work import Clock, Result, untold
 
 
-def relax(taut, s: Surface, *, axis: str = "both", hold_border: bool = False, energy: str = "isometric",
-          no_overlap: bool = False, weighted: bool = False, time_limit: float = 0, tell=untold) -> Result:
+def relax(
+    taut,
+    s: Surface,
+    *,
+    axis: str = "both",
+    hold_border: bool = False,
+    energy: str = "isometric",
+    no_overlap: bool = False,
+    weighted: bool = False,
+    time_limit: float = 0,
+    tell=untold,
+) -> Result:
     """Relax the chosen faces within their islands, as they lie in the UV editor.
 
     Held are all corners of faces that are not chosen, and pinned ones. axis: "both", or "u" or "v", the one coordinate
-    that may change. hold_border: open borders of islands stay, too. Lengths are compared at the size of the whole island.
+    that may change. hold_border: open borders of islands stay, too. Lengths are compared at the size of whole islands.
     An island that is chosen as a whole, and has no pins, keeps its place.
     """
     clock, result = Clock(time_limit), Result.of(s)
@@ -44,8 +54,18 @@ def relax(taut, s: Surface, *, axis: str = "both", hold_border: bool = False, en
         if held.all():
             continue
         try:
-            x, fixed, complete = relaxed(taut, s, island, held, axis, sizes[island.faces[0]], clock, energy=energy,
-                                         no_overlap=no_overlap, weighted=weighted)
+            x, fixed, complete = relaxed(
+                taut,
+                s,
+                island,
+                held,
+                axis,
+                sizes[island.faces[0]],
+                clock,
+                energy=energy,
+                no_overlap=no_overlap,
+                weighted=weighted,
+            )
         except Trouble as e:
             result.problems.append(e.problem)
             continue
@@ -66,8 +86,10 @@ def relax(taut, s: Surface, *, axis: str = "both", hold_border: bool = False, en
             result.complete = False
             break
     if not moved and not result.problems and result.complete:
-        raise Trouble("all corners of the selected faces are held: by faces beside them that are not selected, or by pins; "
-                      "select more faces, or clear pins (Alt P)")
+        raise Trouble(
+            "all corners of the selected faces are held: by faces beside them that are not selected, or by pins; "
+            "select more faces, or clear pins (Alt P)"
+        )
     result.numbers["islands"] = moved
     return result
 
@@ -80,7 +102,7 @@ def _spread(place: np.ndarray, flags: np.ndarray) -> np.ndarray:
 
 
 def island_scales(s: Surface) -> np.ndarray:
-    """Of each face: lengths in the plane by lengths in space of its whole island, in the UV editor; 0: it has no area."""
+    """Of each face: lengths in the plane by lengths in space of its whole island as it lies; 0: it has no area."""
     scale = np.zeros(s.faces)
     for island in islands_of(s, np.ones(s.faces, bool), by_uv=True):
         size, flat = areas(island.V, island.F).sum(), np.abs(signed_areas(island.of_corners(s.uv), island.F)).sum()
@@ -98,8 +120,20 @@ def open_border(s: Surface, island: Island) -> np.ndarray:
     return border
 
 
-def relaxed(taut, s: Surface, island: Island, held: np.ndarray, axis: str, scale: float, clock: Clock, *,
-            energy: str = "isometric", no_overlap: bool = False, weighted: bool = False, pins: tuple | None = None):
+def relaxed(
+    taut,
+    s: Surface,
+    island: Island,
+    held: np.ndarray,
+    axis: str,
+    scale: float,
+    clock: Clock,
+    *,
+    energy: str = "isometric",
+    no_overlap: bool = False,
+    weighted: bool = False,
+    pins: tuple | None = None,
+):
     """The map of an island from where it lies; which of its coordinates are fixed; whether it ended by itself.
 
     pins : vertices and places besides those that are held; a coordinate that is NaN is free
@@ -122,9 +156,19 @@ def relaxed(taut, s: Surface, island: Island, held: np.ndarray, axis: str, scale
     b = np.flatnonzero(fixed.any(1))
     bc = np.where(fixed, target, np.nan)[b]
     weights = triangle_weights(s, island) if weighted else None
-    made = taut.unwrap(island.V * scale, island.F, b=b if len(b) else None, bc=bc if len(b) else None, initial=x0,
-                       energy=energy, weights=weights, holes=True, no_overlap=no_overlap, placement="as_solved",
-                       time_limit=clock.left)
+    made = taut.unwrap(
+        island.V * scale,
+        island.F,
+        b=b if len(b) else None,
+        bc=bc if len(b) else None,
+        initial=x0,
+        energy=energy,
+        weights=weights,
+        holes=True,
+        no_overlap=no_overlap,
+        placement="as_solved",
+        time_limit=clock.left,
+    )
     x = made.x
     if not len(b):
         R, shift, _ = rigid_fit(x, x0)

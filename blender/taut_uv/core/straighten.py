@@ -13,8 +13,17 @@ from .surface import Surface
 from .work import Clock, Result, untold
 
 
-def straighten(taut, s: Surface, *, axis: str = "auto", spacing: str = "free", energy: str = "isometric",
-               no_overlap: bool = False, time_limit: float = 0, tell=untold) -> Result:
+def straighten(
+    taut,
+    s: Surface,
+    *,
+    axis: str = "auto",
+    spacing: str = "free",
+    energy: str = "isometric",
+    no_overlap: bool = False,
+    time_limit: float = 0,
+    tell=untold,
+) -> Result:
     """Straighten the marked edges, line by line, as they lie in the UV editor.
 
     axis : "u", "v" or "auto"
@@ -35,8 +44,18 @@ def straighten(taut, s: Surface, *, axis: str = "auto", spacing: str = "free", e
         try:
             paths = paths_of(s, island, ends)
             pins, held = pins_of_paths(s, island, paths, axis, spacing)
-            x, fixed, complete = relaxed(taut, s, island, held, "both", sizes[island.faces[0]], clock, energy=energy,
-                                         no_overlap=no_overlap, pins=pins)
+            x, fixed, complete = relaxed(
+                taut,
+                s,
+                island,
+                held,
+                "both",
+                sizes[island.faces[0]],
+                clock,
+                energy=energy,
+                no_overlap=no_overlap,
+                pins=pins,
+            )
         except Trouble as e:
             result.problems.append(e.problem)
             continue
@@ -72,8 +91,11 @@ def paths_of(s: Surface, island: Island, ends: np.ndarray) -> list[np.ndarray]:
     """Edges as lines, each a row of vertices. Raises Trouble where they branch or close."""
     vertices, degree = np.unique(ends, return_counts=True)
     if (degree > 2).any():
-        raise Trouble(about_vertices(s, island.vertices[vertices[degree > 2]],
-                                     "selected edges branch here; select lines that do not meet"))
+        raise Trouble(
+            about_vertices(
+                s, island.vertices[vertices[degree > 2]], "selected edges branch here; select lines that do not meet"
+            )
+        )
     beside: dict[int, list[int]] = {}
     for a, b in ends.tolist():
         beside.setdefault(a, []).append(b)
@@ -92,8 +114,10 @@ def paths_of(s: Surface, island: Island, ends: np.ndarray) -> list[np.ndarray]:
             path.append(onward[0])
         paths.append(np.array(path))
     if left:
-        raise Trouble(f"{listed(s, 'vertex', island.vertices[sorted(left)])}: the selected edges are a closed loop in the "
-                      "UV map, which cannot be straight; deselect an edge, or mark a seam across it and unwrap")
+        raise Trouble(
+            f"{listed(s, 'vertex', island.vertices[sorted(left)])}: the selected edges are a closed loop in the "
+            "UV map, which cannot be straight; deselect an edge, or mark a seam across it and unwrap"
+        )
     return paths
 
 
@@ -108,8 +132,13 @@ def pins_of_paths(s: Surface, island: Island, paths, axis: str, spacing: str):
         across = 1 - along
         levels = np.unique(p[held[path], across])
         if len(levels) > 1:
-            raise Trouble(about_vertices(s, island.vertices[path[held[path]]],
-                                         "pins beside the straight line; clear all but one (Alt P), or align them"))
+            raise Trouble(
+                about_vertices(
+                    s,
+                    island.vertices[path[held[path]]],
+                    "pins beside the straight line; clear all but one (Alt P), or align them",
+                )
+            )
         place = np.full(p.shape, np.nan)
         place[:, across] = levels[0] if len(levels) else float(np.float32(p[:, across].mean()))
         if spacing == "length":

@@ -59,8 +59,12 @@ class Surface:
     first_edge: np.ndarray = None
 
     def __post_init__(self):
-        for name, count in (("vertex", len(self.V)), ("corner", len(self.vertex)), ("face", len(self.chosen)),
-                            ("edge", len(self.edges))):
+        for name, count in (
+            ("vertex", len(self.V)),
+            ("corner", len(self.vertex)),
+            ("face", len(self.chosen)),
+            ("edge", len(self.edges)),
+        ):
             if getattr(self, f"first_{name}") is None:
                 setattr(self, f"first_{name}", np.array([0, count]))
 
@@ -82,20 +86,32 @@ class Surface:
 
     def copy(self) -> "Surface":
         """With arrays of its own, for a job that runs while the scene goes on."""
-        return Surface(**{f.name: (lambda a: a.copy() if hasattr(a, "copy") else a)(getattr(self, f.name))
-                          for f in fields(self)})
+        return Surface(
+            **{f.name: (lambda a: a.copy() if hasattr(a, "copy") else a)(getattr(self, f.name)) for f in fields(self)}
+        )
 
 
-_SHIFTED = {"vertex": "vertex", "face": "face", "edge": "edge", "next": "corner", "triangles": "corner",
-            "triangle_face": "face", "edges": "vertex"}
+_SHIFTED = {
+    "vertex": "vertex",
+    "face": "face",
+    "edge": "edge",
+    "next": "corner",
+    "triangles": "corner",
+    "triangle_face": "face",
+    "edges": "vertex",
+}
 
 
 def joined(surfaces: list[Surface]) -> Surface:
     """Several objects as one surface."""
     if len(surfaces) == 1:
         return surfaces[0]
-    counts = {"vertex": [len(s.V) for s in surfaces], "corner": [s.corners for s in surfaces],
-              "face": [s.faces for s in surfaces], "edge": [len(s.edges) for s in surfaces]}
+    counts = {
+        "vertex": [len(s.V) for s in surfaces],
+        "corner": [s.corners for s in surfaces],
+        "face": [s.faces for s in surfaces],
+        "edge": [len(s.edges) for s in surfaces],
+    }
     first = {kind: np.cumsum([0] + n) for kind, n in counts.items()}
     arrays = {}
     for f in fields(Surface):
@@ -105,8 +121,9 @@ def joined(surfaces: list[Surface]) -> Surface:
         if f.name in _SHIFTED:
             parts = [p + o for p, o in zip(parts, first[_SHIFTED[f.name]])]
         arrays[f.name] = np.concatenate(parts)
-    return Surface(**arrays, names=[n for s in surfaces for n in s.names],
-                   **{f"first_{kind}": at for kind, at in first.items()})
+    return Surface(
+        **arrays, names=[n for s in surfaces for n in s.names], **{f"first_{kind}": at for kind, at in first.items()}
+    )
 
 
 def from_polygons(V, polygons, **given) -> Surface:
@@ -122,9 +139,19 @@ def from_polygons(V, polygons, **given) -> Surface:
     fans = [[(start[i], start[i] + k, start[i] + k + 1) for k in range(1, n - 1)] for i, n in enumerate(sizes)]
     c = len(vertex)
     arrays = dict(
-        V=V, vertex=vertex, face=face, edge=edge.reshape(-1), next=following,
+        V=V,
+        vertex=vertex,
+        face=face,
+        edge=edge.reshape(-1),
+        next=following,
         triangles=np.array([t for fan in fans for t in fan], dtype=np.int64).reshape(-1, 3),
-        triangle_face=np.repeat(np.arange(len(polygons)), sizes - 2), edges=edges, seam=np.zeros(len(edges), bool),
-        uv=np.zeros((c, 2)), pinned=np.zeros(c, bool), chosen=np.ones(len(polygons), bool),
-        line=np.zeros(len(edges), bool), weight=np.ones(len(V)))
+        triangle_face=np.repeat(np.arange(len(polygons)), sizes - 2),
+        edges=edges,
+        seam=np.zeros(len(edges), bool),
+        uv=np.zeros((c, 2)),
+        pinned=np.zeros(c, bool),
+        chosen=np.ones(len(polygons), bool),
+        line=np.zeros(len(edges), bool),
+        weight=np.ones(len(V)),
+    )
     return Surface(**{**arrays, **given})

@@ -16,14 +16,26 @@ from .work import Clock, Result, untold
 _CUT = ("closed_surface", "handles", "several_boundaries")
 
 
-def unwrap(taut, s: Surface, *, energy: str = "isometric", no_overlap: bool = False, cut: bool = False,
-           weighted: bool = False, pack: bool = True, rotate: bool = True, padding: float = 2,
-           resolution: int = 1024, time_limit: float = 0, tell=untold) -> Result:
+def unwrap(
+    taut,
+    s: Surface,
+    *,
+    energy: str = "isometric",
+    no_overlap: bool = False,
+    cut: bool = False,
+    weighted: bool = False,
+    pack: bool = True,
+    rotate: bool = True,
+    padding: float = 2,
+    resolution: int = 1024,
+    time_limit: float = 0,
+    tell=untold,
+) -> Result:
     """Lay the islands of the chosen faces flat.
 
-    Islands with pinned corners lie as these say; the others are packed into the unit square, around them. An island that
-    is no disk is reported, or cut where it has to be. weighted: triangles count as their vertices are painted. A stop or
-    a time limit leaves the islands that are done.
+    Islands with pinned corners lie as these say; the others are packed into the unit square, around them. An island
+    that is no disk is reported, or cut where it has to be. weighted: triangles count as their vertices are painted. A
+    stop or a time limit leaves the islands that are done.
     """
     clock, result = Clock(time_limit), Result.of(s)
     islands = islands_of(s)
@@ -65,12 +77,19 @@ def pins_of(s: Surface, island: Island) -> tuple[np.ndarray, np.ndarray]:
     place[b] = bc
     apart = (s.uv[corners] != place[local]).any(1)
     if apart.any():
-        raise Trouble(about_vertices(s, s.vertex[corners[apart]],
-                                     "pinned to two places on one side of the seams; weld its UVs, clear a pin, or mark a "
-                                     "seam"))
+        raise Trouble(
+            about_vertices(
+                s,
+                s.vertex[corners[apart]],
+                "pinned to two places on one side of the seams; weld its UVs, clear a pin, or mark a seam",
+            )
+        )
     if not np.isfinite(bc).all():
-        raise Trouble(about_vertices(s, s.vertex[corners[~np.isfinite(s.uv[corners]).all(1)]],
-                                     "a pin that is no number; clear it"))
+        raise Trouble(
+            about_vertices(
+                s, s.vertex[corners[~np.isfinite(s.uv[corners]).all(1)]], "a pin that is no number; clear it"
+            )
+        )
     return b, bc
 
 
@@ -80,7 +99,7 @@ def triangle_weights(s: Surface, island: Island) -> np.ndarray:
 
 
 def _map(taut, s, island, pins, energy, no_overlap, cut, weighted, clock):
-    """The island, or the parts that it was cut into, each with its map and pins, and whether it is as good as it gets."""
+    """The island, or the parts that it was cut into, each with its map and pins; whether these are done."""
     weights = triangle_weights(s, island) if weighted else None
     common = dict(energy=energy, weights=weights, holes=True)
     pinned = len(pins[0]) > 0
@@ -90,7 +109,8 @@ def _map(taut, s, island, pins, energy, no_overlap, cut, weighted, clock):
         if not cut or e.fault not in _CUT:
             raise
         if pinned:
-            raise Trouble(about_faces(s, island.faces, "an island with pins that is no disk; mark seams that make it one"))
+            what = "an island with pins that is no disk; mark seams that make it one"
+            raise Trouble(about_faces(s, island.faces, what)) from e
         return _cut(taut, s, island, clock), True
     except taut.Cancelled as e:
         if e.best is None or pinned:
@@ -123,22 +143,27 @@ def _pinned(taut, s, island, free, pins, no_overlap, clock, common):
         scale, start = float(np.hypot(*R[:, 0])), free @ R.T + shift
     if not scale > 0 or not np.isfinite(scale) or np.ptp(bc, axis=0).max() == 0 < len(b) - 1:
         raise Trouble(about_vertices(s, island.vertices[b], "pins that all lie in one point; move them apart"))
-    made = taut.unwrap(island.V * scale, island.F, b=b, bc=bc, initial=start, no_overlap=no_overlap, time_limit=clock.left,
-                       **common)
+    made = taut.unwrap(
+        island.V * scale, island.F, b=b, bc=bc, initial=start, no_overlap=no_overlap, time_limit=clock.left, **common
+    )
     return made, mirror
 
 
 def _old_scale(s: Surface, island: Island) -> float:
     """Lengths in the plane by lengths in space, as the island lies now; or such that it would fill the unit square."""
     old = island.of_corners(s.uv)
-    flat = np.abs(np.cross(old[island.F[:, 1]] - old[island.F[:, 0]], old[island.F[:, 2]] - old[island.F[:, 0]])).sum() / 2
+    flat = (
+        np.abs(np.cross(old[island.F[:, 1]] - old[island.F[:, 0]], old[island.F[:, 2]] - old[island.F[:, 0]])).sum() / 2
+    )
     size = areas(island.V, island.F).sum()
     return float(np.sqrt((flat if np.isfinite(flat) and flat > 0 else 0.5) / size))
 
 
 def _cut(taut, s, island, clock):
     """The parts of an island that is no disk: one where it can be, as Atlas makes them; between polygons alone."""
-    made = taut.atlas(island.V, island.F, prefer="one", polygons=s.triangle_face[island.triangles], time_limit=clock.left)
+    made = taut.atlas(
+        island.V, island.F, prefer="one", polygons=s.triangle_face[island.triangles], time_limit=clock.left
+    )
     if not made.complete:
         raise taut.NoMap("the time was over before it was cut", fault="stopped")
     return parts_of_atlas(s, island, made)
@@ -157,8 +182,22 @@ def parts_of_atlas(s: Surface, island: Island, made) -> list[tuple[Island, np.nd
         local = F.reshape(-1)[at]
         first = np.zeros(len(used), np.int64)
         first[local] = corners
-        parts.append((Island(corners, local, s.vertex[first], first, s.V[s.vertex[first]], F, triangles,
-                             np.unique(s.triangle_face[triangles])), made.uv[used], none))
+        parts.append(
+            (
+                Island(
+                    corners,
+                    local,
+                    s.vertex[first],
+                    first,
+                    s.V[s.vertex[first]],
+                    F,
+                    triangles,
+                    np.unique(s.triangle_face[triangles]),
+                ),
+                made.uv[used],
+                none,
+            )
+        )
     return parts
 
 
@@ -198,4 +237,3 @@ def torn_edges(s: Surface, place: np.ndarray) -> np.ndarray:
     known = (place[a] >= 0) & (place[start] >= 0)
     torn[s.edge[a[apart & known]]] = True
     return torn
-
