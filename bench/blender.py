@@ -125,7 +125,7 @@ def cell(row):
     """A row's figures as words of a table."""
     if "error" in row:
         return ["", "", "", "", row["error"][:60]]
-    energy = f"{row['energy']:.3f}" if row["flips"] == 0 else f"({row['energy']:.3f})"
+    energy = f"{row['energy']:.4g}" if row["flips"] == 0 else f"({row['energy']:.4g})"
     return [f"{row['seconds']:.2f}", str(row["flips"]), f"{100 * row['overlap']:.2f} %", energy,
             "" if row["pins"] is None else ("as they were" if row["pins"] == 0 else f"moved by {row['pins']:.0e}")]
 
@@ -143,7 +143,7 @@ def table(rows, heads):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--repeat", type=int, default=1)
     parser.add_argument("--write", type=pathlib.Path)
     parser.add_argument("--only", default="")
     given = parser.parse_args()

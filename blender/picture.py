@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""picture.py OUT.png: a monkey with a checkerboard, and its UV map, by Blender's Conformal and by taut's Unwrap, along the
-same seams; rendered by Cycles. For Blender as a Python module, with the package taut on PYTHONPATH."""
+"""picture.py OUT.png: a monkey with a checkerboard, and its UV map, by Blender's Conformal and by taut's Unwrap, along
+the same seams; rendered by Cycles. For Blender as a Python module, with the package taut on PYTHONPATH."""
 
 import math
 import pathlib

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from .core.messages import Trouble
+from .core.polygons import without_flat
 from .core.surface import Surface, joined
 from .core.work import Result
 
@@ -98,14 +99,16 @@ class Reader:
             line = np.zeros(len(mesh.edges), bool)
             line[edge[along]] = True
         weight = np.ones(len(V)) if group is None else _painted(mesh, group.index)
+        triangles = _get(mesh.loop_triangles, "loops", np.int32, 3).astype(np.int64)
+        triangle_face = _get(mesh.loop_triangles, "polygon_index", np.int32).astype(np.int64)
         surface = Surface(
             V=V,
             vertex=vertex,
             face=face,
             edge=edge,
             next=following,
-            triangles=_get(mesh.loop_triangles, "loops", np.int32, 3).astype(np.int64),
-            triangle_face=_get(mesh.loop_triangles, "polygon_index", np.int32).astype(np.int64),
+            triangles=without_flat(V, vertex, triangles, triangle_face),
+            triangle_face=triangle_face,
             edges=_get(mesh.edges, "vertices", np.int32, 2).astype(np.int64),
             seam=_get(mesh.edges, "use_seam", bool),
             uv=uv.astype(np.float64),

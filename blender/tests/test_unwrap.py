@@ -5,7 +5,21 @@ import bpy
 import judge
 import numpy as np
 import pytest
-from scenes import choose, corners_of, flat, hill, mode, pin, pin_corners, primitive, select, tube, tube_seams, uv_of
+from scenes import (
+    choose,
+    corners_of,
+    flat,
+    hill,
+    made,
+    mode,
+    pin,
+    pin_corners,
+    primitive,
+    select,
+    tube,
+    tube_seams,
+    uv_of,
+)
 
 PINNED = {0: (0.1, 0.1), 16: (0.87, 0.13), 288: (0.9, 0.95), 272: (0.2, 0.8), 150: (0.55, 0.5)}
 
@@ -124,6 +138,20 @@ def test_a_face_without_area_is_named():
     ob.data.vertices[10].co = ob.data.vertices[11].co
     with pytest.raises(RuntimeError, match=r"Hill: faces? .*no area; Mesh > Clean Up"):
         bpy.ops.taut.unwrap()
+
+
+@pytest.mark.parametrize("command", ["unwrap", "atlas"])
+def test_quads_with_a_straight_corner_are_no_faces_without_area(command):
+    V = [(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 2, 0), (0, -2, 0), (2, -2, 0), (2, 2, 1)]
+    ob = made("Joint", V, [(0, 1, 2, 3), (4, 5, 2, 1, 0), (2, 6, 3)])
+    assert getattr(bpy.ops.taut, command)() == {"FINISHED"}
+    r = judge.Read(ob)
+    for loops in r.polygons:
+        p, q = r.uv[loops], np.roll(r.uv[loops], -1, 0)
+        assert (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]).sum() > 0
+    assert len(set(judge.islands(r))) == 1 and not judge.overlaps(r)
+    bpy.ops.taut.check()
+    assert not judge.Read(ob).selected.any()
 
 
 def test_pins_that_contradict_each_other_are_named():
