@@ -136,8 +136,10 @@ def select(ob, faces=None, edges=None, vertices=None):
         on[0][[v for f in np.flatnonzero(on[2]) for v in mesh.polygons[f].vertices]] = True
     if edges is not None:
         on[0][[v for e in np.flatnonzero(on[1]) for v in mesh.edges[e].vertices]] = True
-    for collection, flags in zip((mesh.vertices, mesh.edges, mesh.polygons), on):
-        collection.foreach_set("select", flags)
+    for part, domain, flags in zip(("vert", "edge", "poly"), ("POINT", "EDGE", "FACE"), on):
+        name = f".select_{part}"
+        attribute = mesh.attributes.get(name) or mesh.attributes.new(name, "BOOLEAN", domain)
+        attribute.data.foreach_set("value", flags)
     bpy.context.tool_settings.mesh_select_mode = kind
     mesh.update()
     mode("EDIT")

@@ -33,8 +33,9 @@ def test_several_objects_share_a_square_at_one_density_and_seams_are_marked():
 
 
 def test_udim_tiles_are_all_used_and_no_chart_leaves_its_tile():
-    obs = three()
-    bpy.ops.taut.atlas(tiles=3, prefer="packing")
+    obs = primitive("torus", "Ring", major_segments=24, minor_segments=12), tube(name="Pipe")
+    choose(*obs)
+    bpy.ops.taut.atlas(tiles=2, prefer="packing")
     tiles = set()
     for r in map(judge.Read, obs):
         part = judge.islands(r)
@@ -43,7 +44,7 @@ def test_udim_tiles_are_all_used_and_no_chart_leaves_its_tile():
             assert (np.floor(uv.min(0)) == np.floor(uv.max(0))).all()
             tiles.add(tuple(np.floor(uv.mean(0)).astype(int)))
         assert judge.flips(r) == 0
-    assert tiles == {(0, 0), (1, 0), (2, 0)} and not judge.overlaps(*map(judge.Read, obs))
+    assert tiles == {(0, 0), (1, 0)} and not judge.overlaps(*map(judge.Read, obs))
 
 
 @pytest.mark.parametrize("density", [10.0, 45.0])
