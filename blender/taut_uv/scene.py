@@ -258,9 +258,11 @@ def _select(mesh, faces: np.ndarray) -> None:
     vertices, edges = np.zeros(len(mesh.vertices), bool), np.zeros(len(mesh.edges), bool)
     vertices[vertex[of_corner]] = True
     edges[edge[of_corner]] = True
-    # By attributes: foreach_set("select") ends Blender 5.0 where nothing was ever selected.
+    # As new attributes: foreach_set("select") ends Blender 5.0 where all elements of a mesh are selected.
     for kind, domain, values in (("vert", "POINT", vertices), ("edge", "EDGE", edges), ("poly", "FACE", faces)):
         name = f".select_{kind}"
-        attribute = mesh.attributes.get(name) or mesh.attributes.new(name, "BOOLEAN", domain)
+        if name in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[name])
+        attribute = mesh.attributes.new(name, "BOOLEAN", domain)
         attribute.data.foreach_set("value", np.ascontiguousarray(values))
     mesh.update()

@@ -138,7 +138,9 @@ def select(ob, faces=None, edges=None, vertices=None):
         on[0][[v for e in np.flatnonzero(on[1]) for v in mesh.edges[e].vertices]] = True
     for part, domain, flags in zip(("vert", "edge", "poly"), ("POINT", "EDGE", "FACE"), on):
         name = f".select_{part}"
-        attribute = mesh.attributes.get(name) or mesh.attributes.new(name, "BOOLEAN", domain)
+        if name in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[name])
+        attribute = mesh.attributes.new(name, "BOOLEAN", domain)
         attribute.data.foreach_set("value", flags)
     bpy.context.tool_settings.mesh_select_mode = kind
     mesh.update()

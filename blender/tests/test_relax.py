@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Relax and Straighten: a part moves, the rest stays bit for bit."""
 
+import bmesh
 import bpy
 import judge
 import numpy as np
 import pytest
 from scenes import corners_of, flat, hill, mode, pin, primitive, select, tube, tube_seams, uv_of
+from taut_uv import scene
 
 
 def inner_faces(ob, radius):
@@ -181,3 +183,26 @@ def test_other_islands_and_objects_stay():
     own = [c for f in (0, 1) for c in ob.data.polygons[f].loop_indices]
     rest = np.setdiff1d(np.arange(24), own)
     assert (uv_of(ob)[rest] == before[rest]).all()
+
+
+def test_a_selection_of_the_uv_editor_is_taken_where_it_is_asked_for():
+    ob = hill(4)
+    flat(ob)
+    select(ob, faces=range(16))
+    bm = bmesh.from_edit_mesh(ob.data)
+    layer = bm.loops.layers.uv.verify()
+    bm.faces.ensure_lookup_table()
+    for face in bm.faces:
+        for loop in face.loops:
+            picked = loop if hasattr(loop, "uv_select_vert") else loop[layer]
+            names = ("uv_select_vert", "uv_select_edge") if picked is loop else ("select", "select_edge")
+            for name in names:
+                setattr(picked, name, face.index in (5, 6))
+    bmesh.update_edit_mesh(ob.data)
+    reader = scene.Reader([ob], uv_selection=True)
+    assert np.flatnonzero(reader.surface.chosen).tolist() == [5, 6]
+    assert set(reader.surface.face[reader.grabbed]) == {5, 6}
+    edges = {tuple(sorted(reader.surface.edges[e])) for e in np.flatnonzero(reader.surface.line)}
+    sides = lambda f: {tuple(sorted(k)) for k in ob.data.polygons[f].edge_keys}
+    assert edges == sides(5) | sides(6)
+    assert np.flatnonzero(scene.Reader([ob]).surface.chosen).tolist() == list(range(16))
