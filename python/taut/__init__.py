@@ -18,9 +18,10 @@ from ._evaluator import Evaluator
 from ._files import Mesh, devices, read, write
 from ._jobs import Job, start
 from ._maps import certify, distortion, quality, unwrap
+from ._packing import pack
 from ._paste import paste
 from ._repair import repair
-from ._results import Atlas, Certificate, Device, Frame, Map, Pasted, Repaired
+from ._results import Atlas, Certificate, Device, Frame, Map, Packed, Pasted, Repaired
 from ._session import Session
 from ._trace import Element, Energy, check_gradient, energy, where
 from ._volumes import deform, shell, smooth, untangle
@@ -41,8 +42,8 @@ from .errors import (
 __all__ = [
     "Atlas", "Cancelled", "Certificate", "ConstraintError", "Device", "DeviceError", "Element", "Energy", "Evaluator",
     "FileError", "Frame", "Infeasible", "Interrupted", "Job", "Map", "Mesh", "MeshError", "NoMap", "ParameterError",
-    "Pasted", "Repaired", "Session", "TautError", "TraceError", "atlas", "certify", "check_gradient", "deform",
-    "devices", "distortion", "energies", "energy", "paste", "quality", "read", "repair", "shell", "smooth", "start",
+    "Packed", "Pasted", "Repaired", "Session", "TautError", "TraceError", "atlas", "certify", "check_gradient", "deform",
+    "devices", "distortion", "energies", "energy", "pack", "paste", "quality", "read", "repair", "shell", "smooth", "start",
     "untangle", "unwrap", "where", "write",
 ]
 

@@ -246,6 +246,35 @@ class Repaired:
 
 
 @dataclass(frozen=True, eq=False)
+class Packed:
+    """Charts packed into tiles. Unpacks as `uv, tile`.
+
+    Attributes
+    ----------
+    uv : (n, 2) float64
+        The points at their places; tile t is the unit square at (t % 10, t // 10).
+    chart, tile : (m,) int64
+        Of each triangle.
+    scale : float
+        By which lengths were multiplied, before densities.
+    utilization : float
+        Area of the triangles that were packed by that of the tiles.
+    complete : bool
+        False: a limit ended it; the layout is valid and could be denser.
+    """
+
+    uv: Floats = field(repr=False)
+    chart: Ints = field(repr=False)
+    tile: Ints = field(repr=False)
+    scale: float
+    utilization: float
+    complete: bool
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter((self.uv, self.tile))
+
+
+@dataclass(frozen=True, eq=False)
 class Pasted:
     """A feature pasted on a surface. Unpacks as `V, F`.
 

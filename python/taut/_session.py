@@ -33,6 +33,8 @@ class Session:
         "volume" for tetrahedra, else "map".
     b, bc, springs, energy, weights, attributes, directions, parameters
         As in `unwrap`.
+    initial : (n, 2) or (n, 3) array-like, optional
+        The map, or the shape, to begin with: not of a shell.
     thickness : float, optional
         Of a shell.
     time_limit : float, optional
@@ -59,6 +61,7 @@ class Session:
         b: ArrayLike = None,
         bc: ArrayLike = None,
         springs: Any = None,
+        initial: ArrayLike = None,
         weights: ArrayLike = None,
         attributes: ArrayLike = None,
         directions: ArrayLike = None,
@@ -88,6 +91,8 @@ class Session:
             options.update(
                 _options.energies(energy, self.dim, len(cells), weights, attributes, directions, parameters)
             )
+            if initial is not None:
+                options["initial"] = _arrays.points("initial", initial, (self.dim,), rows=len(points))
         self._count = len(points)
         self._frame: Frame | None = None
         self._open: Any = getattr(native(), name)(points, cells, options)

@@ -97,3 +97,14 @@ def test_memory_does_not_grow_with_sessions(bowl):
 
     before = peak_after(10)
     assert peak_after(40) - before < 8192  # KiB
+
+
+def test_a_session_goes_on_from_a_map_that_is_given(bowl):
+    V, F = bowl
+    given = taut.unwrap(V, F).x @ np.array([[0.6, 0.8], [-0.8, 0.6]]) + [3, 4]
+    held = [0, 16, 288]
+    with taut.Session(V, F, initial=given, b=held, bc=given[held]) as s:
+        frame = s.solve()
+        assert frame.pins_held and np.allclose(frame.x, given, atol=1e-3)
+    with pytest.raises(taut.ParameterError, match="initial"):
+        taut.Session(V, F, initial=given[:-1])

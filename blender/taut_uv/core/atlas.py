@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: MIT
+"""Atlas: charts of several objects, made, flattened and packed together."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .islands import islands_of
+from .layout import Layout
+from .messages import Trouble, about_faces, about_vertices
+from .plane import in_single, orientation
+from .surface import Surface
+from .unwrap import torn_edges
+from .work import Clock, Result, untold
+
+
+def atlas(
+    taut,
+    s: Surface,
+    *,
+    prefer: str = "seams",
+    charts: str = "auto",
+    keep_seams: bool = False,
+    symmetric: bool = False,
+    max_distortion: float = 0,
+    padding: float = 2,
+    resolution: int = 1024,
+    tiles: int = 1,
+    rotate: bool = True,
+    density: float = 0,
+    weighted: bool = False,
+    mark_seams: bool = True,
+    time_limit: float = 0,
+    tell=untold,
+) -> Result:
+    """One atlas of the chosen faces of all objects.
+
+    prefer : "seams", "packing" or "one", as taut.atlas()
+    charts : "auto" or "keep": those between the seams that are there
+    keep_seams : these are seams of new charts, too
+    symmetric : charts are mirror images of each other
+    density : texels per unit of the scene; as many tiles as that takes. 0: charts fill `tiles`
+    weighted : charts get as many texels as their vertices are painted
+    mark_seams : seams become those of the atlas
+
+    Islands of pinned corners stay as they are.
+    """
+    clock, result = Clock(time_limit), Result.of(s)
+    some = np.flatnonzero(s.chosen[s.triangle_face])
+    if len(some) == 0:
+        raise Trouble("no face is selected; select some, or all")
+    pinned = pinned_triangles(s, some)
+    made = _made(
+        taut,
+        s,
+        result,
+        some,
+        pinned,
+        clock,
+        prefer=prefer,
+        charts=charts,
+        keep_seams=keep_seams,
+        symmetric=symmetric,
+        max_distortion=max_distortion,
+        padding=padding,
+        resolution=resolution,
+        tiles=tiles,
+        rotate=rotate,
+    )
+    if made is None:
+        result.complete = False
+        return result
+    layout = Layout(taut, s, made, some, pinned, clock, padding, resolution, max(tiles, 1), rotate)
+    tell("packing")
+    if weighted:
+        layout.repack(np.maximum(s.weight[s.vertex[s.triangles[some]]].mean(1), 0.05))
+    if density > 0:
+        layout.to_density(density)
+    write_atlas(s, result, made, layout, some)
+    if mark_seams:
+        place = np.full(s.corners, -1)
+        place[s.triangles[some].reshape(-1)] = layout.faces.reshape(-1)
+        inside = np.zeros(len(s.edges), bool)
+        inside[s.edge[s.chosen[s.face]]] = True
+        result.seam = np.where(inside, torn_edges(s, place), s.seam)
+    result.complete = result.complete and made.complete
+    result.notes += layout.notes + made.repairs + made.notes
+    result.numbers.update(
+        charts=layout.charts(),
+        tiles=len(np.unique(layout.tile[made.chart >= 0])),
+        density=layout.scale() * resolution,
+        distortion=made.distortion,
+    )
+    return result
+
+
+def pinned_triangles(s: Surface, some: np.ndarray) -> np.ndarray:
+    """Triangles of islands, as they lie, that have a pinned corner."""
+    stays = np.zeros(s.faces, bool)
+    if s.pinned.any():
+        for island in islands_of(s, by_uv=True):
+            stays[island.faces] = s.pinned[island.corners].any()
+    return stays[s.triangle_face[some]]
+
+
+def _made(taut, s, result, some, pinned, clock, *, charts, keep_seams, symmetric, max_distortion, **options):
+    """The atlas of the triangles; None where it was stopped before there was one."""
+    corners = s.triangles[some]
+    F = s.vertex[corners]
+    given = dict(polygons=s.triangle_face[some], single=True, symmetric=symmetric, time_limit=clock.left, **options)
+    if charts == "keep":
+        given["charts"] = "keep"
+        known = np.ptp(s.uv[corners].reshape(-1, 2), axis=0).min() > 0
+        if pinned.any() or known and _fits(s, some):
+            given["uv"] = s.uv[corners]
+    if (charts == "keep" or keep_seams) and s.seam.any():
+        given["seams"] = s.edges[s.seam]
+    if max_distortion > 4:
+        given["max_distortion"] = max_distortion
+    if pinned.all():
+        raise Trouble("all islands are pinned; clear some pins (Alt P)")
+    if pinned.any():
+        given.update(pinned=pinned, uv=s.uv[corners])
+    used = np.unique(F)
+    number = np.zeros(len(s.V), np.int64)
+    number[used] = np.arange(len(used))
+    if "seams" in given:
+        known = np.isin(given["seams"], used).all(1)
+        given["seams"] = number[given["seams"][known]]
+    try:
+        return taut.atlas(s.V[used], number[F], **given)
+    except taut.Cancelled as e:
+        return e.best
+    except taut.NoMap as e:
+        raise Trouble(f"no atlas was made: {e}") from e
+    except taut.TautError as e:
+        raise _explained(e, s, some, used) from e
+
+
+def _fits(s: Surface, some: np.ndarray) -> bool:
+    """Whether the coordinates of now are without flips: a start for charts that are kept."""
+    corners = s.triangles[some]
+    x = s.uv[corners].reshape(-1, 2)
+    return bool((orientation(x, np.arange(len(x)).reshape(-1, 3)) > 0).all())
+
+
+def _explained(error, s: Surface, some: np.ndarray, used: np.ndarray) -> Trouble:
+    fault, ids = getattr(error, "fault", None), np.asarray(getattr(error, "ids", []), np.int64)
+    if fault == "not_symmetric":
+        what = "no mirror image; correct the mesh (Mesh > Symmetrize), or turn off Symmetric"
+        if len(ids):
+            return Trouble(about_vertices(s, used[ids], what))
+        return Trouble("there is no plane of symmetry; " + what.split("; ")[1])
+    if "pinned chart of triangle" in str(error):
+        triangle = int(str(error).split("triangle ")[1].split(" ")[0])
+        why = str(error).split(f"triangle {triangle} ", 1)[1].split(";")[0]
+        if " that of triangle" in why:
+            why = "overlaps another pinned one"
+        return Trouble(
+            about_faces(
+                s,
+                s.triangle_face[some[[triangle]]],
+                f"its pinned island {why}; clear its pins (Alt P), or move it into the tiles",
+            )
+        )
+    return Trouble(str(error))
+
+
+def write_atlas(s: Surface, result: Result, made, layout: Layout, some: np.ndarray) -> None:
+    """Writes coordinates by corner; what is wrong with faces is a problem."""
+    corners = s.triangles[some]
+    own = made.chart >= 0
+    uv, flat = in_single(layout.uv, layout.faces[own])
+    if len(flat):
+        result.problems.append(
+            about_faces(
+                s,
+                s.triangle_face[some[np.flatnonzero(own)[flat]]],
+                "too small for the numbers of UV maps; dissolve what is so small",
+            )
+        )
+    place = np.full(s.corners, -1)
+    place[corners.reshape(-1)] = layout.faces.reshape(-1)
+    divided = (place[corners] != layout.faces).any(1)
+    if divided.any():
+        result.problems.append(
+            about_faces(
+                s, s.triangle_face[some[divided]], "a seam divides it; triangulate it (Ctrl T) and make the atlas again"
+            )
+        )
+    touched = place >= 0
+    result.uv[touched] = uv[place[touched]]
+    result.changed |= touched
+    if (~own).any():
+        result.problems.append(
+            about_faces(
+                s,
+                s.triangle_face[some[~own]],
+                "left out of the atlas, as it has no area or makes no surface; delete it, or "
+                "Mesh > Clean Up > Degenerate Dissolve",
+            )
+        )
