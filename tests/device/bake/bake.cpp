@@ -174,8 +174,7 @@ TEST_CASE("bake: labels stay labels, and samples are means")
     // A checker of single texels is grey from afar.
     texture fine{256, 256, 1, {}};
     for (int n = 0; n < 256 * 256; ++n) fine.texels.push_back(static_cast<float>((n + n / 256) % 2));
-    const auto grey =
-        bake(q, fine, s.old_uv, s.new_uv, {.width = 32, .height = 32, .samples = 8, .gutter = 0});
+    const auto grey = bake(q, fine, s.old_uv, s.new_uv, {.width = 32, .height = 32, .samples = 8, .gutter = 0});
     for (std::size_t n = 0; n < grey.covered.size(); ++n)
         if (grey.covered[n] == 1) CHECK(std::abs(grey.image.texels[n] - 0.5f) < 0.2f);
     CHECK_THROWS_AS(bake(q, labels, s.old_uv, s.new_uv, {.filter = texture_filter::nearest, .samples = 2}),

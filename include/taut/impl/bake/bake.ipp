@@ -142,8 +142,7 @@ inline baked_texture bake_any(queue& q, const bake_source& s, std::span<const st
     const auto normals = buffer_of(q, s.frames ? numbers_of_normals(s.frames->normals) : std::vector<float>());
     const auto old_tangents = buffer_of(q, s.frames ? numbers_of_tangents(s.frames->from) : std::vector<float>());
     const auto new_tangents = buffer_of(q, s.frames ? numbers_of_tangents(s.frames->to) : std::vector<float>());
-    const kernel run(q, kernels::bake, "bake_texels",
-                     few_functions + ("-DCHANNELS=" + std::to_string(image.channels)));
+    const kernel run(q, kernels::bake, "bake_texels", few_functions + ("-DCHANNELS=" + std::to_string(image.channels)));
 
     // Some rows at a time, so that the new texture need not be on the device as a whole.
     const auto width = static_cast<std::size_t>(image.width), channels = static_cast<std::size_t>(image.channels);
@@ -166,7 +165,9 @@ inline baked_texture bake_any(queue& q, const bake_source& s, std::span<const st
                                       {"starts", starts},
                                       {"items", items},
                                       {"uv", uv},
-                                      {"source", idx(!s.old ? 1 : s.frames ? 2 : 0)},
+                                      {"source", idx(!s.old     ? 1
+                                                     : s.frames ? 2
+                                                                : 0)},
                                       {"old_uv", old_uv},
                                       {"old_texels", old_texels},
                                       {"old_width", s.old ? s.old->width : 1},

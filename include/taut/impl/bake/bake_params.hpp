@@ -18,7 +18,8 @@ struct bake_params
                      ///< than the old one; not with `nearest`
     double gutter = std::numeric_limits<double>::infinity(); ///< texels around charts that get the nearest texel of a
                                                              ///< chart; what is farther stays 0
-    vec2 origin = vec2(0.0); ///< lower left corner of the unit square that the new texture covers: (1, 0) is 1002 of UDIM
+    vec2 origin =
+        vec2(0.0); ///< lower left corner of the unit square that the new texture covers: (1, 0) is 1002 of UDIM
     bool green_down = false; ///< of bake_normals(): green grows downwards in the image, as for DirectX
 
     /// Throws parameter_error that names the field.

@@ -16,9 +16,9 @@ namespace taut
 /// Difference of two textures of one size.
 struct texture_difference
 {
-    texture image;       ///< |a - b| by texel and channel; 0 where nothing is compared
-    double largest = 0;  ///< of all
-    double rms = 0;      ///< root of the mean square over the compared texels and their channels
+    texture image;          ///< |a - b| by texel and channel; 0 where nothing is compared
+    double largest = 0;     ///< of all
+    double rms = 0;         ///< root of the mean square over the compared texels and their channels
     std::size_t texels = 0; ///< compared
 };
 

@@ -88,8 +88,7 @@ inline std::vector<corner_tangents> tangent_frames(std::span<const vec3> points,
                                                    std::span<const std::array<vec3, 3>> normals,
                                                    std::span<const std::array<vec2, 3>> uv)
 {
-    if (normals.size() != triangles.size())
-        throw parameter_error("normals", "give three per triangle, one per corner");
+    if (normals.size() != triangles.size()) throw parameter_error("normals", "give three per triangle, one per corner");
     if (uv.size() != triangles.size())
         throw parameter_error("uv", "give three texture coordinates per triangle, one per corner");
     using key = std::tuple<idx, double, double, double, double, double, bool>;
@@ -112,8 +111,7 @@ inline std::vector<corner_tangents> tangent_frames(std::span<const vec3> points,
         for (std::size_t k = 0; k < 3; ++k)
         {
             const vec3& n = normals[f][k];
-            sums[key_of(f, k, mirrored[f] != 0)] +=
-                impl::corner_angle(x, k) * impl::normalised(u - glm::dot(n, u) * n);
+            sums[key_of(f, k, mirrored[f] != 0)] += impl::corner_angle(x, k) * impl::normalised(u - glm::dot(n, u) * n);
         }
     }
     std::vector<corner_tangents> tangents(triangles.size());

@@ -14,8 +14,8 @@
 namespace taut::impl
 {
 
-/// Returns whether a triangle may come nearer to an upright square than `reach`: exact but for corners, where it may say
-/// yes for a little more.
+/// Returns whether a triangle may come nearer to an upright square than `reach`: exact but for corners, where it may
+/// say yes for a little more.
 inline bool near_square(const std::array<vec2, 3>& t, const vec2& centre, double half, double reach)
 {
     const double grown = half + reach;
