@@ -181,6 +181,19 @@ TEST_CASE("bake: labels stay labels, and samples are means")
                     parameter_error);
 }
 
+TEST_CASE("bake: a program of three lines")
+{
+    queue q;
+    const two_atlases s;
+    const auto &old_uv = s.old_uv, &new_uv = s.new_uv;
+    // [bake]
+    const texture old{2, 2, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}}; // row by row from below
+    const baked_texture made = bake(q, old, old_uv, new_uv, {.width = 256, .height = 128});
+    const double seen = sample(made.image, new_uv[0][0])[0]; // red at a corner
+    // [bake]
+    CHECK(std::abs(seen - sample(old, old_uv[0][0])[0]) < 0.05);
+}
+
 TEST_CASE("bake: gutters have the nearest texel, as wide as asked")
 {
     queue q;
