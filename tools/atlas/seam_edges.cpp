@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include <taut/impl/io/read_file.hpp>
@@ -57,12 +58,17 @@ void mark_texcoords(std::vector<char>& seam, const mesh<triangle>& m, const face
 std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
                            const facet_table& f, const atlas_options& options)
 {
-    if (options.seams.empty() && !options.keep_charts && !options.keep_seams) return {};
+    if (options.seams.empty() && !options.keep_charts() && !options.keep_seams && !options.by_material) return {};
     std::vector<char> seam(f.twin.size(), 0);
     if (!options.seams.empty())
         mark_edges(seam, parse_edges(io::impl::read_file(options.seams), options.seams, sources[0]->file_vertices),
                    *sources[0], options.seams);
-    if (options.keep_charts) mark_texcoords(seam, joined.surface, f, texcoords_of(sources));
+    if (options.by_material)
+    {
+        const auto borders = impl::seams_between(f, tiles_by_material(*sources[0]));
+        for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
+    }
+    if (options.keep_charts()) mark_texcoords(seam, joined.surface, f, texcoords_of(sources));
     if (!options.keep_seams) return seam;
 
     std::vector<std::array<vec2, 3>> uv;
@@ -85,6 +91,16 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
     const auto borders = impl::seams_between(f, label);
     for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
     return seam;
+}
+
+std::vector<idx> tiles_by_material(const atlas_source& source)
+{
+    auto tile = source.parts();
+    if (tile.empty()) throw unsuitable_input("--tile-per-material: the file has no materials; leave it out");
+    std::map<idx, idx> number; // in the order of appearance
+    for (idx& t : tile) t = number.emplace(t, static_cast<idx>(number.size())).first->second;
+    if (number.size() > 1000) throw unsuitable_input("--tile-per-material: more than 1000 materials; leave it out");
+    return tile;
 }
 
 std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const facet_table& f)

@@ -24,4 +24,7 @@ std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>&
 /// Throws unsuitable_input if a file has none, io::texcoord_error if a corner has none.
 std::vector<std::array<vec2, 3>> texcoords_of(const std::vector<std::unique_ptr<atlas_source>>& sources);
 
+/// The tile of each triangle of a file, one for each of its materials. Throws unsuitable_input where it has none.
+std::vector<idx> tiles_by_material(const atlas_source& source);
+
 } // namespace taut::tools

@@ -46,6 +46,10 @@ struct atlas_params
     /// packed.
     bool keep_charts = false;
 
+    /// False if kept charts are laid as they are in `initial`, moved, turned and scaled to one texel density alone. One
+    /// that is mirrored there is mirrored back.
+    bool relax = true;
+
     /// Initial map of kept and pinned charts, or their final one, one coordinate per corner; or empty.
     std::vector<std::array<vec2, 3>> initial = {};
 
@@ -58,6 +62,10 @@ struct atlas_params
     /// except those of polygons across it. Not together with charts that are kept or pinned. make_atlas() throws
     /// symmetry_error where there is no such plane.
     bool symmetric = false;
+
+    /// The tile that each triangle's chart is to be in, one number each, or empty. Charts cross from one to another no
+    /// further than `charts.seams` lets them: give the borders of groups as seams.
+    std::vector<idx> groups = {};
 
     flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
     pack_params packing = {};       ///< the same

@@ -181,11 +181,46 @@ protected:
         if (!initial.empty())
             for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
                             { initial[v] = params_.initial[cell][corner]; });
+        if (!params_.relax && !initial.empty())
+        {
+            lay_as_given(std::move(initial));
+            return;
+        }
         auto flat = flatten(*charts_, initial, std::numeric_limits<int>::max());
         report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
         for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
         flat_ = std::move(flat.uv);
         mend(unfit());
+    }
+
+    /// Takes the maps of kept charts as they are, each with the area that its triangles have on the surface.
+    void lay_as_given(std::vector<vec2> uv)
+    {
+        flat_ = std::move(uv);
+        const ideal_elements<triangle> ideal(charts_->surface);
+        const auto& cells = charts_->surface.cells();
+        for (std::size_t k = 0; k < u(charts_->charts()); ++k)
+        {
+            double in_plane = 0, in_space = 0;
+            for (auto c = u(charts_->first_cell[k]); c < u(charts_->first_cell[k + 1]); ++c)
+            {
+                in_plane += orient(flat_[u(cells[c][0])], flat_[u(cells[c][1])], flat_[u(cells[c][2])]).det / 2;
+                in_space += ideal.measure[c];
+            }
+            const double scale = in_plane != 0 ? std::sqrt(in_space / std::abs(in_plane)) : 1;
+            for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
+                flat_[v] *= vec2(in_plane < 0 ? -scale : scale, scale);
+            energy_.push_back(area_and_energy(*charts_, k, flat_, ideal).second);
+        }
+        usable_ = true;
+        report_.seconds.charts = budget_.lap();
+        const auto bad = unfit();
+        if (const auto first = std::find(bad.begin(), bad.end(), char(1)); first != bad.end())
+            report_.reason =
+                "the chart of triangle " +
+                std::to_string(
+                    charts_->cell_origins[u(charts_->first_cell[static_cast<std::size_t>(first - bad.begin())])]) +
+                " is folded, or overlaps itself, as it is given; relax it (--charts keep), or let charts be made";
     }
 
     /// Calls f(triangle of the surface, corner, vertex of the charts) for all corners.

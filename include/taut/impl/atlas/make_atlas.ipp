@@ -45,6 +45,7 @@ public:
             report_.symmetry = {mirror_->normal, mirror_->offset, pairs, own};
         }
         certify_all({});
+        fill_squares();
         return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
     }
 
@@ -86,8 +87,11 @@ private:
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("pack");
         params.densities = densities_of(*charts_);
+        params.groups = groups_of(*charts_);
         const idx rows = (params.tiles + 9) / 10;
-        const double step = spacing_at(params_.origin + vec2(std::min(params.tiles, 10), rows) - 0.25, params_.stored);
+        const double step =
+            spacing_at(params_.origin + vec2(std::min(params.tiles, 10), rows * std::max(params.aspect, 1.0)) - 0.25,
+                       params_.stored);
         params.rounding = std::max(params.rounding, 4 * step); // so far vertices may be moved
         outlines_ = find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
         layout_ = pack_outlined(flat_, outlines_, params);
@@ -97,7 +101,7 @@ private:
         {
             const idx tile = layout_.places[k].tile, row = tile / 10;
             for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
-                uv_[v] += params_.origin + vec2(-10 * row, row);
+                uv_[v] += vec2(params_.origin.x - 10 * row, (params_.origin.y + row) * params.aspect);
         }
         bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
         report_.seconds.pack += budget_.lap();
@@ -167,6 +171,23 @@ private:
         return densities;
     }
 
+    /// The tile of each chart; empty: any.
+    std::vector<idx> groups_of(const chart_mesh& charts) const
+    {
+        std::vector<idx> groups;
+        if (params_.groups.empty()) return groups;
+        for (std::size_t k = 0; k < u(charts.charts()); ++k)
+            groups.push_back(params_.groups[u(charts.cell_origins[u(charts.first_cell[k])])]);
+        return groups;
+    }
+
+    /// Places of tiles that are no squares in unit squares, as files have them: exact, as the sides are powers of two.
+    void fill_squares()
+    {
+        if (params_.packing.aspect == 1) return;
+        for (vec2& x : uv_) x.y /= params_.packing.aspect;
+    }
+
     /// The polygons of charts that are convex in space.
     convex_polygons convex() const
     {
@@ -182,20 +203,21 @@ private:
     {
         const auto& cut = charts_->surface;
         summarize(report_, *charts_, uv_, layout_);
-        report_.tiles = params_.packing.tiles;
+        report_.tiles = layout_.tiles > 0 ? layout_.tiles : params_.packing.tiles;
+        report_.resolution = layout_.resolution > 0 ? layout_.resolution : params_.packing.resolution;
         report_.seam_length = length_of_seams(mesh_, facets_, seam_);
         if (!report_.reason.empty()) return;
         report_.flips = certify<2>(cut.cells(), std::span<const vec2>(uv_));
         if (!report_.flips || outlines_.turned || outlines_.charts() != charts_->charts())
             outlines_ = find_outlines(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex);
-        const auto sealed = certify_outlined(uv_, cut.cells(), outlines_, pinned);
+        const auto sealed = certify_outlined(uv_, cut.cells(), outlines_, pinned, params_.packing.aspect);
         if (!pinned.empty()) polygons_ = convex();
         report_.polygons = u(polygons_.size());
         report_.concave = find_concave(polygons_, uv_).size();
         const auto crossing = crossing_charts(*charts_, uv_);
         report_.overlaps =
             sealed.overlaps.pairs + static_cast<std::size_t>(std::count(crossing.begin(), crossing.end(), char(1)));
-        report_.least_distance = std::min(sealed.gap, sealed.border) * params_.packing.resolution;
+        report_.least_distance = std::min(sealed.gap, sealed.border) * report_.resolution;
         report_.seconds.certify += budget_.lap();
         if (!report_.flips)
             report_.reason = std::to_string(report_.flips.flipped) + " triangles" + turned_ids() +
@@ -209,7 +231,7 @@ private:
                              " charts overlap in the atlas: the first are those of triangles " +
                              std::to_string(first_triangle(u(sealed.overlaps.first[0]))) + " and " +
                              std::to_string(first_triangle(u(sealed.overlaps.first[1])));
-        else if (!sealed.holds(params_.packing.padding, params_.packing.resolution))
+        else if (!sealed.holds(params_.packing.padding, report_.resolution))
             report_.reason = "charts are nearer to each other, or to the border, than the padding";
         if (report_.concave > 0)
             report_.notes.push_back(std::to_string(report_.concave) +
@@ -249,7 +271,9 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
     // Beyond these sizes areas, or products of them, would overflow.
     if (const double unit = impl::unit_scale(m); unit > 1e70 || unit < 1e-70)
     {
-        atlas made = make_atlas(q, scaled(m, unit), params);
+        atlas_params of_scaled = params;
+        of_scaled.packing.texels_per_unit /= unit;
+        atlas made = make_atlas(q, scaled(m, unit), of_scaled);
         made.charts.surface = scaled(made.charts.surface, 1 / unit);
         made.layout.scale *= unit;
         for (auto& place : made.layout.places) place.scale *= unit;
@@ -261,6 +285,10 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
     }
     if (params.symmetric && (params.keep_charts || !params.pinned.empty()))
         throw parameter_error("symmetric", "makes charts; none can be kept or pinned");
+    if (!params.groups.empty() && params.groups.size() != m.cells().size())
+        throw parameter_error("groups", "empty or one tile a triangle");
+    if (!params.pinned.empty() && params.packing.aspect != 1)
+        throw parameter_error("aspect", "pinned charts lie in squares; give 1, or pin none");
     impl::atlas_making whole(q, m, params);
     if (std::count(params.pinned.begin(), params.pinned.end(), char(0)) ==
         static_cast<std::ptrdiff_t>(params.pinned.size()))
