@@ -128,6 +128,8 @@ nb::dict report_of(const atlas_report& r)
     d["seam_length"] = r.seam_length;
     d["least_distance"] = r.least_distance;
     d["tiles"] = r.tiles;
+    d["resolution"] = r.resolution;
+    d["stacked"] = r.stacked;
     std::vector<idx> triangles, tiles;
     std::vector<double> areas, energies;
     for (const auto& c : r.charts)

@@ -187,6 +187,30 @@ def test_charts_are_packed_as_they_are():
     assert "folded" in run("atlas", "folded.obj", "-o", "x.obj", "--charts", "pack", code=6)
 
 
+def test_copies_lie_on_each_other():
+    text = (FOLDER / "ball.obj").read_text().splitlines()
+    points = [tuple(map(float, line.split()[1:4])) for line in text if line.startswith("v ")]
+    points = [(x + 0.2 * y * z, y + 0.1 * x * x, z) for x, y, z in points]  # no symmetry of its own
+    lines, f = [], [line for line in text if line.startswith("f ")]
+    # A copy that is turned and moved, and a mirrored one.
+    for move in (lambda x, y, z: (x, y, z), lambda x, y, z: (5 - y, x, z + 1), lambda x, y, z: (x, -y, z - 5)):
+        lines += ["v %.9f %.9f %.9f" % move(*p) for p in points]
+    for k in range(3):
+        for line in f:
+            c = [str(int(w) + k * len(points)) for w in line.split()[1:]]
+            lines.append("f " + " ".join(c if k < 2 else c[::-1]))
+    (FOLDER / "three.obj").write_text("\n".join(lines) + "\n")
+    run("atlas", "three.obj", "-o", "three.uv.obj", "--prefer", "packing", "--stack", "similar", "--quiet", "--stats", "s.json")
+    told = stats()
+    assert told["flipped"] == told["overlaps"] == 0
+    assert told["charts"] == 3 * told["stacked"], (told["charts"], told["stacked"])
+    points, faces, uv, corners, _ = read("three.uv.obj")
+    n = len(faces) // 3
+    where = [tuple(sorted(uv[t] for t in c)) for c in corners]
+    assert set(where[:n]) == set(where[n:2 * n]) and len(set(where[:n])) == n
+    assert not set(where[2 * n:]) & set(where[:2 * n])
+
+
 def glb(name):
     data = (FOLDER / name).read_bytes()
     size = struct.unpack("<I", data[12:16])[0]

@@ -71,8 +71,8 @@ void declare_packing(CLI::App& app, atlas_options& o)
         ->type_name("PX")
         ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"));
     app.add_option("--mip-levels", o.mip_levels,
-                   "Padding with which charts do not bleed into each other up to level L of mip maps: 3 * 2^L texels")
-        ->type_name("L")
+                   "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels")
+        ->type_name("N")
         ->check(CLI::Range(0, 10).description(""));
     app.add_option("--resolution", o.size,
                    "Texels along a side of the square, or of a page that is wider or higher by a power of two")
@@ -96,6 +96,8 @@ void declare_packing(CLI::App& app, atlas_options& o)
            "Number of tiles: 1001, 1002, ... of UDIM, ten in a row; default 1; 100 at most for --texels-per-unit")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
+    add_choice<bool>(app, "--stack", o.stack, {{"none", false}, {"similar", true}},
+                     "Lay charts on each other that are copies in space, turned and moved");
     app.add_flag("--tile-per-material", o.by_material, "Give each material of the file a tile of its own");
     app.add_flag("--upright", o.upright, "Translate charts only, without rotation");
 }
@@ -184,6 +186,7 @@ void check_pages(const atlas_options& o)
     if (o.padding && o.mip_levels) throw usage_error("--padding and --mip-levels: give one of them");
     if (o.max_resolution > 0 && !(o.texels_per_unit > 0))
         throw usage_error("--max-resolution is for --texels-per-unit; give both");
+    if (o.stack && !o.pinned.empty()) throw usage_error("--stack is of charts that are placed; leave out --pin");
     if (o.by_material && o.tiles)
         throw usage_error("--tile-per-material has as many tiles as materials; leave out --udim");
     if (o.by_material && !o.pinned.empty())
@@ -285,6 +288,7 @@ std::string as_command_line(const atlas_options& o)
     if (o.max_resolution > 0) option("--max-resolution", std::to_string(o.max_resolution));
     if (o.align > 1) option("--align", std::to_string(o.align));
     if (o.tiles) option("--udim", std::to_string(*o.tiles));
+    if (o.stack) option("--stack", "similar");
     flag("--tile-per-material", o.by_material);
     flag("--upright", o.upright);
     if (o.texcoord_set > 0) option("--texcoord-set", std::to_string(o.texcoord_set));
@@ -320,6 +324,7 @@ atlas_params to_params(const atlas_options& o)
     if (o.mean_distortion) params.charts.mean_distortion = *o.mean_distortion;
     params.charts.max_distortion = std::max(params.charts.max_distortion, params.charts.mean_distortion);
     params.keep_charts = o.keep_charts();
+    params.stack = o.stack;
     params.relax = o.charts != chart_use::pack;
     params.symmetric = o.symmetric;
     const auto [width, height] = *page_of(o.size);

@@ -33,6 +33,7 @@ struct atlas_options
     chart_preference prefer = chart_preference::seams;
     chart_use charts = chart_use::make;
     bool repair = false, keep_seams = false, symmetric = false, upright = false, quiet = false;
+    bool stack = false;         ///< copies of charts lie on each other
     bool by_material = false;   ///< a tile for each material
     std::optional<double> weld; ///< repairs, too
     std::optional<double> max_distortion, mean_distortion;

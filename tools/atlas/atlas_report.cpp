@@ -49,6 +49,7 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     json["flipped"] = a.flips.flipped;
     json["branch_points"] = a.flips.branched;
     json["overlaps"] = a.overlaps;
+    if (o.stack) json["stacked"] = a.stacked;
     json["convex_polygons"] = a.polygons;
     json["concave_polygons"] = a.concave;
     json["seam_length"] = a.seam_length;
@@ -131,6 +132,8 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
     lines.add("device", r.device_label);
     lines.add("charts", count(a.charts.size(), "chart", "charts") + ", seams of length " + number(a.seam_length) +
                             ", " + number(a.seam_length / std::sqrt(a.area), 3) + " by the root of the area");
+    if (a.stacked > 0)
+        lines.add("stacks", count(static_cast<std::uint64_t>(a.stacked), "chart lies", "charts lie") + " on a copy");
     if (const auto& s = a.symmetry)
         lines.add("symmetry", count(static_cast<std::uint64_t>(s->pairs), "pair of charts", "pairs of charts") + ", " +
                                   count(static_cast<std::uint64_t>(s->own), "chart that is its own image",

@@ -67,6 +67,10 @@ struct atlas_params
     /// further than `charts.seams` lets them: give the borders of groups as seams.
     std::vector<idx> groups = {};
 
+    /// True if charts that are copies of each other in space, turned and moved, lie on each other: each is a copy of
+    /// the first one's map. They do not count as overlaps.
+    bool stack = false;
+
     flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
     pack_params packing = {};       ///< the same
 

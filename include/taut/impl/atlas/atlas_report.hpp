@@ -71,8 +71,9 @@ struct atlas_report
     double utilization = 0;    ///< area of the triangles by the area of the tiles
     double seam_length = 0;    ///< length of the edges inside the surface that were cut, in its units
     double least_distance = 0; ///< minimum distance of two charts, or of a chart and the border of its tile, in texels
-    idx tiles = 1;        ///< in use with pack_params::texels_per_unit, else all there are
-    int resolution = 0;   ///< texels along the width of a tile
+    idx stacked = 0;           ///< charts that lie on a copy, with atlas_params::stack
+    idx tiles = 1;             ///< in use with pack_params::texels_per_unit, else all there are
+    int resolution = 0;        ///< texels along the width of a tile
     std::optional<impl::atlas_symmetry> symmetry; ///< with atlas_params::symmetric
     impl::atlas_seconds seconds;
 };

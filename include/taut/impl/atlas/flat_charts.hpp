@@ -19,6 +19,7 @@
 #include <taut/impl/atlas/crossing_charts.hpp>
 #include <taut/impl/atlas/round_polygon.hpp>
 #include <taut/impl/atlas/seen_patches.hpp>
+#include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/atlas/symmetry/symmetric_half.hpp>
 #include <taut/impl/core/budget.hpp>
@@ -49,6 +50,7 @@ public:
             make_charts();
         else
             cut_short();
+        if (params_.stack && !params_.keep_charts && !params_.symmetric) copy_components();
         join_polygons();
     }
 
@@ -378,6 +380,28 @@ protected:
         energy_.clear();
         for (std::size_t k = 0; k + 1 < charts_->first_cell.size(); ++k)
             energy_.push_back(laid.energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
+    }
+
+    /// Cuts components that are copies of an earlier one in space as that one is cut, with its maps.
+    void copy_components()
+    {
+        if (!report_.reason.empty()) return;
+        const chart_mesh whole = cut_charts(mesh_, facets_, std::vector<char>(seam_.size(), 0));
+        const stacked_charts copies(whole, {});
+        if (copies.leaders().size() == copies.leader().size()) return;
+        const auto own = [&](idx side) { return 3 * u(whole.cell_origins[u(side / 3)]) + u(side % 3); };
+        auto laid = triangles_as_laid();
+        const auto seam = seam_;
+        for (idx s = 0; s < static_cast<idx>(seam.size()); ++s)
+        {
+            const idx first = copies.sides()[u(s)];
+            if (first == s) continue;
+            const bool given = !params_.charts.seams.empty() && params_.charts.seams[own(s)] != 0;
+            seam_[own(s)] = seam[own(first)] != 0 || given;
+            laid.uv[own(s)] = laid.uv[own(first)]; // a side and a corner have one number
+            laid.energy[own(s) / 3] = laid.energy[own(first) / 3];
+        }
+        cut(laid);
     }
 
     /// Makes polygons that are divided by seams charts of their own.

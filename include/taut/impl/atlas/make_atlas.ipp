@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include <taut/impl/atlas/pinned_charts.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/atlas/short_charts.hpp>
+#include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
 #include <taut/impl/mesh/validate.hpp>
 #include <taut/impl/packing/certificate.hpp>
@@ -88,13 +90,28 @@ private:
         params.observer = asking("pack");
         params.densities = densities_of(*charts_);
         params.groups = groups_of(*charts_);
+        stacks_.reset();
+        if (params_.stack)
+        {
+            stacks_.emplace(*charts_, params.groups);
+            stacks_->share(flat_);
+            report_.stacked = charts_->charts() - static_cast<idx>(stacks_->leaders().size());
+        }
         const idx rows = (params.tiles + 9) / 10;
         const double step =
             spacing_at(params_.origin + vec2(std::min(params.tiles, 10), rows * std::max(params.aspect, 1.0)) - 0.25,
                        params_.stored);
         params.rounding = std::max(params.rounding, 4 * step); // so far vertices may be moved
         outlines_ = find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
-        layout_ = pack_outlined(flat_, outlines_, params);
+        if (stacks_)
+        {
+            params.densities = stacks_->of_leaders(params.densities);
+            params.groups = stacks_->of_leaders(params.groups);
+            layout_ = pack_outlined(flat_, stacks_->first_outlines(outlines_), params);
+            layout_.places = stacks_->of_all(layout_.places);
+        }
+        else
+            layout_ = pack_outlined(flat_, outlines_, params);
         report_.complete = report_.complete && layout_.complete;
         uv_ = layout_.apply(flat_, charts_->first_vertex);
         for (std::size_t k = 0; k < layout_.places.size(); ++k) // rows of ten tiles
@@ -104,6 +121,11 @@ private:
                 uv_[v] += vec2(params_.origin.x - 10 * row, (params_.origin.y + row) * params.aspect);
         }
         bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
+        if (stacks_)
+        {
+            stacks_->share(uv_);
+            bad_ = stacks_->of_all(stacks_->of_leaders(bad_));
+        }
         report_.seconds.pack += budget_.lap();
     }
 
@@ -210,7 +232,9 @@ private:
         report_.flips = certify<2>(cut.cells(), std::span<const vec2>(uv_));
         if (!report_.flips || outlines_.turned || outlines_.charts() != charts_->charts())
             outlines_ = find_outlines(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex);
-        const auto sealed = certify_outlined(uv_, cut.cells(), outlines_, pinned, params_.packing.aspect);
+        // Copies are where the first ones are.
+        const auto sealed = certify_outlined(uv_, cut.cells(), stacks_ ? stacks_->first_outlines(outlines_) : outlines_,
+                                             pinned, params_.packing.aspect);
         if (!pinned.empty()) polygons_ = convex();
         report_.polygons = u(polygons_.size());
         report_.concave = find_concave(polygons_, uv_).size();
@@ -229,8 +253,8 @@ private:
         else if (report_.overlaps > 0)
             report_.reason = std::to_string(report_.overlaps) +
                              " charts overlap in the atlas: the first are those of triangles " +
-                             std::to_string(first_triangle(u(sealed.overlaps.first[0]))) + " and " +
-                             std::to_string(first_triangle(u(sealed.overlaps.first[1])));
+                             std::to_string(first_triangle(laid_chart(sealed.overlaps.first[0]))) + " and " +
+                             std::to_string(first_triangle(laid_chart(sealed.overlaps.first[1])));
         else if (!sealed.holds(params_.packing.padding, report_.resolution))
             report_.reason = "charts are nearer to each other, or to the border, than the padding";
         if (report_.concave > 0)
@@ -241,6 +265,9 @@ private:
     }
 
     static constexpr const char* remedy = "a file with more digits (.obj) may keep them, or --upright";
+
+    /// The chart of a certificate, which has the first of each stack.
+    std::size_t laid_chart(idx k) const { return u(stacks_ ? stacks_->leaders()[u(k)] : k); }
 
     idx first_triangle(std::size_t chart) const { return charts_->cell_origins[u(charts_->first_cell[chart])]; }
 
@@ -258,6 +285,7 @@ private:
     std::vector<double> grown_; // one per triangle of the surface: how much larger its chart is laid; empty if none is
     std::vector<vec2> uv_;      // one per vertex of the charts, in the tiles
     packing layout_;
+    std::optional<stacked_charts> stacks_;
     chart_outlines outlines_; // of the charts as they were laid; the same in the tiles, unless triangles turned over
 };
 
@@ -287,6 +315,8 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
         throw parameter_error("symmetric", "makes charts; none can be kept or pinned");
     if (!params.groups.empty() && params.groups.size() != m.cells().size())
         throw parameter_error("groups", "empty or one tile a triangle");
+    if (params.stack && !params.pinned.empty())
+        throw parameter_error("stack", "is of charts that are placed; pin none");
     if (!params.pinned.empty() && params.packing.aspect != 1)
         throw parameter_error("aspect", "pinned charts lie in squares; give 1, or pin none");
     impl::atlas_making whole(q, m, params);
