@@ -157,6 +157,8 @@ private:
         const auto f = facets(m);
         const auto seams = seams_of(sources_, *joined_, f, options_);
         params.charts.seams = seams;
+        const auto weights = seam_weights_of(sources_, *joined_, f, options_);
+        params.wishes.weights = weights;
         const auto diagonals = diagonals_of(sources_, f);
         params.charts.together = diagonals;
         if (options_.keep_charts()) params.initial = texcoords_of(sources_);

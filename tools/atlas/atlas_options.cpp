@@ -59,6 +59,15 @@ void declare_charts(CLI::App& app, atlas_options& o)
                  "which is detected; no chart crosses it");
     add_input(app, "--seams", o.seams, "the file of seams",
               "Edges that are seams of charts, one per line: two vertices, from 0");
+    add_input(app, "--seam-weights", o.seam_weights, "the file of weights of seams",
+              "Factors of what seams cost, a line each: a vertex, from 0, and its factor, or the two vertices of an "
+              "edge and its factor, from 0.001 to 1000; others 1");
+    add_choice<double>(app, "--hide-seams", o.hide, {{"off", 0}, {"mild", 0.5}, {"strong", 1}},
+                       "Have seams in hollows, where little is seen of them from outside");
+    app.add_option("--crease-angle", o.crease_angle,
+                   "Have seams along edges that are bent by more than this, concave ones first, and between materials")
+        ->type_name("DEGREES")
+        ->check(number_that([](double x) { return x >= 0 && x <= 180; }, "must be from 0 to 180"));
     add_input(app, "--pin", o.pinned, "the file of pinned faces",
               "Faces, from 0, that pin their charts of the file's vt: these keep shape and "
               "place, others are packed around them");
@@ -210,6 +219,10 @@ void check(const atlas_options& o)
     if (!(o.time_limit > 0)) throw usage_error("--time-limit: must be positive");
     if (o.inputs.size() > 1 && !o.seams.empty())
         throw usage_error("--seams names vertices of one surface; map the surfaces one at a time, or use --keep-seams");
+    if (!o.seam_weights.empty() && (o.inputs.size() > 1 || o.symmetric || !o.pinned.empty()))
+        throw usage_error(
+            "--seam-weights names vertices of one whole surface; leave out --symmetric and --pin, and map "
+            "surfaces one at a time");
     if (o.inputs.size() > 1 && !o.pinned.empty())
         throw usage_error("--pin names faces of one surface; map the surfaces one at a time");
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
@@ -219,6 +232,9 @@ void check(const atlas_options& o)
         throw usage_error("--symmetric makes charts; leave out --charts keep and --pin");
     if (o.keep_charts())
     {
+        if (o.hide > 0 || o.crease_angle < 180 || !o.seam_weights.empty())
+            throw usage_error("--charts keep has the seams of the vt; leave out --hide-seams, --crease-angle and "
+                              "--seam-weights");
         if (o.keep_seams) throw usage_error("--charts keep has the seams of the vt alone; leave out --keep-seams");
         if (o.prefer != chart_preference::seams) throw usage_error("--charts keep makes no charts; leave out --prefer");
         if (o.max_distortion || o.mean_distortion)
@@ -278,6 +294,9 @@ std::string as_command_line(const atlas_options& o)
     flag("--keep-seams", o.keep_seams);
     flag("--symmetric", o.symmetric);
     option("--seams", o.seams);
+    option("--seam-weights", o.seam_weights);
+    if (o.hide > 0) option("--hide-seams", o.hide < 1 ? "mild" : "strong");
+    if (o.crease_angle < 180) option("--crease-angle", number(o.crease_angle, 9));
     option("--pin", o.pinned);
     if (o.mip_levels)
         option("--mip-levels", std::to_string(*o.mip_levels));
@@ -324,6 +343,8 @@ atlas_params to_params(const atlas_options& o)
     if (o.mean_distortion) params.charts.mean_distortion = *o.mean_distortion;
     params.charts.max_distortion = std::max(params.charts.max_distortion, params.charts.mean_distortion);
     params.keep_charts = o.keep_charts();
+    params.wishes.hide = o.hide;
+    params.wishes.crease_angle = o.crease_angle;
     params.stack = o.stack;
     params.relax = o.charts != chart_use::pack;
     params.symmetric = o.symmetric;

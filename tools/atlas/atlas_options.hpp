@@ -28,7 +28,7 @@ enum class chart_use
 struct atlas_options
 {
     std::vector<std::string> inputs, outputs; ///< as many of these as of those
-    std::string seams, pinned, stats, picture, render, report, device, progress;
+    std::string seams, seam_weights, pinned, stats, picture, render, report, device, progress;
     io::surface_format format{};
     chart_preference prefer = chart_preference::seams;
     chart_use charts = chart_use::make;
@@ -39,7 +39,8 @@ struct atlas_options
     std::optional<double> max_distortion, mean_distortion;
     std::optional<double> padding;
     std::optional<int> tiles, mip_levels, read_texcoord_set;
-    std::string size = "1024";  ///< N or WxH
+    std::string size = "1024"; ///< N or WxH
+    double hide = 0, crease_angle = 180;
     double texels_per_unit = 0; ///< 0: as many as fit
     int max_resolution = 0, align = 1, texcoord_set = 0;
     double time_limit = std::numeric_limits<double>::infinity();

@@ -54,6 +54,7 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     json["concave_polygons"] = a.concave;
     json["seam_length"] = a.seam_length;
     json["relative_seam"] = finite(a.seam_length / std::sqrt(a.area));
+    if (a.seen_seam) json["seen_seam"] = *a.seen_seam;
     json["stretch_l2"] = finite(a.stretch_l2);
     json["stretch_linf"] = finite(a.stretch_linf);
     json["large_charts"] =
@@ -131,7 +132,8 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
     }
     lines.add("device", r.device_label);
     lines.add("charts", count(a.charts.size(), "chart", "charts") + ", seams of length " + number(a.seam_length) +
-                            ", " + number(a.seam_length / std::sqrt(a.area), 3) + " by the root of the area");
+                            ", " + number(a.seam_length / std::sqrt(a.area), 3) + " by the root of the area" +
+                            (a.seen_seam ? ", " + number(100 * *a.seen_seam, 3) + " % seen" : ""));
     if (a.stacked > 0)
         lines.add("stacks", count(static_cast<std::uint64_t>(a.stacked), "chart lies", "charts lie") + " on a copy");
     if (const auto& s = a.symmetry)

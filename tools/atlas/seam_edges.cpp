@@ -2,6 +2,7 @@
 #include "atlas/seam_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "shared/edge_list.hpp"
 #include "shared/failure.hpp"
+#include "shared/weight_list.hpp"
 
 namespace taut::tools
 {
@@ -91,6 +93,42 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
     const auto borders = impl::seams_between(f, label);
     for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
     return seam;
+}
+
+std::vector<double> seam_weights_of(const std::vector<std::unique_ptr<atlas_source>>& sources,
+                                    const joined_surfaces& joined, const facet_table& f, const atlas_options& options)
+{
+    std::vector<double> weights;
+    const bool whole = !options.symmetric && options.pinned.empty(); // of the surface that is cut
+    if (options.crease_angle < 180 && whole)
+    {
+        constexpr double border = 0.25;
+        std::vector<idx> label;
+        for (const auto& source : sources)
+        {
+            auto parts = source->parts();
+            parts.resize(source->surface().cells().size(), 0);
+            label.insert(label.end(), parts.begin(), parts.end());
+        }
+        const auto borders = impl::seams_between(f, label);
+        if (std::count(borders.begin(), borders.end(), char(1)) > 0)
+            for (const char b : borders) weights.push_back(b != 0 ? border : 1);
+    }
+    if (options.seam_weights.empty()) return weights;
+    weights.resize(f.twin.size(), 1);
+    const auto given =
+        parse_weights(io::impl::read_file(options.seam_weights), options.seam_weights, sources[0]->file_vertices);
+    const auto factor = [&](idx v) { return given.of_vertices.empty() ? 1 : given.of_vertices[u(v)]; };
+    for (std::size_t s = 0; s < weights.size(); ++s)
+    {
+        auto [a, b] = impl::side_vertices(joined.surface, static_cast<idx>(s));
+        a = sources[0]->vertex_origin(a);
+        b = sources[0]->vertex_origin(b);
+        const auto edge = given.of_edges.find({std::min(a, b), std::max(a, b)});
+        weights[s] *= edge != given.of_edges.end() ? edge->second : std::sqrt(factor(a) * factor(b));
+    }
+    for (double& w : weights) w = std::clamp(w, 1e-3, 1e3);
+    return weights;
 }
 
 std::vector<idx> tiles_by_material(const atlas_source& source)

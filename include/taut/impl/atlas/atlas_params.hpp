@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <taut/impl/atlas/flatten_charts.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/atlas/segment.hpp>
 #include <taut/impl/packing/pack_params.hpp>
 
@@ -41,6 +42,9 @@ struct atlas_params
     segment_params charts = {.max_distortion = std::numeric_limits<double>::infinity(), .mean_distortion = 4.1};
 
     chart_preference prefer = chart_preference::seams;
+
+    /// Where seams are liked. Not of charts that are kept; weights are not for `symmetric`.
+    seam_wishes wishes = {};
 
     /// True if the charts are those separated by `charts.seams`: they are flattened, from `initial` if it is given, and
     /// packed.

@@ -18,6 +18,8 @@
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
 #include <taut/impl/atlas/round_polygon.hpp>
+#include <taut/impl/atlas/seams/openness.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/atlas/seen_patches.hpp>
 #include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
@@ -42,6 +44,7 @@ public:
 
     void run()
     {
+        wish_for_seams();
         if (params_.keep_charts)
             keep_charts();
         else if (params_.symmetric)
@@ -97,10 +100,21 @@ protected:
         return flat;
     }
 
+    /// What seams count along each side, and what of the surface is seen.
+    void wish_for_seams()
+    {
+        const seam_wishes& wishes = params_.wishes;
+        wishes.validate(facets_.twin.size());
+        if (!wishes.any() || params_.keep_charts) return;
+        if (wishes.hide > 0) open_ = vertex_openness(mesh_);
+        factors_ = seam_factors(mesh_, facets_, wishes, open_);
+    }
+
     void make_charts()
     {
         usable_ = true; // whatever there is by the end of the time is laid as it is seen
         auto params = params_.charts;
+        if (!factors_.empty()) params.weights = factors_;
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("charts");
         // What takes more steps at first is mostly cut after all of them.
@@ -459,7 +473,8 @@ protected:
     budget budget_;
     atlas_report report_;
     std::optional<mirror_symmetry> mirror_;
-    std::vector<char> seam_; // one per side of the surface
+    std::vector<char> seam_;             // one per side of the surface
+    std::vector<double> factors_, open_; // what seams count, one per side; what is seen, one per vertex; or empty
     std::optional<chart_mesh> charts_;
     std::vector<vec2> flat_;     // one per vertex of the charts, in units of the surface
     std::vector<double> energy_; // one per chart

@@ -228,6 +228,7 @@ private:
         report_.tiles = layout_.tiles > 0 ? layout_.tiles : params_.packing.tiles;
         report_.resolution = layout_.resolution > 0 ? layout_.resolution : params_.packing.resolution;
         report_.seam_length = length_of_seams(mesh_, facets_, seam_);
+        if (!open_.empty() && report_.seam_length > 0) report_.seen_seam = seen_length() / report_.seam_length;
         if (!report_.reason.empty()) return;
         report_.flips = certify<2>(cut.cells(), std::span<const vec2>(uv_));
         if (!report_.flips || outlines_.turned || outlines_.charts() != charts_->charts())
@@ -262,6 +263,19 @@ private:
                                     (report_.concave == 1 ? " polygon is" : " polygons are") +
                                     " not convex in the atlas, though in space; cut along other diagonals, triangles "
                                     "of them turn over");
+    }
+
+    /// Length of the seams, times how much is seen of their ends.
+    double seen_length() const
+    {
+        double sum = 0;
+        for (std::size_t s = 0; s < seam_.size(); ++s)
+        {
+            if (!seam_[s] || facets_.twin[s] < static_cast<idx>(s)) continue;
+            const auto [a, b] = side_vertices(mesh_, static_cast<idx>(s));
+            sum += glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]) * 0.5 * (open_[u(a)] + open_[u(b)]);
+        }
+        return sum;
     }
 
     static constexpr const char* remedy = "a file with more digits (.obj) may keep them, or --upright";
@@ -313,6 +327,8 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
     }
     if (params.symmetric && (params.keep_charts || !params.pinned.empty()))
         throw parameter_error("symmetric", "makes charts; none can be kept or pinned");
+    if (!params.wishes.weights.empty() && (params.symmetric || !params.pinned.empty()))
+        throw parameter_error("weights", "are of the whole surface; leave out `symmetric` and `pinned`");
     if (!params.groups.empty() && params.groups.size() != m.cells().size())
         throw parameter_error("groups", "empty or one tile a triangle");
     if (params.stack && !params.pinned.empty())
