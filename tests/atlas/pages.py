@@ -187,6 +187,39 @@ def test_charts_are_packed_as_they_are():
     assert "folded" in run("atlas", "folded.obj", "-o", "x.obj", "--charts", "pack", code=6)
 
 
+def cut_lengths(name):
+    """Length of the seams below and above the middle."""
+    points, faces, uv, corners, _ = read(name)
+    sides, sums = {}, [0, 0]
+    for f, c in zip(faces, corners):
+        for k in range(3):
+            a, b = (f[k], c[k]), (f[(k + 1) % 3], c[(k + 1) % 3])
+            sides.setdefault(tuple(sorted((a[0], b[0]))), []).append(tuple(sorted((a, b))))
+    for (a, b), both in sides.items():
+        if len(both) == 2 and both[0] != both[1]:
+            sums[points[a][2] + points[b][2] > 0] += math.dist(points[a], points[b])
+    return sums
+
+
+def test_seams_are_weighed():
+    z = [float(line.split()[3]) for line in (FOLDER / "ball.obj").read_text().splitlines() if line.startswith("v ")]
+    (FOLDER / "weights.txt").write_text("# above\n" + "".join("%d, 50\n" % v for v in range(len(z)) if z[v] > 0.05))
+    atlas()
+    plain = cut_lengths("out.obj")
+    atlas("--seam-weights", "weights.txt")
+    painted = cut_lengths("out.obj")
+    assert painted[1] < plain[1] and painted[1] < painted[0], (plain, painted)
+    told = atlas("--hide-seams", "strong", "--crease-angle", 60)
+    assert 0 < told["seen_seam"] <= 1
+    (FOLDER / "edges.txt").write_text("0 2 0.5\n1 2\n3 4 5 6\n")
+    assert "edges.txt, line 3" in run("atlas", "ball.obj", "-o", "x.obj", "--seam-weights", "edges.txt", code=3)
+    (FOLDER / "edges.txt").write_text("0 2 0\n")
+    assert "0.001" in run("atlas", "ball.obj", "-o", "x.obj", "--seam-weights", "edges.txt", code=3)
+    (FOLDER / "edges.txt").write_text("0 99999 2\n")
+    assert "whole numbers from 0" in run("atlas", "ball.obj", "-o", "x.obj", "--seam-weights", "edges.txt", code=3)
+    assert "leave out" in run("atlas", "out.obj", "-o", "x.obj", "--charts", "keep", "--hide-seams", "mild", code=2)
+
+
 def test_copies_lie_on_each_other():
     text = (FOLDER / "ball.obj").read_text().splitlines()
     points = [tuple(map(float, line.split()[1:4])) for line in text if line.startswith("v ")]
