@@ -129,6 +129,7 @@ nb::dict report_of(const atlas_report& r)
     d["least_distance"] = r.least_distance;
     d["tiles"] = r.tiles;
     d["resolution"] = r.resolution;
+    if (r.seen_seam) d["seen_seam"] = *r.seen_seam;
     d["stacked"] = r.stacked;
     std::vector<idx> triangles, tiles;
     std::vector<double> areas, energies;

@@ -42,6 +42,8 @@ inline void read_atlas_options(atlas_params& params, const options& given)
     given.read("max_resolution", packing.max_resolution);
     given.read("align", packing.align);
     given.read("stack", params.stack);
+    given.read("hide_seams", params.wishes.hide);
+    given.read("crease_angle", params.wishes.crease_angle);
     enum class use
     {
         make,

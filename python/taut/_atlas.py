@@ -50,6 +50,8 @@ def atlas(
     parts: ArrayLike = None,
     pinned: ArrayLike = None,
     symmetric: bool = False,
+    hide_seams: float = 0,
+    crease_angle: float = 180,
     max_distortion: float | None = None,
     mean_distortion: float | None = None,
     resolution: int = 1024,
@@ -94,6 +96,8 @@ def atlas(
         Triangles that stay at `uv`.
     symmetric : bool
         Charts are mirror images of each other.
+    hide_seams, crease_angle : float
+        How much seams avoid what is seen from outside, 0 to 1; edges bent by more than this, in degrees, are liked.
     max_distortion, mean_distortion : float, optional
         Bounds of the isometric energy of a chart and of the whole, above 4.
     resolution, padding, tiles, rotate, densities
@@ -133,7 +137,9 @@ def atlas(
     if F is None:
         return _several(V, prefer=prefer, resolution=resolution, padding=padding, tiles=tiles, aspect=aspect,
                         texels_per_unit=texels_per_unit, max_resolution=max_resolution, align=align, stack=stack,
-                        rotate=rotate, repair=repair, max_distortion=max_distortion, mean_distortion=mean_distortion, weld=weld, single=single,
+                        hide_seams=hide_seams, crease_angle=crease_angle,
+                        rotate=rotate, repair=repair, max_distortion=max_distortion,
+                        mean_distortion=mean_distortion, weld=weld, single=single,
                         time_limit=time_limit, progress=progress, device=device, **more)
     points = _arrays.points("V", V, (2, 3), nan=True) if repair else _arrays.points("V", V, (2, 3))
     faces = _arrays.indices("F", F, (3,), len(points))
@@ -142,6 +148,8 @@ def atlas(
         "charts": charts,
         "prefer": prefer,
         "symmetric": symmetric,
+        "hide_seams": hide_seams,
+        "crease_angle": crease_angle,
         "max_distortion": max_distortion,
         "mean_distortion": mean_distortion,
         "resolution": resolution,

@@ -220,6 +220,14 @@ def test_seams_are_weighed():
     assert "leave out" in run("atlas", "out.obj", "-o", "x.obj", "--charts", "keep", "--hide-seams", "mild", code=2)
 
 
+def test_stretch_is_bounded():
+    for bound in (1.01, 1.05):
+        told = atlas("--max-stretch", bound)
+        assert 1 < told["stretch_l2"] <= bound, told["stretch_l2"]
+    assert "not above 1" in run("atlas", "ball.obj", "-o", "x.obj", "--max-stretch", 1, code=2)
+    assert "leave out" in run("atlas", "ball.obj", "-o", "x.obj", "--max-stretch", 1.1, "--mean-distortion", 4.1, code=2)
+
+
 def test_copies_lie_on_each_other():
     text = (FOLDER / "ball.obj").read_text().splitlines()
     points = [tuple(map(float, line.split()[1:4])) for line in text if line.startswith("v ")]

@@ -40,6 +40,7 @@
 #include "shared/report_files.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/shared_options.hpp"
+#include "shared/text_table.hpp"
 #include "shared/writing.hpp"
 
 namespace taut::tools
@@ -198,6 +199,9 @@ private:
         }
         report_.atlas = atlas_->report;
         report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
+        if (options_.max_stretch && atlas_->report.stretch_l2 > *options_.max_stretch)
+            report_.notes.push_back("the stretch is " + number(atlas_->report.stretch_l2, 4) +
+                                    ", above --max-stretch: the surface is rough, or time ran out");
         if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;
         if (!*atlas_) throw no_valid_map(atlas_->report.reason);
     }

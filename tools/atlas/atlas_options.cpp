@@ -46,6 +46,11 @@ void declare_charts(CLI::App& app, atlas_options& o)
                    "Bound of that of all charts; default 4.1, 4.045 for packing, or --max-distortion if that is given")
         ->type_name("D")
         ->check(distortion);
+    app.add_option("--max-stretch", o.max_stretch,
+                   "The same bound in other words: the stretch (L2, Sander et al. 2001) of the whole atlas, above 1; "
+                   "1.02: texels are 2 % too coarse in the mean")
+        ->type_name("S")
+        ->check(number_that([](double x) { return x > 1 && std::isfinite(x); }, "is not above 1, that of no stretch"));
     add_choice<chart_preference>(
         app, "--prefer", o.prefer,
         {{"seams", chart_preference::seams}, {"packing", chart_preference::packing}, {"one", chart_preference::one}},
@@ -230,6 +235,9 @@ void check(const atlas_options& o)
         throw usage_error("--texcoord-set is of glTF; leave it out");
     if (o.symmetric && (o.keep_charts() || !o.pinned.empty()))
         throw usage_error("--symmetric makes charts; leave out --charts keep and --pin");
+    if (o.max_stretch && (o.max_distortion || o.mean_distortion))
+        throw usage_error("--max-stretch is a bound of the mean distortion; leave out --max-distortion and "
+                          "--mean-distortion");
     if (o.keep_charts())
     {
         if (o.hide > 0 || o.crease_angle < 180 || !o.seam_weights.empty())
@@ -237,9 +245,9 @@ void check(const atlas_options& o)
                               "--seam-weights");
         if (o.keep_seams) throw usage_error("--charts keep has the seams of the vt alone; leave out --keep-seams");
         if (o.prefer != chart_preference::seams) throw usage_error("--charts keep makes no charts; leave out --prefer");
-        if (o.max_distortion || o.mean_distortion)
-            throw usage_error("--charts keep cuts no chart, so there is no bound; leave out --max-distortion and "
-                              "--mean-distortion");
+        if (o.max_distortion || o.mean_distortion || o.max_stretch)
+            throw usage_error("--charts keep cuts no chart, so there is no bound; leave out --max-distortion, "
+                              "--mean-distortion and --max-stretch");
     }
     check_pages(o);
     const bool joined = o.outputs.size() < o.inputs.size();
@@ -287,6 +295,7 @@ std::string as_command_line(const atlas_options& o)
     if (o.weld) option("--weld", number(*o.weld, 17));
     if (o.max_distortion) option("--max-distortion", number(*o.max_distortion, 9));
     if (o.mean_distortion) option("--mean-distortion", number(*o.mean_distortion, 9));
+    if (o.max_stretch) option("--max-stretch", number(*o.max_stretch, 9));
     if (o.prefer == chart_preference::packing) option("--prefer", "packing");
     if (o.prefer == chart_preference::one) option("--prefer", "one");
     if (o.charts == chart_use::keep) option("--charts", "keep");
@@ -341,6 +350,9 @@ atlas_params to_params(const atlas_options& o)
     }
     if (o.max_distortion) params.charts.mean_distortion = params.charts.max_distortion = *o.max_distortion;
     if (o.mean_distortion) params.charts.mean_distortion = *o.mean_distortion;
+    // At the scale that keeps the area the mean of s1^2 + s2^2 is 2 at least, so that of 1/s1^2 + 1/s2^2, twice the
+    // square of the stretch, is E - 2 at most.
+    if (o.max_stretch) params.charts.mean_distortion = 2 + 2 * *o.max_stretch * *o.max_stretch;
     params.charts.max_distortion = std::max(params.charts.max_distortion, params.charts.mean_distortion);
     params.keep_charts = o.keep_charts();
     params.wishes.hide = o.hide;

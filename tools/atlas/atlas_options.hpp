@@ -36,7 +36,7 @@ struct atlas_options
     bool stack = false;         ///< copies of charts lie on each other
     bool by_material = false;   ///< a tile for each material
     std::optional<double> weld; ///< repairs, too
-    std::optional<double> max_distortion, mean_distortion;
+    std::optional<double> max_distortion, mean_distortion, max_stretch;
     std::optional<double> padding;
     std::optional<int> tiles, mip_levels, read_texcoord_set;
     std::string size = "1024"; ///< N or WxH
