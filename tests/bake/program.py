@@ -183,6 +183,34 @@ def test_exr():
             assert max(abs(x - y) for x, y in zip(a.at(i, j), b.at(i, j))) < 2e-4, (i, j, a.at(i, j), b.at(i, j))
 
 
+def test_tiles():
+    """Of UDIM: from several tiles to one and back."""
+    run("atlas", "old.obj", "-o", "tiles.obj", "--prefer", "packing", "--max-distortion", 4.005, "--udim", 3, "--resolution", 192, "--quiet")
+    (FOLDER / "in.png").write_bytes(png(256, 128, 3, colour))
+    run("bake", "old.obj", "tiles.obj", "--texture", "in.png", "-o", "part.<UDIM>.png", "--resolution", 192, "--quiet")
+    run("bake", "old.obj", "tiles.obj", "--texture", "in.png", "-o", "first.png", "--resolution", 192)
+    old, new = read_obj_corners("old.obj"), read_obj_corners("tiles.obj")
+    images = {}
+    tile = [int(sum(u for u, _ in t) / 3) for t in new]
+    for n in sorted(set(tile)):
+        images[n] = Image((FOLDER / f"part.{1001 + n}.png").read_bytes())
+    assert len(images) > 1 and (FOLDER / "first.png").read_bytes() == (FOLDER / "part.1001.png").read_bytes()
+    before = Image((FOLDER / "in.png").read_bytes())
+    for t, w in places(old):
+        moved = [(u - tile[t], v) for u, v in new[t]]
+        a, b = seen(before, old, t, w), images[tile[t]].sample(*(sum(w[k] * moved[k][i] for k in range(3)) for i in (0, 1)))
+        assert max(abs(x - y) for x, y in zip(a, b)) < 0.12, (t, a, b)
+    run("bake", "tiles.obj", "old.obj", "--texture", "part.<UDIM>.png", "-o", "joined.png", "--resolution", "256x128", "--quiet",
+        "--difference", "d.<UDIM>.png")
+    d = largest_difference(before, old, Image((FOLDER / "joined.png").read_bytes()), old)
+    assert d < 0.15, d
+    assert (FOLDER / "d.1002.png").exists()
+    (FOLDER / "part.1002.png").unlink()
+    assert "part.1002.png" in run("bake", "tiles.obj", "old.obj", "--texture", "part.<UDIM>.png", "-o", "x.png", code=3)
+    assert "<UDIM>" in run("bake", "tiles.obj", "old.obj", "--texture", "part.<UDIM>.png", "-o", "x.png", "--difference",
+                           "d.png", code=2)
+
+
 def test_vertex_colours():
     points, _, faces, _ = band()
     red = [round(255 * (0.5 + 0.4 * math.sin(math.atan2(p[1], p[0])))) for p in points]

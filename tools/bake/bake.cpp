@@ -5,8 +5,10 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -17,6 +19,7 @@
 #include <bake/bake_options.hpp>
 #include <bake/image_file.hpp>
 #include <bake/model_textures.hpp>
+#include <bake/texture_tiles.hpp>
 #include <bake/textured_surface.hpp>
 #include <taut/impl/bake/bake.hpp>
 #include <taut/impl/bake/compare_textures.hpp>
@@ -41,8 +44,6 @@ namespace taut::tools
 namespace
 {
 
-using corner_uv = std::vector<std::array<vec2, 3>>;
-
 bool has_place(const std::array<vec2, 3>& t)
 {
     return std::all_of(t.begin(), t.end(), [](const vec2& x) { return std::isfinite(x.x) && std::isfinite(x.y); });
@@ -54,6 +55,7 @@ struct baked_report
     std::string name;
     texture_content content = texture_content::colour;
     idx width = 0, height = 0, channels = 0;
+    std::size_t tiles = 1;
     double covered = 0;                 ///< part of the new texture
     std::optional<double> largest, rms; ///< differences through both atlases, from 0 to 1
     std::size_t compared = 0;           ///< texels
@@ -86,8 +88,9 @@ nlohmann::ordered_json to_json(const bake_report& r, const bake_options& o)
     json["textures"] = nlohmann::ordered_json::array();
     for (const auto& t : r.textures)
     {
-        nlohmann::ordered_json texture{{"name", t.name},     {"content", word_of(t.content)}, {"width", t.width},
-                                       {"height", t.height}, {"channels", t.channels},        {"covered", t.covered}};
+        nlohmann::ordered_json texture{{"name", t.name},      {"content", word_of(t.content)}, {"width", t.width},
+                                       {"height", t.height},  {"channels", t.channels},        {"tiles", t.tiles},
+                                       {"covered", t.covered}};
         texture["largest_difference"] = t.largest ? finite(*t.largest) : nullptr;
         texture["rms_difference"] = t.rms ? finite(*t.rms) : nullptr;
         texture["compared_texels"] = t.compared;
@@ -106,11 +109,13 @@ std::string text_of(const bake_report& r, const bake_options& o)
                              (r.left_out > 0 ? ", " + count(r.left_out) + " left out" : ""));
     lines.add("device", r.device_label);
     for (const auto& t : r.textures)
-        lines.add("texture", t.name + ": " + word_of(t.content) + ", " + std::to_string(t.width) + " x " +
-                                 std::to_string(t.height) + ", " + number(100 * t.covered, 3) + " % covered" +
-                                 (t.largest ? "; through both atlases rms " + number(*t.rms, 3) + ", at most " +
-                                                  number(*t.largest, 3)
-                                            : ""));
+        lines.add("texture",
+                  t.name + ": " + word_of(t.content) + ", " + std::to_string(t.width) + " x " +
+                      std::to_string(t.height) + (t.tiles > 1 ? ", " + std::to_string(t.tiles) + " tiles, " : ", ") +
+                      number(100 * t.covered, 3) + " % covered" +
+                      (t.largest
+                           ? "; through both atlases rms " + number(*t.rms, 3) + ", at most " + number(*t.largest, 3)
+                           : ""));
     lines.add("time", duration(r.total) + ": read " + duration(r.read) + ", bake " + duration(r.bake) + ", write " +
                           duration(r.write));
     lines.add_written({o.output, o.difference, o.stats});
@@ -171,61 +176,87 @@ private:
             report_.left_out += !has_place(new_.uv[t]) || (!options_.colours_of_vertices && !has_place(old_.uv[t]));
     }
 
-    /// Bakes a texture, as linear numbers, and looks at it through both atlases.
-    baked_texture bake_texture(const texture& image, texture_content content, const corner_uv& from,
-                               const corner_uv& to, const bake_params& params, const std::string& name)
+    /// Bakes textures of linear numbers, and looks at them through both atlases.
+    std::map<idx, baked_texture> bake_textures(const tile_set& old, texture_content content, const corner_uv& from,
+                                               const corner_uv& to, const bake_params& params, const std::string& name,
+                                               bool several = false)
     {
-        baked_texture result;
-        texture_difference difference;
+        const bool normals = content == texture_content::normal;
+        if (normals && old.images.begin()->second.channels < 3)
+            throw unsuitable_input(name + ": normals have three channels; give --content data");
+        if (normals) make_frames(from, to);
+        const auto& of_corners = old_.has_normals ? old_.normals : new_.normals;
+        const auto one = [&](const corner_uv& other, const bake_frames& frames)
+        {
+            return [this, normals, frames, other = &other](const texture& image, const corner_uv& own,
+                                                           const bake_params& how) {
+                return normals ? bake_normals(*queue_, image, frames, own, *other, how)
+                               : bake(*queue_, image, own, *other, how);
+            };
+        };
+        std::map<idx, baked_texture> result;
         report_.bake += clock_.timed(
             [&]
             {
+                result =
+                    bake_tiles(old, from, to, several, params, one(to, {of_corners, old_tangents_, new_tangents_}));
+                note(name, content, result);
+                tile_set made{several, {}};
+                for (const auto& [tile, baked] : result) made.images.emplace(tile, baked.image);
                 bake_params back = params;
-                back.width = image.width;
-                back.height = image.height;
                 back.samples = 1;
-                baked_texture returned;
-                if (content != texture_content::normal)
-                {
-                    result = bake(*queue_, image, from, to, params);
-                    returned = bake(*queue_, result.image, to, from, back);
-                }
-                else
-                {
-                    if (image.channels < 3)
-                        throw unsuitable_input(name + ": normals have three channels; give --content data");
-                    make_frames(from, to);
-                    const auto& normals = old_.has_normals ? old_.normals : new_.normals;
-                    result = bake_normals(*queue_, image, {normals, old_tangents_, new_tangents_}, from, to, params);
-                    returned =
-                        bake_normals(*queue_, result.image, {normals, new_tangents_, old_tangents_}, to, from, back);
-                }
-                for (auto& mark : returned.covered) mark = mark == 1;
-                difference = compare_textures(image, returned.image, returned.covered);
+                compare(old, bake_tiles_like(old, made, to, from, back,
+                                             one(from, {of_corners, new_tangents_, old_tangents_})));
             });
-        note(name, content, result);
-        if (difference.texels > 0)
-        {
-            report_.textures.back().largest = difference.largest;
-            report_.textures.back().rms = difference.rms;
-            report_.textures.back().compared = difference.texels;
-        }
-        difference_ = std::move(difference.image);
         return result;
     }
 
-    void note(const std::string& name, texture_content content, const baked_texture& baked)
+    /// The textures of `made` in the tiles and sizes of the old ones.
+    static std::map<idx, baked_texture> bake_tiles_like(const tile_set& old, const tile_set& made,
+                                                        const corner_uv& from, const corner_uv& to, bake_params params,
+                                                        const auto& one)
     {
-        const auto covered = std::count(baked.covered.begin(), baked.covered.end(), 1);
-        report_.textures.push_back({name,
-                                    content,
-                                    baked.image.width,
-                                    baked.image.height,
-                                    baked.image.channels,
-                                    static_cast<double>(covered) / static_cast<double>(baked.covered.size()),
-                                    {},
-                                    {},
-                                    0});
+        params.width = old.images.begin()->second.width;
+        params.height = old.images.begin()->second.height;
+        return bake_tiles(made, from, to, old.several, params, one);
+    }
+
+    /// Compares old textures with what came back of them.
+    void compare(const tile_set& old, const std::map<idx, baked_texture>& returned)
+    {
+        baked_report& told = report_.textures.back();
+        differences_.clear();
+        double squares = 0;
+        for (const auto& [tile, image] : old.images)
+        {
+            const auto at = returned.find(tile);
+            if (at == returned.end() || at->second.image.texels.size() != image.texels.size()) continue;
+            auto compared = at->second.covered;
+            for (auto& mark : compared) mark = mark == 1;
+            auto d = compare_textures(image, at->second.image, compared);
+            told.largest = std::max(told.largest.value_or(0), d.largest);
+            told.compared += d.texels;
+            squares += d.rms * d.rms * static_cast<double>(d.texels);
+            differences_.emplace(tile, std::move(d.image));
+        }
+        if (told.compared > 0)
+            told.rms = std::sqrt(squares / static_cast<double>(told.compared));
+        else
+            told.largest.reset();
+    }
+
+    void note(const std::string& name, texture_content content, const std::map<idx, baked_texture>& baked)
+    {
+        baked_report told{.name = name, .content = content, .tiles = baked.size()};
+        for (const auto& [tile, one] : baked)
+        {
+            told.width = one.image.width;
+            told.height = one.image.height;
+            told.channels = one.image.channels;
+            told.covered += static_cast<double>(std::count(one.covered.begin(), one.covered.end(), 1)) /
+                            static_cast<double>(one.covered.size() * baked.size());
+        }
+        report_.textures.push_back(std::move(told));
     }
 
     void make_frames(const corner_uv& from, const corner_uv& to)
@@ -250,42 +281,67 @@ private:
     /// One texture, or colours of vertices.
     void bake_one(std::vector<io::file_to_write>& files)
     {
-        baked_texture baked;
+        std::map<idx, baked_texture> baked;
         image_numbers numbers = image_numbers::bytes;
         // Colours are stored linear in EXR alone.
-        const bool colours = options_.content == texture_content::colour;
+        const bool colours = options_.content == texture_content::colour, several = names_tiles(options_.output);
         if (options_.colours_of_vertices)
         {
             const auto read = read_vertex_colours(old_, options_.format);
             texture values{1, static_cast<idx>(read.values.size()) / read.channels, read.channels, read.values};
             if (colours && !read.linear) to_linear(values);
+            const auto one = [&](const texture& x, const corner_uv&, const bake_params& how)
+            { return bake_corners(*queue_, x.texels, x.channels, new_.uv, how); };
             report_.bake += clock_.timed(
-                [&] { baked = bake_corners(*queue_, values.texels, read.channels, new_.uv, to_params(options_)); });
+                [&] {
+                    baked = bake_tiles({false, {{0, values}}}, {}, new_.uv, several, to_params(options_), one);
+                });
             note("colours of vertices", options_.content, baked);
         }
         else
         {
-            auto file = read_image(io::impl::read_file(options_.texture), options_.texture);
-            numbers = file.numbers;
-            if (colours && numbers != image_numbers::floats) to_linear(file.image);
-            baked = bake_texture(file.image, options_.content, old_.uv, new_.uv, to_params(options_), options_.texture);
+            tile_set old{names_tiles(options_.texture), {}};
+            for (const idx tile : old.several ? tiles_of(old_.uv) : std::set<idx>{0})
+            {
+                const std::string path = path_of_tile(options_.texture, tile);
+                auto file = read_image(io::impl::read_file(path), path);
+                numbers = std::max(numbers, file.numbers);
+                if (colours && file.numbers != image_numbers::floats) to_linear(file.image);
+                if (!old.images.empty() && old.images.begin()->second.channels != file.image.channels)
+                    throw unsuitable_input(path + ": has another number of channels than the first tile; convert it");
+                old.images.emplace(tile, std::move(file.image));
+            }
+            if (old.images.empty()) throw unsuitable_input(old_.path + ": no face lies in a tile from 1001 on");
+            baked =
+                bake_textures(old, options_.content, old_.uv, new_.uv, to_params(options_), options_.texture, several);
         }
-        if (colours && extension(options_.output) != ".exr") to_srgb(baked.image);
-        files.push_back({options_.output, [this, image = std::move(baked.image), numbers](io::atomic_file& out)
-                         { out.write(encoded(image, numbers_for(numbers))); }});
+        if (baked.empty()) throw unsuitable_input(new_.path + ": no face lies in a tile from 1001 on");
+        if (const auto tiles = tiles_of(new_.uv).size(); !several && tiles > 1)
+            report_.notes.push_back("the new atlas has " + std::to_string(tiles) +
+                                    " tiles, of which the first alone has a texture; name it NAME.<UDIM>" +
+                                    extension(options_.output));
+        for (auto& [tile, one] : baked)
+        {
+            if (colours && extension(options_.output) != ".exr") to_srgb(one.image);
+            files.push_back({path_of_tile(options_.output, tile),
+                             [this, image = std::move(one.image), numbers](io::atomic_file& out)
+                             { out.write(encoded(image, numbers_for(numbers))); }});
+        }
         if (!options_.difference.empty())
-            files.push_back({options_.difference, [this](io::atomic_file& out) { out.write(difference_picture()); }});
+            for (const auto& [tile, image] : differences_)
+                files.push_back({path_of_tile(options_.difference, tile), [this, &image = image](io::atomic_file& out)
+                                 { out.write(difference_picture(image)); }});
     }
 
     /// The largest difference of all channels of each texel, eight times as bright; or the numbers.
-    std::string difference_picture() const
+    std::string difference_picture(const texture& difference) const
     {
-        if (extension(options_.difference) == ".exr") return encode_exr(difference_);
-        texture shown{difference_.width, difference_.height, 1, {}};
-        const auto channels = static_cast<std::size_t>(difference_.channels);
-        for (std::size_t n = 0; n < difference_.texels.size(); n += channels)
+        if (extension(options_.difference) == ".exr") return encode_exr(difference);
+        texture shown{difference.width, difference.height, 1, {}};
+        const auto channels = static_cast<std::size_t>(difference.channels);
+        for (std::size_t n = 0; n < difference.texels.size(); n += channels)
         {
-            const auto first = difference_.texels.begin() + static_cast<std::ptrdiff_t>(n);
+            const auto first = difference.texels.begin() + static_cast<std::ptrdiff_t>(n);
             shown.texels.push_back(8 * *std::max_element(first, first + static_cast<std::ptrdiff_t>(channels)));
         }
         return encode_png(shown, image_numbers::bytes);
@@ -334,7 +390,8 @@ private:
         }
         auto params = to_params(options_);
         params.wrap = use.wrap;
-        auto baked = bake_texture(file.image, use.content, from, to, params, use.name);
+        const tile_set old{false, {{0, std::move(file.image)}}};
+        auto baked = std::move(bake_textures(old, use.content, from, to, params, use.name).at(0));
         if (colours) to_srgb(baked.image);
         return encode_png(baked.image, numbers_for(file.numbers));
     }
@@ -345,7 +402,7 @@ private:
     textured_surface old_, new_;
     std::optional<queue> queue_;
     std::vector<corner_tangents> old_tangents_, new_tangents_;
-    texture difference_; // of the last texture
+    std::map<idx, texture> differences_; // of the last texture, by tile
     bake_report report_;
 };
 

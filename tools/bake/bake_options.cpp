@@ -7,6 +7,7 @@
 
 #include <taut/impl/gltf/gltf.hpp>
 
+#include "bake/texture_tiles.hpp"
 #include "shared/choices.hpp"
 #include "shared/failure.hpp"
 #include "shared/outputs.hpp"
@@ -37,11 +38,12 @@ std::optional<std::pair<idx, idx>> size_of(std::string_view text)
 void declare_pictures(CLI::App& app, bake_options& o)
 {
     add_input(app, "--texture", o.texture, "the texture",
-              "The texture of OLD: PNG, JPEG or EXR; without it those of the materials of a glTF model");
+              "The texture of OLD: PNG, JPEG or EXR, NAME.<UDIM>.png for one a tile; without it those of the "
+              "materials of a glTF model");
     app.add_flag("--vertex-colours", o.colours_of_vertices, "Bake the colours of the vertices of OLD: PLY, OFF, glTF");
     add_output(app, "-o,--output", o.output,
                {.extensions = {".png", ".exr", ".glb", ".gltf"}, .made_of = "NEW", .in_place = true},
-               "The texture of NEW; or NEW with its textures, of glTF")
+               "The texture of NEW, NAME.<UDIM>.png for one a tile; or NEW with its textures, of glTF")
         ->required()
         ->type_name("OUT.png|.exr|.glb");
     add_choice<texture_content>(
@@ -119,6 +121,8 @@ void check(const bake_options& o)
         throw usage_error("--content normal is of textures; leave it out with --vertex-colours");
     if (o.colours_of_vertices && !o.difference.empty())
         throw usage_error("--difference is of textures; leave it out with --vertex-colours");
+    if (names_tiles(o.texture) && !o.difference.empty() && !names_tiles(o.difference))
+        throw usage_error("--difference: is drawn for each tile of --texture; name it NAME.<UDIM>.png");
     if (o.bits > 0 && extension(o.output) == ".exr") throw usage_error("--bits is of PNG; EXR has floats");
 }
 
