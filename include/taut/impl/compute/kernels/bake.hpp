@@ -54,7 +54,7 @@ static float along_segment(const float2 a, const float2 d)
 }
 
 /// Keeps the nearer of a place and the triangle t (6 numbers); of two at one distance the first stays.
-static void keep_nearer(nearest_place* place, const int f, __global const float* restrict t, const float2 p)
+static void keep_nearer(nearest_place* place, const int f, __global const float* t, const float2 p)
 {
     const float2 a = vload2(0, t) - p, b = vload2(1, t) - p, c = vload2(2, t) - p;
     const float u = cross2(b, c), v = cross2(c, a), w = cross2(a, b), det = u + v + w;
@@ -88,7 +88,7 @@ static int wrapped(const int x, const int n, const int repeat)
     return r < 0 ? r + n : r;
 }
 
-static void add_texel(float* value, __global const float* restrict texels, const int width, const int height,
+static void add_texel(float* value, __global const float* texels, const int width, const int height,
                       const int i, const int j, const int repeat, const float weight)
 {
     const size_t at = (size_t)wrapped(j, height, repeat) * width + wrapped(i, width, repeat);
@@ -96,7 +96,7 @@ static void add_texel(float* value, __global const float* restrict texels, const
 }
 
 /// Adds the old texture at p.
-static void add_sample(float* value, __global const float* restrict texels, const int width, const int height,
+static void add_sample(float* value, __global const float* texels, const int width, const int height,
                        const float2 p, const int nearest, const int repeat)
 {
     if (nearest)
@@ -112,19 +112,19 @@ static void add_sample(float* value, __global const float* restrict texels, cons
     add_texel(value, texels, width, height, i + 1, j + 1, repeat, r.x * r.y);
 }
 
-static float3 interpolated3(__global const float* restrict corners, const float3 w)
+static float3 interpolated3(__global const float* corners, const float3 w)
 {
     return w.x * vload3(0, corners) + w.y * vload3(1, corners) + w.z * vload3(2, corners);
 }
 
-static float3 interpolated_tangent(__global const float* restrict corners, const float3 w)
+static float3 interpolated_tangent(__global const float* corners, const float3 w)
 {
     return w.x * vload4(0, corners).xyz + w.y * vload4(1, corners).xyz + w.z * vload4(2, corners).xyz;
 }
 
 /// A normal of the old tangent space, stored as (x + 1) / 2, in the new one. old, next: tangents, 12 numbers a triangle.
-static void turn_normal(float* value, const float3 w, __global const float* restrict normals,
-                        __global const float* restrict old, __global const float* restrict next, const float green)
+static void turn_normal(float* value, const float3 w, __global const float* normals,
+                        __global const float* old, __global const float* next, const float green)
 {
     const float3 stored = (float3)(2 * value[0] - 1, green * (2 * value[1] - 1), 2 * value[2] - 1);
     const float3 n = interpolated3(normals, w);
