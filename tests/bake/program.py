@@ -339,6 +339,20 @@ def test_model():
     assert (FOLDER / "baked1.bin").exists()
 
 
+def test_what_repair_leaves_out():
+    """Broken faces have no place in the new atlas; others are baked."""
+    text = (FOLDER / "old.obj").read_text().splitlines()
+    at = next(i for i, line in enumerate(text) if line.startswith("f "))
+    text[at:at] = ["v nan 0 0", "f 1/1 1/1 2/2", "f 1/1 2/2 %d/3" % (sum(line.startswith("v ") for line in text) + 1)]
+    (FOLDER / "broken.obj").write_text("\n".join(text) + "\n")
+    (FOLDER / "in.png").write_bytes(png(256, 96, 3, colour))
+    for new in ("mended.obj", "mended.glb"):
+        run("atlas", "broken.obj", "-o", new, "--repair", "--quiet")
+        run("bake", "broken.obj", new, "--texture", "in.png", "-o", "out.png", "--quiet", "--stats", "stats.json")
+        told = json.loads((FOLDER / "stats.json").read_text())
+        assert told["left_out"] == 2 and told["textures"][0]["rms_difference"] < 0.02, told
+
+
 def test_refusals():
     assert "--texture" in run("bake", "old.obj", "new.obj", "-o", "x.png", code=2)
     assert "name it so" in run("bake", "model.glb", "cut.glb", "-o", "x.png", code=2)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <taut/impl/bake/tangent_frames.hpp>
+#include <taut/impl/exact/predicates.hpp>
 #include <taut/impl/gltf/vertex_attribute.hpp>
 
 #include "shared/failure.hpp"
@@ -23,6 +24,20 @@ const vec2 no_place(std::numeric_limits<double>::quiet_NaN());
 std::size_t u(idx i)
 {
     return static_cast<std::size_t>(i);
+}
+
+/// Leaves out triangles that have no place, or name a point which is not there or not finite, as repair does.
+void leave_out_unusable(textured_surface& s)
+{
+    const auto is_usable = [&](idx v) { return v >= 0 && u(v) < s.points.size() && impl::finite(s.points[u(v)]); };
+    for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    {
+        // Those that are left out of a map of glTF have all corners in one place.
+        if (s.uv[t][0] == s.uv[t][1] && s.uv[t][0] == s.uv[t][2]) s.uv[t].fill(no_place);
+        if (std::all_of(s.triangles[t].begin(), s.triangles[t].end(), is_usable)) continue;
+        s.uv[t].fill(no_place);
+        s.triangles[t] = {0, 0, 0};
+    }
 }
 
 /// Takes the normals of corners where they have a direction; those of others stay.
@@ -62,6 +77,7 @@ void read_model(textured_surface& s, int texcoord_set)
         for (std::size_t k = 0; k < 3; ++k)
             if (const idx x = model.texcoord_cells[t][k]; x >= 0)
                 s.uv[t][k] = vec2(model.texcoords[u(x)].x, 1 - model.texcoords[u(x)].y);
+    leave_out_unusable(s);
     s.normals = smooth_normals(s.points, s.triangles);
     s.tangents = read_tangents(model);
     const auto normals = io::impl::read_attribute(model, "NORMAL");
@@ -77,7 +93,6 @@ void read_model(textured_surface& s, int texcoord_set)
 void read_soup(textured_surface& s, io::surface_format format)
 {
     auto file = io::read_surface_soup(s.path, format);
-    if (file.fault) throw mesh_error(*file.fault);
     if (!file.texcoord_fault.empty()) throw unsuitable_input(file.texcoord_fault + "; correct it");
     if (file.triangles.empty()) throw mesh_error(mesh_fault::empty, {}, s.path + ": there are no triangles");
     s.points = std::move(file.points);
@@ -87,6 +102,8 @@ void read_soup(textured_surface& s, io::surface_format format)
     for (std::size_t t = 0; t < file.texcoord_cells.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             if (const idx x = file.texcoord_cells[t][k]; x >= 0) s.uv[t][k] = file.texcoords[u(x)];
+    if (s.points.empty()) throw mesh_error(mesh_fault::empty, {}, s.path + ": there are no vertices");
+    leave_out_unusable(s);
     s.normals = smooth_normals(s.points, s.triangles);
     if (file.normals.empty()) return;
     take_normals(s,
@@ -123,10 +140,10 @@ vertex_colours read_vertex_colours(const textured_surface& s, io::surface_format
     else if (const auto file = io::read_surface_soup(s.path, format); !file.vertices.colours.empty())
     {
         colours.channels = 3;
-        for (const auto& t : file.triangles)
+        for (const auto& t : s.triangles)
             for (const idx v : t)
                 for (int k = 0; k < 3; ++k)
-                    colours.values.push_back(static_cast<float>(file.vertices.colours[u(v)][k]));
+                    colours.values.push_back(static_cast<float>(file.vertices.colours.at(u(v))[k]));
     }
     if (colours.channels == 0)
         throw unsuitable_input(s.path + ": its vertices have no colours; those of PLY, OFF and glTF are read");
@@ -144,12 +161,13 @@ void require_same_triangles(const textured_surface& a, const textured_surface& b
     for (const auto& t : a.triangles)
         for (const idx v : t)
         {
+            if (!impl::finite(a.points[u(v)])) continue;
             low = glm::min(low, a.points[u(v)]);
             high = glm::max(high, a.points[u(v)]);
         }
     const double tolerance = 1e-5 * glm::length(high - low);
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t k = 0; k < 3 && std::isfinite(b.uv[t][0].x); ++k)
             if (const double d = glm::length(a.points[u(a.triangles[t][k])] - b.points[u(b.triangles[t][k])]);
                 !(d <= tolerance))
                 throw unsuitable_input("corner " + std::to_string(k) + " of triangle " + std::to_string(t) + " lies " +
