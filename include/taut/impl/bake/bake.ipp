@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -114,11 +115,9 @@ inline void require_fitting(const bake_source& s, std::size_t triangles)
     require("to", s.frames->to.size());
 }
 
-inline baked_texture bake_any(queue& q, const bake_source& s, std::span<const std::array<vec2, 3>> to,
-                              const bake_params& params)
+/// The new texture, empty.
+inline baked_texture empty_texture(const bake_source& s, const bake_params& params)
 {
-    params.validate();
-    require_fitting(s, to.size());
     baked_texture result;
     texture& image = result.image;
     image.channels = s.old ? s.old->channels : s.channels;
@@ -126,22 +125,53 @@ inline baked_texture bake_any(queue& q, const bake_source& s, std::span<const st
     image.height = params.height > 0 ? params.height : s.old ? s.old->height : 1024;
     image.texels.resize(image.size());
     result.covered.resize(image.size() / static_cast<std::size_t>(image.channels));
+    return result;
+}
 
+/// Places of corners in texels of the new texture; not finite where a triangle is left out.
+inline std::vector<std::array<vec2, 3>> new_places(const bake_source& s, std::span<const std::array<vec2, 3>> to,
+                                                   const bake_params& params, const texture& image)
+{
     std::vector<std::array<vec2, 3>> places(to.begin(), to.end());
     for (std::size_t f = 0; f < places.size(); ++f)
         for (vec2& x : places[f])
-            x = !s.old || all_finite(s.from[f]) ? (x - params.origin) * vec2(image.width, image.height) : vec2(NAN);
-    const idx across = (image.width + bake_tile - 1) / bake_tile, down = (image.height + bake_tile - 1) / bake_tile;
-    const csr tiles = triangles_by_tile(places, bake_tile, across, down, bake_reach + 0.01);
+            x = !s.old || all_finite(s.from[f]) ? (x - params.origin) * vec2(image.width, image.height)
+                                                : vec2(std::numeric_limits<double>::quiet_NaN());
+    return places;
+}
 
-    const auto starts = buffer_of(q, tiles.offsets), items = buffer_of(q, tiles.items);
-    const auto uv = buffer_of(q, places_in_texels(places));
-    const auto old_uv = buffer_of(q, s.old ? old_places(s, params.wrap) : std::vector<float>());
-    const auto old_texels = buffer_of(q, s.old ? s.old->texels : std::vector<float>());
-    const auto values = buffer_of(q, std::vector<float>(s.values.begin(), s.values.end()));
-    const auto normals = buffer_of(q, s.frames ? numbers_of_normals(s.frames->normals) : std::vector<float>());
-    const auto old_tangents = buffer_of(q, s.frames ? numbers_of_tangents(s.frames->from) : std::vector<float>());
-    const auto new_tangents = buffer_of(q, s.frames ? numbers_of_tangents(s.frames->to) : std::vector<float>());
+/// What the kernel reads, on the device.
+struct bake_buffers
+{
+    bake_buffers(queue& q, const bake_source& s, std::span<const std::array<vec2, 3>> places, const csr& tiles,
+                 texture_wrap wrap)
+        : starts(buffer_of(q, tiles.offsets)),
+          items(buffer_of(q, tiles.items)),
+          uv(buffer_of(q, places_in_texels(places))),
+          old_uv(buffer_of(q, s.old ? old_places(s, wrap) : std::vector<float>())),
+          old_texels(buffer_of(q, s.old ? s.old->texels : std::vector<float>())),
+          values(buffer_of(q, std::vector<float>(s.values.begin(), s.values.end()))),
+          normals(buffer_of(q, s.frames ? numbers_of_normals(s.frames->normals) : std::vector<float>())),
+          old_tangents(buffer_of(q, s.frames ? numbers_of_tangents(s.frames->from) : std::vector<float>())),
+          new_tangents(buffer_of(q, s.frames ? numbers_of_tangents(s.frames->to) : std::vector<float>()))
+    {
+    }
+
+    buffer<idx> starts, items;
+    buffer<float> uv, old_uv, old_texels, values, normals, old_tangents, new_tangents;
+};
+
+inline baked_texture bake_any(queue& q, const bake_source& s, std::span<const std::array<vec2, 3>> to,
+                              const bake_params& params)
+{
+    params.validate();
+    require_fitting(s, to.size());
+    baked_texture result = empty_texture(s, params);
+    texture& image = result.image;
+    const idx across = (image.width + bake_tile - 1) / bake_tile, down = (image.height + bake_tile - 1) / bake_tile;
+    const auto places = new_places(s, to, params, image);
+    const bake_buffers on(q, s, places, triangles_by_tile(places, bake_tile, across, down, bake_reach + 0.01),
+                          params.wrap);
     const kernel run(q, kernels::bake, "bake_texels", few_functions + ("-DCHANNELS=" + std::to_string(image.channels)));
 
     // Some rows at a time, so that the new texture need not be on the device as a whole.
@@ -162,22 +192,22 @@ inline baked_texture bake_any(queue& q, const bake_source& s, std::span<const st
                                       {"tiles_across", across},
                                       {"samples", params.samples},
                                       {"reach", bake_reach},
-                                      {"starts", starts},
-                                      {"items", items},
-                                      {"uv", uv},
+                                      {"starts", on.starts},
+                                      {"items", on.items},
+                                      {"uv", on.uv},
                                       {"source", idx(!s.old     ? 1
                                                      : s.frames ? 2
                                                                 : 0)},
-                                      {"old_uv", old_uv},
-                                      {"old_texels", old_texels},
+                                      {"old_uv", on.old_uv},
+                                      {"old_texels", on.old_texels},
                                       {"old_width", s.old ? s.old->width : 1},
                                       {"old_height", s.old ? s.old->height : 1},
                                       {"nearest", idx(params.filter == texture_filter::nearest)},
                                       {"repeat", idx(params.wrap == texture_wrap::repeat)},
-                                      {"values", values},
-                                      {"normals", normals},
-                                      {"old_tangents", old_tangents},
-                                      {"new_tangents", new_tangents},
+                                      {"values", on.values},
+                                      {"normals", on.normals},
+                                      {"old_tangents", on.old_tangents},
+                                      {"new_tangents", on.new_tangents},
                                       {"green", params.green_down ? -1.0 : 1.0},
                                       {"texels", texels},
                                       {"covered", covered}});
