@@ -20,6 +20,7 @@ using command = std::function<exit_code(const outputs&)>;
 /// Each adds one subcommand with its options and returns what it does. `launch` is when the program started.
 command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_atlas(CLI::App& program, std::chrono::steady_clock::time_point launch);
+command add_bake(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_deform(CLI::App& program, std::chrono::steady_clock::time_point launch);
 command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch);
@@ -40,6 +41,7 @@ inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_
 {
     return {add_unwrap(program, launch),
             add_atlas(program, launch),
+            add_bake(program, launch),
             add_untangle(program, launch),
             add_deform(program, launch),
             add_smooth(program, launch),

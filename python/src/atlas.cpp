@@ -128,6 +128,9 @@ nb::dict report_of(const atlas_report& r)
     d["seam_length"] = r.seam_length;
     d["least_distance"] = r.least_distance;
     d["tiles"] = r.tiles;
+    d["resolution"] = r.resolution;
+    if (r.seen_seam) d["seen_seam"] = *r.seen_seam;
+    d["stacked"] = r.stacked;
     std::vector<idx> triangles, tiles;
     std::vector<double> areas, energies;
     for (const auto& c : r.charts)

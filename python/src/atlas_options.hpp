@@ -37,7 +37,23 @@ inline void read_atlas_options(atlas_params& params, const options& given)
     given.read("tiles", packing.tiles);
     given.read("rotate", packing.rotate);
     given.read("symmetric", params.symmetric);
-    given.read_word("charts", params.keep_charts, {{"auto", false}, {"keep", true}});
+    given.read("aspect", packing.aspect);
+    given.read("texels_per_unit", packing.texels_per_unit);
+    given.read("max_resolution", packing.max_resolution);
+    given.read("align", packing.align);
+    given.read("stack", params.stack);
+    given.read("hide_seams", params.wishes.hide);
+    given.read("crease_angle", params.wishes.crease_angle);
+    enum class use
+    {
+        make,
+        keep,
+        pack
+    };
+    use charts_from = use::make;
+    given.read_word("charts", charts_from, {{"auto", use::make}, {"keep", use::keep}, {"pack", use::pack}});
+    params.keep_charts = charts_from != use::make;
+    params.relax = charts_from != use::pack;
     if (given.get("single", false)) params.stored = in_float;
     given.read_seconds("time_limit", params.time_limit);
 }

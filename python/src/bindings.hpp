@@ -20,6 +20,7 @@ parameterize_params map_params(const options& given, const mesh<triangle>& m, co
 void add_maps(nb::module_& m);
 void add_atlas(nb::module_& m);
 void add_packing(nb::module_& m);
+void add_bake(nb::module_& m);
 void add_repair(nb::module_& m);
 void add_volumes(nb::module_& m);
 void add_shells(nb::module_& m);

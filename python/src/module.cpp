@@ -21,6 +21,7 @@ NB_MODULE(_taut, m)
     add_maps(m);
     add_atlas(m);
     add_packing(m);
+    add_bake(m);
     add_repair(m);
     add_volumes(m);
     add_shells(m);

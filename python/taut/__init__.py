@@ -14,6 +14,7 @@ from typing import Any
 
 from . import energies
 from ._atlas import atlas
+from ._bake import bake
 from ._evaluator import Evaluator
 from ._files import Mesh, devices, read, write
 from ._jobs import Job, start
@@ -42,7 +43,7 @@ from .errors import (
 __all__ = [
     "Atlas", "Cancelled", "Certificate", "ConstraintError", "Device", "DeviceError", "Element", "Energy", "Evaluator",
     "FileError", "Frame", "Infeasible", "Interrupted", "Job", "Map", "Mesh", "MeshError", "NoMap", "ParameterError",
-    "Packed", "Pasted", "Repaired", "Session", "TautError", "TraceError", "atlas", "certify", "check_gradient", "deform",
+    "Packed", "Pasted", "Repaired", "Session", "TautError", "TraceError", "atlas", "bake", "certify", "check_gradient", "deform",
     "devices", "distortion", "energies", "energy", "pack", "paste", "quality", "read", "repair", "shell", "smooth", "start",
     "untangle", "unwrap", "where", "write",
 ]

@@ -50,11 +50,18 @@ def atlas(
     parts: ArrayLike = None,
     pinned: ArrayLike = None,
     symmetric: bool = False,
+    hide_seams: float = 0,
+    crease_angle: float = 180,
     max_distortion: float | None = None,
     mean_distortion: float | None = None,
     resolution: int = 1024,
     padding: float = 2,
     tiles: int = 1,
+    aspect: float = 1,
+    texels_per_unit: float | None = None,
+    max_resolution: int | None = None,
+    align: int = 1,
+    stack: bool = False,
     rotate: bool = True,
     densities: ArrayLike = None,
     repair: bool = True,
@@ -76,8 +83,9 @@ def atlas(
         The polygon of each triangle; seams keep off their diagonals.
     uv : (m, 3, 2) or (n, 2) array-like, optional
         Texture coordinates of before, for `charts="keep"` and `pinned`.
-    charts : {"auto", "keep"}
-        Charts are made, or are what `seams` and `parts` part; these are flattened from `uv`, if given, and packed.
+    charts : {"auto", "keep", "pack"}
+        Charts are made, or are what `seams` and `parts` part; these are flattened from `uv`, if given, and packed, or
+        packed as they lie in `uv`.
     prefer : {"seams", "packing", "one"}
         Few charts along short seams; more charts that fill squares well; or one chart a component, where it can be.
     seams : (k, 2) array-like of int, optional
@@ -88,11 +96,19 @@ def atlas(
         Triangles that stay at `uv`.
     symmetric : bool
         Charts are mirror images of each other.
+    hide_seams, crease_angle : float
+        How much seams avoid what is seen from outside, 0 to 1; edges bent by more than this, in degrees, are liked.
     max_distortion, mean_distortion : float, optional
         Bounds of the isometric energy of a chart and of the whole, above 4.
     resolution, padding, tiles, rotate, densities
         Texels along a tile; least distance of charts in texels; how many tiles; whether charts are turned; a factor of
         lengths for each chart.
+    aspect, texels_per_unit, max_resolution, align
+        Height of a tile by its width, a power of two (`uv` fill the unit square all the same); a given density, with as
+        many of `tiles` as that takes, or with the resolution doubled up to a bound; side of the blocks of texels that
+        one chart has alone.
+    stack : bool
+        Whether charts that are copies in space lie on each other.
     repair : bool
         Whether triangles are made a surface first (`taut.repair`); what that leaves out lies in one point.
     weld : bool
@@ -119,8 +135,11 @@ def atlas(
         if name not in _TUNING:
             raise TypeError(f"atlas() got an unexpected keyword argument {name!r}")
     if F is None:
-        return _several(V, prefer=prefer, resolution=resolution, padding=padding, tiles=tiles, rotate=rotate, repair=repair,
-                        max_distortion=max_distortion, mean_distortion=mean_distortion, weld=weld, single=single,
+        return _several(V, prefer=prefer, resolution=resolution, padding=padding, tiles=tiles, aspect=aspect,
+                        texels_per_unit=texels_per_unit, max_resolution=max_resolution, align=align, stack=stack,
+                        hide_seams=hide_seams, crease_angle=crease_angle,
+                        rotate=rotate, repair=repair, max_distortion=max_distortion,
+                        mean_distortion=mean_distortion, weld=weld, single=single,
                         time_limit=time_limit, progress=progress, device=device, **more)
     points = _arrays.points("V", V, (2, 3), nan=True) if repair else _arrays.points("V", V, (2, 3))
     faces = _arrays.indices("F", F, (3,), len(points))
@@ -129,11 +148,18 @@ def atlas(
         "charts": charts,
         "prefer": prefer,
         "symmetric": symmetric,
+        "hide_seams": hide_seams,
+        "crease_angle": crease_angle,
         "max_distortion": max_distortion,
         "mean_distortion": mean_distortion,
         "resolution": resolution,
         "padding": padding,
         "tiles": tiles,
+        "aspect": aspect,
+        "texels_per_unit": texels_per_unit,
+        "max_resolution": max_resolution,
+        "align": align,
+        "stack": stack,
         "rotate": rotate,
         "repair": repair,
         "weld": weld,

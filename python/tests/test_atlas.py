@@ -96,3 +96,24 @@ def test_options_that_are_wrong_name_their_field(torus):
     with pytest.raises(taut.ParameterError) as e:
         taut.atlas(*torus, uv=np.zeros((3, 3, 2)))
     assert e.value.field == "uv"
+
+
+def test_pages_have_given_density_shape_and_blocks(torus):
+    V, F = torus
+    made = taut.atlas(V, F, resolution=256, aspect=0.5, align=4, texels_per_unit=20, tiles=50, prefer="packing")
+    uv, texels = made.uv, np.array([256, 128])
+    plane = signed_areas((uv % 1) * texels, made.faces).sum()
+    x = V[F]
+    space = np.linalg.norm(np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), axis=1).sum() / 2
+    assert abs(np.sqrt(plane / space) / 20 - 1) < 0.02
+    assert made.report["resolution"] == 256 and made.report["tiles"] == int(uv.max()) + 1
+    packed = taut.atlas(V, F, uv=made.corner_uv % 1, parts=made.chart, charts="pack")
+    assert packed.charts == made.charts
+
+
+def test_copies_lie_on_each_other(torus):
+    V, F = torus
+    both = taut.atlas(np.vstack([V, V + [9, 0, 0]]), np.vstack([F, F + len(V)]), stack=True)
+    a, b = both.corner_uv[: len(F)], both.corner_uv[len(F) :]
+    assert both.report["stacked"] * 2 == both.charts
+    assert {tuple(map(tuple, t)) for t in np.sort(a, axis=1)} == {tuple(map(tuple, t)) for t in np.sort(b, axis=1)}

@@ -136,7 +136,8 @@ def each_option_says_what_its_files_are(t):
     """The types of options that name no file are known, and each other one is an input, which a batch lists, or an output, whose
     folder has to be there."""
     no_files = r"GROUP|PLANE|DEGREES|BYTES|FOLDER|i/N|[VRSNDTHBP]|PX|MS|0\.\.1|1\.2\.\.|1\.\.8|8\.\.8192|(?!FILE|OUT)[^|.]+(\|[^|]+)+"
-    required = {"unwrap": ["in.obj", "-o", "o.obj"], "atlas": ["in.obj", "-o", "o.obj"], "untangle": ["in.mesh", "-o", "o.mesh"],
+    required = {"unwrap": ["in.obj", "-o", "o.obj"], "atlas": ["in.obj", "-o", "o.obj"],
+                "bake": ["in.obj", "in.obj", "--texture", "in.obj", "-o", "o.png"], "untangle": ["in.mesh", "-o", "o.mesh"],
                 "deform": ["in.mesh", "-o", "o.mesh"], "smooth": ["in.mesh", "-o", "o.mesh"],
                 "paste": ["--source", "in.obj", "--target", "in.obj", "--onto", "0", "--at", "0", "--radius", "1", "-o", "o.obj"],
                 "check": ["in.obj"], "eval": ["in.mesh"], "view": None, "batch": None, "devices": []}
@@ -151,7 +152,7 @@ def each_option_says_what_its_files_are(t):
             if re.fullmatch(no_files, kind):
                 continue
             assert re.match(r"FILE|OUT|MOVE", kind), f"{command} {name} {kind}: a file or not?"
-            if required[command] is None or name in required[command] or name in ("IN", "MESH", "PROBLEM", "--output"):
+            if required[command] is None or name in required[command] or name in ("IN", "OLD", "NEW", "MESH", "PROBLEM", "--output"):
                 continue  # named in each run
             found += 1
             # FILE.png|.svg, FILE, MOVE

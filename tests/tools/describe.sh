@@ -31,11 +31,11 @@ zsh_offers()
 test_describe()
 {
     expect 0 man pages
-    for page in taut taut-unwrap taut-atlas taut-untangle taut-deform taut-smooth taut-paste taut-check taut-eval \
+    for page in taut taut-unwrap taut-atlas taut-bake taut-untangle taut-deform taut-smooth taut-paste taut-check taut-eval \
                 taut-view taut-batch taut-devices; do
         says "pages/$page.1" '^\.TH ' '^\.SH NAME' '^\.SH OPTIONS' '^\.SH EXIT STATUS'
     done
-    [ "$(find pages -type f | wc -l)" = 12 ] || fail "other pages than those of commands"
+    [ "$(find pages -type f | wc -l)" = 13 ] || fail "other pages than those of commands"
     says pages/taut.1 'taut\\-unwrap' 'TAUT_DEVICE'
     if command -v man >/dev/null; then
         for page in pages/*.1; do

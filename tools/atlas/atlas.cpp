@@ -40,6 +40,7 @@
 #include "shared/report_files.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/shared_options.hpp"
+#include "shared/text_table.hpp"
 #include "shared/writing.hpp"
 
 namespace taut::tools
@@ -128,7 +129,8 @@ private:
             told.repairs.assign(s.repairs().begin(), s.repairs().end());
             report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());
             if (!s.near_edges.empty()) report_.notes.push_back(s.near_edges);
-            if (!s.texcoord_fault.empty() && (options_.keep_charts || options_.keep_seams || !options_.pinned.empty()))
+            if (!s.texcoord_fault.empty() &&
+                (options_.keep_charts() || options_.keep_seams || !options_.pinned.empty()))
                 throw unsuitable_input(s.texcoord_fault +
                                        "; correct it, or leave out --charts keep, --keep-seams and --pin");
             if (options_.inputs.size() > 1) require_valid(s.surface(), options_.inputs[i]);
@@ -156,9 +158,16 @@ private:
         const auto f = facets(m);
         const auto seams = seams_of(sources_, *joined_, f, options_);
         params.charts.seams = seams;
+        const auto weights = seam_weights_of(sources_, *joined_, f, options_);
+        params.wishes.weights = weights;
         const auto diagonals = diagonals_of(sources_, f);
         params.charts.together = diagonals;
-        if (options_.keep_charts) params.initial = texcoords_of(sources_);
+        if (options_.keep_charts()) params.initial = texcoords_of(sources_);
+        if (options_.by_material)
+        {
+            params.groups = tiles_by_material(*sources_[0]);
+            params.packing.tiles = 1 + *std::max_element(params.groups.begin(), params.groups.end());
+        }
         if (!options_.pinned.empty())
         {
             params.pinned = pinned_of(*sources_[0], f, options_.pinned);
@@ -190,6 +199,9 @@ private:
         }
         report_.atlas = atlas_->report;
         report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
+        if (options_.max_stretch && atlas_->report.stretch_l2 > *options_.max_stretch)
+            report_.notes.push_back("the stretch is " + number(atlas_->report.stretch_l2, 4) +
+                                    ", above --max-stretch: the surface is rough, or time ran out");
         if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;
         if (!*atlas_) throw no_valid_map(atlas_->report.reason);
     }
@@ -254,13 +266,21 @@ private:
         return uv;
     }
 
+    /// The same in widths of a tile.
+    std::vector<vec2> sized() const
+    {
+        std::vector<vec2> uv = shown();
+        for (vec2& x : uv) x.y *= to_params(options_).packing.aspect;
+        return uv;
+    }
+
     std::string picture() const
     {
         const auto& cut = atlas_->charts.surface;
-        const auto uv = shown();
-        std::vector<vec2> sized = uv;
-        for (vec2& p : sized) p /= atlas_->layout.scale;
-        const auto distortion = io::symmetric_distortion(cut.points(), cut.cells(), sized);
+        const auto uv = sized();
+        std::vector<vec2> in_units = uv;
+        for (vec2& p : in_units) p /= atlas_->layout.scale;
+        const auto distortion = io::symmetric_distortion(cut.points(), cut.cells(), in_units);
         const auto loops = boundary_loops(cut);
         const io::layout_style style{.title = title(),
                                      .energy = report_.atlas.distortion,
@@ -273,7 +293,7 @@ private:
     std::string render() const
     {
         const auto& cut = atlas_->charts.surface;
-        return encode_png(io::render_picture(cut.points(), cut.cells(), shown(), {.title = title()}));
+        return encode_png(io::render_picture(cut.points(), cut.cells(), sized(), {.title = title()}));
     }
 
     std::string page() const
@@ -289,7 +309,7 @@ private:
             for (idx c = atlas_->charts.first_cell[k]; c < atlas_->charts.first_cell[k + 1]; ++c)
                 chart[static_cast<std::size_t>(atlas_->charts.cell_origins[static_cast<std::size_t>(c)])] =
                     static_cast<idx>(k);
-        const auto energy = triangle_energies(*atlas_);
+        const auto energy = triangle_energies(*atlas_, to_params(options_).packing.aspect);
         report::atlas_page page{.title = title(),
                                 .command = as_command_line(options_),
                                 .points = m.points(),
@@ -300,7 +320,7 @@ private:
                                 .columns = {},
                                 .repairs = {},
                                 .stages = stages(report_),
-                                .numbers = numbers(report_, options_)};
+                                .numbers = numbers(report_)};
         for (const auto& s : report_.surfaces)
             for (const auto& finding : s.repairs) page.repairs.push_back(finding.message());
         return atlas_report_html(page);

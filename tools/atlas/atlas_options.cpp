@@ -2,6 +2,8 @@
 #include "atlas/atlas_options.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 
@@ -44,18 +46,33 @@ void declare_charts(CLI::App& app, atlas_options& o)
                    "Bound of that of all charts; default 4.1, 4.045 for packing, or --max-distortion if that is given")
         ->type_name("D")
         ->check(distortion);
+    app.add_option("--max-stretch", o.max_stretch,
+                   "The same bound in other words: the stretch (L2, Sander et al. 2001) of the whole atlas, above 1; "
+                   "1.02: texels are 2 % too coarse in the mean")
+        ->type_name("S")
+        ->check(number_that([](double x) { return x > 1 && std::isfinite(x); }, "is not above 1, that of no stretch"));
     add_choice<chart_preference>(
         app, "--prefer", o.prefer,
         {{"seams", chart_preference::seams}, {"packing", chart_preference::packing}, {"one", chart_preference::one}},
         "Few charts along short seams, charts that fill the square better, or one a component");
-    add_choice<bool>(app, "--charts", o.keep_charts, {{"auto", false}, {"keep", true}},
-                     "Make charts, or keep those of the vt of the file and relax them");
+    add_choice<chart_use>(app, "--charts", o.charts,
+                          {{"auto", chart_use::make}, {"keep", chart_use::keep}, {"pack", chart_use::pack}},
+                          "Make charts, keep those of the vt of the file and relax them, or pack these as they are");
     app.add_flag("--keep-seams", o.keep_seams, "Keep the seams of the file's vt and between its materials");
     app.add_flag("--symmetric", o.symmetric,
                  "Make charts that are mirror images of each other in the plane of symmetry, "
                  "which is detected; no chart crosses it");
     add_input(app, "--seams", o.seams, "the file of seams",
               "Edges that are seams of charts, one per line: two vertices, from 0");
+    add_input(app, "--seam-weights", o.seam_weights, "the file of weights of seams",
+              "Factors of what seams cost, a line each: a vertex, from 0, and its factor, or the two vertices of an "
+              "edge and its factor, from 0.001 to 1000; others 1");
+    add_choice<double>(app, "--hide-seams", o.hide, {{"off", 0}, {"mild", 0.5}, {"strong", 1}},
+                       "Have seams in hollows, where little is seen of them from outside");
+    app.add_option("--crease-angle", o.crease_angle,
+                   "Have seams along edges that are bent by more than this, concave ones first, and between materials")
+        ->type_name("DEGREES")
+        ->check(number_that([](double x) { return x >= 0 && x <= 180; }, "must be from 0 to 180"));
     add_input(app, "--pin", o.pinned, "the file of pinned faces",
               "Faces, from 0, that pin their charts of the file's vt: these keep shape and "
               "place, others are packed around them");
@@ -63,18 +80,39 @@ void declare_charts(CLI::App& app, atlas_options& o)
 
 void declare_packing(CLI::App& app, atlas_options& o)
 {
-    app.add_option("--padding", o.padding, "Texels between charts, and from them to the border of the square")
+    app.add_option("--padding", o.padding,
+                   "Texels between charts, and from them to the border of the square; default 2, or for --mip-levels")
         ->type_name("PX")
-        ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"))
-        ->capture_default_str();
-    app.add_option("--resolution", o.resolution, "Texels along a side of the square")
+        ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"));
+    app.add_option("--mip-levels", o.mip_levels,
+                   "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels")
         ->type_name("N")
-        ->check(CLI::Range(1, 65536))
+        ->check(CLI::Range(0, 10).description(""));
+    app.add_option("--resolution", o.size,
+                   "Texels along a side of the square, or of a page that is wider or higher by a power of two")
+        ->type_name("N|WxH")
         ->capture_default_str();
-    app.add_option("--udim", o.tiles, "Number of tiles: 1001, 1002, ... of UDIM, ten in a row")
+    app.add_option("--texels-per-unit", o.texels_per_unit,
+                   "Texels of a unit of length of the file, with as many tiles as that takes; default as many as fit")
+        ->type_name("T")
+        ->check(number_that([](double x) { return x > 0 && std::isfinite(x); }, "must be positive"));
+    app.add_option("--max-resolution", o.max_resolution,
+                   "With --texels-per-unit: double the resolution up to N until one tile, or those of --udim, do")
         ->type_name("N")
-        ->check(CLI::Range(1, 1000))
+        ->check(CLI::Range(1, 65536).description(""));
+    app.add_option("--align", o.align,
+                   "Side of the blocks of texels that one chart has alone: 4 for compressed textures")
+        ->type_name("N")
+        ->check(CLI::IsMember({1, 2, 4, 8, 16, 32, 64}).description(""))
         ->capture_default_str();
+    app.add_option(
+           "--udim", o.tiles,
+           "Number of tiles: 1001, 1002, ... of UDIM, ten in a row; default 1; 100 at most for --texels-per-unit")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000));
+    add_choice<bool>(app, "--stack", o.stack, {{"none", false}, {"similar", true}},
+                     "Lay charts on each other that are copies in space, turned and moved");
+    app.add_flag("--tile-per-material", o.by_material, "Give each material of the file a tile of its own");
     app.add_flag("--upright", o.upright, "Translate charts only, without rotation");
 }
 
@@ -110,12 +148,72 @@ void declare(CLI::App& app, atlas_options& o)
         ->type_name("N")
         ->check(CLI::Range(0, 7))
         ->capture_default_str();
+    app.add_option("--read-texcoord-set", o.read_texcoord_set,
+                   "The set whose charts and seams are read, where it is another one")
+        ->type_name("N")
+        ->check(CLI::Range(0, 7).description(""));
     declare_charts(app, o);
     declare_packing(app, o);
     declare_reports(app, o);
     app.footer(
         "exit codes: 0 certified and written; 2 usage; 3 unreadable input; 4 unsuitable input: --repair may help;\n"
         "  5 no device; 6 no valid atlas; 8 time limit, written; 9 device failure; 130 interrupted, 143 terminated");
+}
+
+namespace
+{
+
+/// Width and height of N or WxH; nothing for another text.
+std::optional<std::array<int, 2>> page_of(std::string_view text)
+{
+    const auto whole = [](std::string_view digits)
+    {
+        int n = 0;
+        const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
+        return fault == std::errc() && end == digits.data() + digits.size() && n <= 65536 ? n : 0;
+    };
+    const auto cross = text.find('x');
+    const int width = whole(text.substr(0, cross)), height = cross == text.npos ? width : whole(text.substr(cross + 1));
+    if (width < 1 || height < 1) return {};
+    return std::array{width, height};
+}
+
+/// Throws usage_error for pages that are none.
+void check_pages(const atlas_options& o)
+{
+    const auto page = page_of(o.size);
+    if (!page) throw usage_error("--resolution " + o.size + ": must be N or WIDTHxHEIGHT, from 1 to 65536");
+    const auto [width, height] = *page;
+    const double aspect = static_cast<double>(height) / width, power = std::exp2(std::round(std::log2(aspect)));
+    if (aspect != power || aspect < 1.0 / 16 || aspect > 16)
+        throw usage_error("--resolution " + o.size +
+                          ": one side must be that of the other by a power of two, 16 at "
+                          "most, such as 2048x1024");
+    if (aspect != 1 && !o.pinned.empty())
+        throw usage_error("--resolution " + o.size + ": pinned charts lie in squares; give one number");
+    const double padding = padding_of(o);
+    if (2 * padding >= std::min(width, height))
+        throw usage_error((o.padding ? "--padding " : "--mip-levels: padding ") + number(padding, 6) +
+                          ": must be less than half of --resolution, " + std::to_string(std::min(width, height)));
+    if (8 * o.align > std::min(width, height))
+        throw usage_error("--align " + std::to_string(o.align) + ": must be an eighth of --resolution at most");
+    if (o.padding && o.mip_levels) throw usage_error("--padding and --mip-levels: give one of them");
+    if (o.max_resolution > 0 && !(o.texels_per_unit > 0))
+        throw usage_error("--max-resolution is for --texels-per-unit; give both");
+    if (o.stack && !o.pinned.empty()) throw usage_error("--stack is of charts that are placed; leave out --pin");
+    if (o.by_material && o.tiles)
+        throw usage_error("--tile-per-material has as many tiles as materials; leave out --udim");
+    if (o.by_material && !o.pinned.empty())
+        throw usage_error("--tile-per-material: pinned charts have their tiles; leave out --pin");
+    if (o.by_material && o.inputs.size() > 1)
+        throw usage_error("--tile-per-material is for one surface; map the surfaces one at a time");
+}
+
+} // namespace
+
+double padding_of(const atlas_options& o)
+{
+    return o.mip_levels ? 3 * std::exp2(*o.mip_levels) : o.padding.value_or(pack_params{}.padding);
 }
 
 void check(const atlas_options& o)
@@ -126,24 +224,32 @@ void check(const atlas_options& o)
     if (!(o.time_limit > 0)) throw usage_error("--time-limit: must be positive");
     if (o.inputs.size() > 1 && !o.seams.empty())
         throw usage_error("--seams names vertices of one surface; map the surfaces one at a time, or use --keep-seams");
+    if (!o.seam_weights.empty() && (o.inputs.size() > 1 || o.symmetric || !o.pinned.empty()))
+        throw usage_error(
+            "--seam-weights names vertices of one whole surface; leave out --symmetric and --pin, and map "
+            "surfaces one at a time");
     if (o.inputs.size() > 1 && !o.pinned.empty())
         throw usage_error("--pin names faces of one surface; map the surfaces one at a time");
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
     if (o.texcoord_set > 0 && !gltf && std::none_of(o.outputs.begin(), o.outputs.end(), io::is_gltf))
         throw usage_error("--texcoord-set is of glTF; leave it out");
-    if (o.symmetric && (o.keep_charts || !o.pinned.empty()))
+    if (o.symmetric && (o.keep_charts() || !o.pinned.empty()))
         throw usage_error("--symmetric makes charts; leave out --charts keep and --pin");
-    if (o.keep_charts)
+    if (o.max_stretch && (o.max_distortion || o.mean_distortion))
+        throw usage_error("--max-stretch is a bound of the mean distortion; leave out --max-distortion and "
+                          "--mean-distortion");
+    if (o.keep_charts())
     {
+        if (o.hide > 0 || o.crease_angle < 180 || !o.seam_weights.empty())
+            throw usage_error("--charts keep has the seams of the vt; leave out --hide-seams, --crease-angle and "
+                              "--seam-weights");
         if (o.keep_seams) throw usage_error("--charts keep has the seams of the vt alone; leave out --keep-seams");
         if (o.prefer != chart_preference::seams) throw usage_error("--charts keep makes no charts; leave out --prefer");
-        if (o.max_distortion || o.mean_distortion)
-            throw usage_error("--charts keep cuts no chart, so there is no bound; leave out --max-distortion and "
-                              "--mean-distortion");
+        if (o.max_distortion || o.mean_distortion || o.max_stretch)
+            throw usage_error("--charts keep cuts no chart, so there is no bound; leave out --max-distortion, "
+                              "--mean-distortion and --max-stretch");
     }
-    if (2 * o.padding >= o.resolution)
-        throw usage_error("--padding " + number(o.padding, 6) + ": must be less than half of --resolution, " +
-                          std::to_string(o.resolution));
+    check_pages(o);
     const bool joined = o.outputs.size() < o.inputs.size();
     if (joined && io::is_gltf(o.outputs[0]))
         throw usage_error("-o " + o.outputs[0] +
@@ -189,18 +295,32 @@ std::string as_command_line(const atlas_options& o)
     if (o.weld) option("--weld", number(*o.weld, 17));
     if (o.max_distortion) option("--max-distortion", number(*o.max_distortion, 9));
     if (o.mean_distortion) option("--mean-distortion", number(*o.mean_distortion, 9));
+    if (o.max_stretch) option("--max-stretch", number(*o.max_stretch, 9));
     if (o.prefer == chart_preference::packing) option("--prefer", "packing");
     if (o.prefer == chart_preference::one) option("--prefer", "one");
-    if (o.keep_charts) option("--charts", "keep");
+    if (o.charts == chart_use::keep) option("--charts", "keep");
+    if (o.charts == chart_use::pack) option("--charts", "pack");
     flag("--keep-seams", o.keep_seams);
     flag("--symmetric", o.symmetric);
     option("--seams", o.seams);
+    option("--seam-weights", o.seam_weights);
+    if (o.hide > 0) option("--hide-seams", o.hide < 1 ? "mild" : "strong");
+    if (o.crease_angle < 180) option("--crease-angle", number(o.crease_angle, 9));
     option("--pin", o.pinned);
-    option("--padding", number(o.padding, 9));
-    option("--resolution", std::to_string(o.resolution));
-    if (o.tiles > 1) option("--udim", std::to_string(o.tiles));
+    if (o.mip_levels)
+        option("--mip-levels", std::to_string(*o.mip_levels));
+    else
+        option("--padding", number(padding_of(o), 9));
+    option("--resolution", o.size);
+    if (o.texels_per_unit > 0) option("--texels-per-unit", number(o.texels_per_unit, 9));
+    if (o.max_resolution > 0) option("--max-resolution", std::to_string(o.max_resolution));
+    if (o.align > 1) option("--align", std::to_string(o.align));
+    if (o.tiles) option("--udim", std::to_string(*o.tiles));
+    if (o.stack) option("--stack", "similar");
+    flag("--tile-per-material", o.by_material);
     flag("--upright", o.upright);
     if (o.texcoord_set > 0) option("--texcoord-set", std::to_string(o.texcoord_set));
+    if (o.read_texcoord_set) option("--read-texcoord-set", std::to_string(*o.read_texcoord_set));
     return line;
 }
 
@@ -211,8 +331,12 @@ vec2 origin_of(const atlas_options& o)
 
 source_options to_source_options(const atlas_options& o)
 {
-    return {
-        .format = o.format, .repair = o.repair, .weld = o.weld, .texcoord_set = o.texcoord_set, .origin = origin_of(o)};
+    return {.format = o.format,
+            .repair = o.repair,
+            .weld = o.weld,
+            .texcoord_set = o.texcoord_set,
+            .read_texcoord_set = o.read_texcoord_set.value_or(o.texcoord_set),
+            .origin = origin_of(o)};
 }
 
 atlas_params to_params(const atlas_options& o)
@@ -226,12 +350,24 @@ atlas_params to_params(const atlas_options& o)
     }
     if (o.max_distortion) params.charts.mean_distortion = params.charts.max_distortion = *o.max_distortion;
     if (o.mean_distortion) params.charts.mean_distortion = *o.mean_distortion;
+    // At the scale that keeps the area the mean of s1^2 + s2^2 is 2 at least, so that of 1/s1^2 + 1/s2^2, twice the
+    // square of the stretch, is E - 2 at most.
+    if (o.max_stretch) params.charts.mean_distortion = 2 + 2 * *o.max_stretch * *o.max_stretch;
     params.charts.max_distortion = std::max(params.charts.max_distortion, params.charts.mean_distortion);
-    params.keep_charts = o.keep_charts;
+    params.keep_charts = o.keep_charts();
+    params.wishes.hide = o.hide;
+    params.wishes.crease_angle = o.crease_angle;
+    params.stack = o.stack;
+    params.relax = o.charts != chart_use::pack;
     params.symmetric = o.symmetric;
-    params.packing.padding = o.padding;
-    params.packing.resolution = o.resolution;
-    params.packing.tiles = o.tiles;
+    const auto [width, height] = *page_of(o.size);
+    params.packing.padding = padding_of(o);
+    params.packing.resolution = width;
+    params.packing.aspect = static_cast<double>(height) / width;
+    params.packing.texels_per_unit = o.texels_per_unit;
+    params.packing.max_resolution = o.max_resolution;
+    params.packing.align = o.align;
+    params.packing.tiles = o.tiles.value_or(o.texels_per_unit > 0 && o.max_resolution == 0 ? 100 : 1);
     params.packing.rotate = !o.upright;
     params.origin = origin_of(o);
     return params;

@@ -49,10 +49,12 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     json["flipped"] = a.flips.flipped;
     json["branch_points"] = a.flips.branched;
     json["overlaps"] = a.overlaps;
+    if (o.stack) json["stacked"] = a.stacked;
     json["convex_polygons"] = a.polygons;
     json["concave_polygons"] = a.concave;
     json["seam_length"] = a.seam_length;
     json["relative_seam"] = finite(a.seam_length / std::sqrt(a.area));
+    if (a.seen_seam) json["seen_seam"] = *a.seen_seam;
     json["stretch_l2"] = finite(a.stretch_l2);
     json["stretch_linf"] = finite(a.stretch_linf);
     json["large_charts"] =
@@ -62,8 +64,8 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
                             {"offset", a.symmetry->offset},
                             {"pairs", a.symmetry->pairs},
                             {"own", a.symmetry->own}};
-    json["resolution"] = o.resolution;
-    json["padding"] = o.padding;
+    json["resolution"] = a.resolution;
+    json["padding"] = padding_of(o);
     json["least_distance"] = finite(a.least_distance);
     json["tiles"] = a.tiles;
     json["seconds"] = {{"read", r.read},
@@ -130,7 +132,10 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
     }
     lines.add("device", r.device_label);
     lines.add("charts", count(a.charts.size(), "chart", "charts") + ", seams of length " + number(a.seam_length) +
-                            ", " + number(a.seam_length / std::sqrt(a.area), 3) + " by the root of the area");
+                            ", " + number(a.seam_length / std::sqrt(a.area), 3) + " by the root of the area" +
+                            (a.seen_seam ? ", " + number(100 * *a.seen_seam, 3) + " % seen" : ""));
+    if (a.stacked > 0)
+        lines.add("stacks", count(static_cast<std::uint64_t>(a.stacked), "chart lies", "charts lie") + " on a copy");
     if (const auto& s = a.symmetry)
         lines.add("symmetry", count(static_cast<std::uint64_t>(s->pairs), "pair of charts", "pairs of charts") + ", " +
                                   count(static_cast<std::uint64_t>(s->own), "chart that is its own image",
@@ -142,7 +147,7 @@ std::string text_of(const atlas_run_report& r, const atlas_options& o)
     lines.add("atlas", number(100 * a.utilization, 3) + " % of " +
                            (a.tiles > 1 ? count(static_cast<std::uint64_t>(a.tiles)) + " squares" : "the square") +
                            " used, charts " + number(a.least_distance, 3) + " texels apart at " +
-                           std::to_string(o.resolution));
+                           std::to_string(a.resolution));
     lines.add("certificate", count(a.flips.flipped, "flip", "flips") + ", " + count(a.overlaps, "overlap", "overlaps") +
                                  (a.polygons > 0 ? ", " + count(a.concave) + " of " + count(a.polygons) +
                                                        " convex polygons not convex in the map"
@@ -172,7 +177,7 @@ std::vector<report::stage> stages(const atlas_run_report& r)
     return result;
 }
 
-std::vector<std::pair<std::string, std::string>> numbers(const atlas_run_report& r, const atlas_options& o)
+std::vector<std::pair<std::string, std::string>> numbers(const atlas_run_report& r)
 {
     const auto& a = r.atlas;
     std::uint64_t triangles = 0;
@@ -185,18 +190,19 @@ std::vector<std::pair<std::string, std::string>> numbers(const atlas_run_report&
             {"flipped", count(a.flips.flipped)},
             {"overlaps", count(a.overlaps)},
             {"seams", number(a.seam_length)},
-            {"apart", number(a.least_distance, 3) + " texels of " + std::to_string(o.resolution)}};
+            {"apart", number(a.least_distance, 3) + " texels of " + std::to_string(a.resolution)}};
 }
 
-std::vector<double> triangle_energies(const atlas& made)
+std::vector<double> triangle_energies(const atlas& made, double aspect)
 {
+    std::vector<vec2> uv = made.uv;
+    for (vec2& x : uv) x.y *= aspect;
     const auto& cut = made.charts.surface;
     const ideal_elements<triangle> ideal(cut);
     std::vector<double> energy(cut.cells().size());
     for (std::size_t i = 0; i < energy.size(); ++i)
     {
-        const mat2 S =
-            shape_matrix<2>(cut.cells()[i], std::span<const vec2>(made.uv), ideal.inverse[i]) / made.layout.scale;
+        const mat2 S = shape_matrix<2>(cut.cells()[i], std::span<const vec2>(uv), ideal.inverse[i]) / made.layout.scale;
         energy[static_cast<std::size_t>(made.charts.cell_origins[i])] =
             energy::isometric{}(element<double, 2>{S, glm::determinant(S), ideal.measure[i]});
     }

@@ -42,9 +42,9 @@ std::string text_of(const atlas_run_report& report, const atlas_options& options
 
 /// For the page of --report.
 std::vector<report::stage> stages(const atlas_run_report& report);
-std::vector<std::pair<std::string, std::string>> numbers(const atlas_run_report& report, const atlas_options& options);
+std::vector<std::pair<std::string, std::string>> numbers(const atlas_run_report& report);
 
 /// The isometric energy of each triangle of the surface that the atlas is of, at the scale of the atlas.
-std::vector<double> triangle_energies(const atlas& made);
+std::vector<double> triangle_energies(const atlas& made, double aspect);
 
 } // namespace taut::tools

@@ -274,7 +274,8 @@ std::vector<io::file_to_write> atlas_source::gltf_files(const std::string& path,
 
 std::unique_ptr<atlas_source> open_atlas_source(const std::string& path, const source_options& options)
 {
-    if (io::is_gltf(path)) return std::make_unique<gltf_source>(io::read_gltf(path, options.texcoord_set), options);
+    if (io::is_gltf(path))
+        return std::make_unique<gltf_source>(io::read_gltf(path, options.read_texcoord_set), options);
     return std::make_unique<surface_source>(io::read_surface_soup(path, options.format), options);
 }
 

@@ -109,7 +109,8 @@ struct source_options
     io::surface_format format{};
     bool repair = false;
     std::optional<double> weld; ///< repair_params::weld_tolerance; nothing: the usual one
-    int texcoord_set = 0;       ///< of glTF
+    int texcoord_set = 0;       ///< of glTF: the set that is written,
+    int read_texcoord_set = 0;  ///< and the one that is read
     vec2 origin = vec2(0.0);    ///< atlas_params::origin
 };
 

@@ -2,13 +2,16 @@
 #include "atlas/seam_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include <taut/impl/io/read_file.hpp>
 
 #include "shared/edge_list.hpp"
 #include "shared/failure.hpp"
+#include "shared/weight_list.hpp"
 
 namespace taut::tools
 {
@@ -57,12 +60,17 @@ void mark_texcoords(std::vector<char>& seam, const mesh<triangle>& m, const face
 std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
                            const facet_table& f, const atlas_options& options)
 {
-    if (options.seams.empty() && !options.keep_charts && !options.keep_seams) return {};
+    if (options.seams.empty() && !options.keep_charts() && !options.keep_seams && !options.by_material) return {};
     std::vector<char> seam(f.twin.size(), 0);
     if (!options.seams.empty())
         mark_edges(seam, parse_edges(io::impl::read_file(options.seams), options.seams, sources[0]->file_vertices),
                    *sources[0], options.seams);
-    if (options.keep_charts) mark_texcoords(seam, joined.surface, f, texcoords_of(sources));
+    if (options.by_material)
+    {
+        const auto borders = impl::seams_between(f, tiles_by_material(*sources[0]));
+        for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
+    }
+    if (options.keep_charts()) mark_texcoords(seam, joined.surface, f, texcoords_of(sources));
     if (!options.keep_seams) return seam;
 
     std::vector<std::array<vec2, 3>> uv;
@@ -85,6 +93,52 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
     const auto borders = impl::seams_between(f, label);
     for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
     return seam;
+}
+
+std::vector<double> seam_weights_of(const std::vector<std::unique_ptr<atlas_source>>& sources,
+                                    const joined_surfaces& joined, const facet_table& f, const atlas_options& options)
+{
+    std::vector<double> weights;
+    const bool whole = !options.symmetric && options.pinned.empty(); // of the surface that is cut
+    if (options.crease_angle < 180 && whole)
+    {
+        constexpr double border = 0.25;
+        std::vector<idx> label;
+        for (const auto& source : sources)
+        {
+            auto parts = source->parts();
+            parts.resize(source->surface().cells().size(), 0);
+            label.insert(label.end(), parts.begin(), parts.end());
+        }
+        const auto borders = impl::seams_between(f, label);
+        if (std::count(borders.begin(), borders.end(), char(1)) > 0)
+            for (const char b : borders) weights.push_back(b != 0 ? border : 1);
+    }
+    if (options.seam_weights.empty()) return weights;
+    weights.resize(f.twin.size(), 1);
+    const auto given =
+        parse_weights(io::impl::read_file(options.seam_weights), options.seam_weights, sources[0]->file_vertices);
+    const auto factor = [&](idx v) { return given.of_vertices.empty() ? 1 : given.of_vertices[u(v)]; };
+    for (std::size_t s = 0; s < weights.size(); ++s)
+    {
+        auto [a, b] = impl::side_vertices(joined.surface, static_cast<idx>(s));
+        a = sources[0]->vertex_origin(a);
+        b = sources[0]->vertex_origin(b);
+        const auto edge = given.of_edges.find({std::min(a, b), std::max(a, b)});
+        weights[s] *= edge != given.of_edges.end() ? edge->second : std::sqrt(factor(a) * factor(b));
+    }
+    for (double& w : weights) w = std::clamp(w, 1e-3, 1e3);
+    return weights;
+}
+
+std::vector<idx> tiles_by_material(const atlas_source& source)
+{
+    auto tile = source.parts();
+    if (tile.empty()) throw unsuitable_input("--tile-per-material: the file has no materials; leave it out");
+    std::map<idx, idx> number; // in the order of appearance
+    for (idx& t : tile) t = number.emplace(t, static_cast<idx>(number.size())).first->second;
+    if (number.size() > 1000) throw unsuitable_input("--tile-per-material: more than 1000 materials; leave it out");
+    return tile;
 }
 
 std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const facet_table& f)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <picture/image.hpp>
 #include <taut/impl/core/error.hpp>
@@ -15,6 +16,10 @@ class picture_error : public error
 public:
     using error::error;
 };
+
+/// The bytes of a PNG file of 8 or 16 bits a number (these with the higher byte first), 1 to 4 channels, the top row
+/// first. Errors: picture_error
+std::string encode_png(std::string_view pixels, int width, int height, int channels, int bits);
 
 /// The bytes of a PNG file. Errors: picture_error for an empty image.
 std::string encode_png(const io::image& picture);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <taut/impl/atlas/flatten_charts.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/atlas/segment.hpp>
 #include <taut/impl/packing/pack_params.hpp>
 
@@ -42,9 +43,16 @@ struct atlas_params
 
     chart_preference prefer = chart_preference::seams;
 
+    /// Where seams are liked. Not of charts that are kept; weights are not for `symmetric`.
+    seam_wishes wishes = {};
+
     /// True if the charts are those separated by `charts.seams`: they are flattened, from `initial` if it is given, and
     /// packed.
     bool keep_charts = false;
+
+    /// False if kept charts are laid as they are in `initial`, moved, turned and scaled to one texel density alone. One
+    /// that is mirrored there is mirrored back.
+    bool relax = true;
 
     /// Initial map of kept and pinned charts, or their final one, one coordinate per corner; or empty.
     std::vector<std::array<vec2, 3>> initial = {};
@@ -58,6 +66,14 @@ struct atlas_params
     /// except those of polygons across it. Not together with charts that are kept or pinned. make_atlas() throws
     /// symmetry_error where there is no such plane.
     bool symmetric = false;
+
+    /// The tile that each triangle's chart is to be in, one number each, or empty. Charts cross from one to another no
+    /// further than `charts.seams` lets them: give the borders of groups as seams.
+    std::vector<idx> groups = {};
+
+    /// True if charts that are copies of each other in space, turned and moved, lie on each other: each is a copy of
+    /// the first one's map. They do not count as overlaps.
+    bool stack = false;
 
     flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
     pack_params packing = {};       ///< the same

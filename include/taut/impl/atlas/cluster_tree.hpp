@@ -76,9 +76,10 @@ class clustering
 {
 public:
     /// keep: one flag per side, edges that remain seams, or empty; together: edges removed before all others, or empty
-    /// apart: pairs of triangles that are kept in different pieces
+    /// apart: pairs of triangles that are kept in different pieces; weights: as segment_params::weights
     clustering(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep,
-               std::span<const char> together, std::span<const std::array<idx, 2>> apart)
+               std::span<const char> together, std::span<const std::array<idx, 2>> apart,
+               std::span<const double> weights)
         : mesh_(m),
           facets_(f),
           together_(together),
@@ -112,7 +113,7 @@ public:
             tree_.strain.push_back(0);
         }
         measure_nodes();
-        const auto weight = seam_weights(m, f);
+        const auto weight = seam_weights(m, f, weights);
         for (idx h = 0; h < sides_; ++h)
             if (graph_.arc(h) == h)
             {
@@ -363,9 +364,10 @@ private:
 /// limits: asked periodically, or null; once it refuses, the current tree is returned
 inline cluster_tree make_cluster_tree(const mesh<triangle>& m, const facet_table& f, std::span<const char> keep = {},
                                       std::span<const char> together = {},
-                                      std::span<const std::array<idx, 2>> apart = {}, budget* limits = nullptr)
+                                      std::span<const std::array<idx, 2>> apart = {}, budget* limits = nullptr,
+                                      std::span<const double> weights = {})
 {
-    return impl::clustering(m, f, keep, together, apart).run(limits);
+    return impl::clustering(m, f, keep, together, apart, weights).run(limits);
 }
 
 } // namespace taut::impl

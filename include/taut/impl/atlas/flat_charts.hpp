@@ -18,7 +18,10 @@
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
 #include <taut/impl/atlas/round_polygon.hpp>
+#include <taut/impl/atlas/seams/openness.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/atlas/seen_patches.hpp>
+#include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/atlas/symmetry/symmetric_half.hpp>
 #include <taut/impl/core/budget.hpp>
@@ -41,6 +44,7 @@ public:
 
     void run()
     {
+        wish_for_seams();
         if (params_.keep_charts)
             keep_charts();
         else if (params_.symmetric)
@@ -49,6 +53,7 @@ public:
             make_charts();
         else
             cut_short();
+        if (params_.stack && !params_.keep_charts && !params_.symmetric) copy_components();
         join_polygons();
     }
 
@@ -95,10 +100,21 @@ protected:
         return flat;
     }
 
+    /// What seams count along each side, and what of the surface is seen.
+    void wish_for_seams()
+    {
+        const seam_wishes& wishes = params_.wishes;
+        wishes.validate(facets_.twin.size());
+        if (!wishes.any() || params_.keep_charts) return;
+        if (wishes.hide > 0) open_ = vertex_openness(mesh_);
+        factors_ = seam_factors(mesh_, facets_, wishes, open_);
+    }
+
     void make_charts()
     {
         usable_ = true; // whatever there is by the end of the time is laid as it is seen
         auto params = params_.charts;
+        if (!factors_.empty()) params.weights = factors_;
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("charts");
         // What takes more steps at first is mostly cut after all of them.
@@ -181,11 +197,46 @@ protected:
         if (!initial.empty())
             for_each_corner([&](std::size_t cell, std::size_t corner, std::size_t v)
                             { initial[v] = params_.initial[cell][corner]; });
+        if (!params_.relax && !initial.empty())
+        {
+            lay_as_given(std::move(initial));
+            return;
+        }
         auto flat = flatten(*charts_, initial, std::numeric_limits<int>::max());
         report_.seconds.charts = budget_.lap() - report_.seconds.flatten;
         for (const auto& chart : flat.charts) energy_.push_back(chart.energy);
         flat_ = std::move(flat.uv);
         mend(unfit());
+    }
+
+    /// Takes the maps of kept charts as they are, each with the area that its triangles have on the surface.
+    void lay_as_given(std::vector<vec2> uv)
+    {
+        flat_ = std::move(uv);
+        const ideal_elements<triangle> ideal(charts_->surface);
+        const auto& cells = charts_->surface.cells();
+        for (std::size_t k = 0; k < u(charts_->charts()); ++k)
+        {
+            double in_plane = 0, in_space = 0;
+            for (auto c = u(charts_->first_cell[k]); c < u(charts_->first_cell[k + 1]); ++c)
+            {
+                in_plane += orient(flat_[u(cells[c][0])], flat_[u(cells[c][1])], flat_[u(cells[c][2])]).det / 2;
+                in_space += ideal.measure[c];
+            }
+            const double scale = in_plane != 0 ? std::sqrt(in_space / std::abs(in_plane)) : 1;
+            for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
+                flat_[v] *= vec2(in_plane < 0 ? -scale : scale, scale);
+            energy_.push_back(area_and_energy(*charts_, k, flat_, ideal).second);
+        }
+        usable_ = true;
+        report_.seconds.charts = budget_.lap();
+        const auto bad = unfit();
+        if (const auto first = std::find(bad.begin(), bad.end(), char(1)); first != bad.end())
+            report_.reason =
+                "the chart of triangle " +
+                std::to_string(
+                    charts_->cell_origins[u(charts_->first_cell[static_cast<std::size_t>(first - bad.begin())])]) +
+                " is folded, or overlaps itself, as it is given; relax it (--charts keep), or let charts be made";
     }
 
     /// Calls f(triangle of the surface, corner, vertex of the charts) for all corners.
@@ -345,6 +396,28 @@ protected:
             energy_.push_back(laid.energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
     }
 
+    /// Cuts components that are copies of an earlier one in space as that one is cut, with its maps.
+    void copy_components()
+    {
+        if (!report_.reason.empty()) return;
+        const chart_mesh whole = cut_charts(mesh_, facets_, std::vector<char>(seam_.size(), 0));
+        const stacked_charts copies(whole, {});
+        if (copies.leaders().size() == copies.leader().size()) return;
+        const auto own = [&](idx side) { return 3 * u(whole.cell_origins[u(side / 3)]) + u(side % 3); };
+        auto laid = triangles_as_laid();
+        const auto seam = seam_;
+        for (idx s = 0; s < static_cast<idx>(seam.size()); ++s)
+        {
+            const idx first = copies.sides()[u(s)];
+            if (first == s) continue;
+            const bool given = !params_.charts.seams.empty() && params_.charts.seams[own(s)] != 0;
+            seam_[own(s)] = seam[own(first)] != 0 || given;
+            laid.uv[own(s)] = laid.uv[own(first)]; // a side and a corner have one number
+            laid.energy[own(s) / 3] = laid.energy[own(first) / 3];
+        }
+        cut(laid);
+    }
+
     /// Makes polygons that are divided by seams charts of their own.
     void join_polygons()
     {
@@ -400,7 +473,8 @@ protected:
     budget budget_;
     atlas_report report_;
     std::optional<mirror_symmetry> mirror_;
-    std::vector<char> seam_; // one per side of the surface
+    std::vector<char> seam_;             // one per side of the surface
+    std::vector<double> factors_, open_; // what seams count, one per side; what is seen, one per vertex; or empty
     std::optional<chart_mesh> charts_;
     std::vector<vec2> flat_;     // one per vertex of the charts, in units of the surface
     std::vector<double> energy_; // one per chart

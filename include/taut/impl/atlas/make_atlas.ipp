@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include <taut/impl/atlas/pinned_charts.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/atlas/short_charts.hpp>
+#include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
 #include <taut/impl/mesh/validate.hpp>
 #include <taut/impl/packing/certificate.hpp>
@@ -45,6 +47,7 @@ public:
             report_.symmetry = {mirror_->normal, mirror_->offset, pairs, own};
         }
         certify_all({});
+        fill_squares();
         return {std::move(*charts_), std::move(uv_), std::move(layout_), std::move(report_)};
     }
 
@@ -86,20 +89,43 @@ private:
         params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         params.observer = asking("pack");
         params.densities = densities_of(*charts_);
+        params.groups = groups_of(*charts_);
+        stacks_.reset();
+        if (params_.stack)
+        {
+            stacks_.emplace(*charts_, params.groups);
+            stacks_->share(flat_);
+            report_.stacked = charts_->charts() - static_cast<idx>(stacks_->leaders().size());
+        }
         const idx rows = (params.tiles + 9) / 10;
-        const double step = spacing_at(params_.origin + vec2(std::min(params.tiles, 10), rows) - 0.25, params_.stored);
+        const double step =
+            spacing_at(params_.origin + vec2(std::min(params.tiles, 10), rows * std::max(params.aspect, 1.0)) - 0.25,
+                       params_.stored);
         params.rounding = std::max(params.rounding, 4 * step); // so far vertices may be moved
         outlines_ = find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
-        layout_ = pack_outlined(flat_, outlines_, params);
+        if (stacks_)
+        {
+            params.densities = stacks_->of_leaders(params.densities);
+            params.groups = stacks_->of_leaders(params.groups);
+            layout_ = pack_outlined(flat_, stacks_->first_outlines(outlines_), params);
+            layout_.places = stacks_->of_all(layout_.places);
+        }
+        else
+            layout_ = pack_outlined(flat_, outlines_, params);
         report_.complete = report_.complete && layout_.complete;
         uv_ = layout_.apply(flat_, charts_->first_vertex);
         for (std::size_t k = 0; k < layout_.places.size(); ++k) // rows of ten tiles
         {
             const idx tile = layout_.places[k].tile, row = tile / 10;
             for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
-                uv_[v] += params_.origin + vec2(-10 * row, row);
+                uv_[v] += vec2(params_.origin.x - 10 * row, (params_.origin.y + row) * params.aspect);
         }
         bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
+        if (stacks_)
+        {
+            stacks_->share(uv_);
+            bad_ = stacks_->of_all(stacks_->of_leaders(bad_));
+        }
         report_.seconds.pack += budget_.lap();
     }
 
@@ -167,6 +193,23 @@ private:
         return densities;
     }
 
+    /// The tile of each chart; empty: any.
+    std::vector<idx> groups_of(const chart_mesh& charts) const
+    {
+        std::vector<idx> groups;
+        if (params_.groups.empty()) return groups;
+        for (std::size_t k = 0; k < u(charts.charts()); ++k)
+            groups.push_back(params_.groups[u(charts.cell_origins[u(charts.first_cell[k])])]);
+        return groups;
+    }
+
+    /// Places of tiles that are no squares in unit squares, as files have them: exact, as the sides are powers of two.
+    void fill_squares()
+    {
+        if (params_.packing.aspect == 1) return;
+        for (vec2& x : uv_) x.y /= params_.packing.aspect;
+    }
+
     /// The polygons of charts that are convex in space.
     convex_polygons convex() const
     {
@@ -182,20 +225,24 @@ private:
     {
         const auto& cut = charts_->surface;
         summarize(report_, *charts_, uv_, layout_);
-        report_.tiles = params_.packing.tiles;
+        report_.tiles = layout_.tiles > 0 ? layout_.tiles : params_.packing.tiles;
+        report_.resolution = layout_.resolution > 0 ? layout_.resolution : params_.packing.resolution;
         report_.seam_length = length_of_seams(mesh_, facets_, seam_);
+        if (!open_.empty() && report_.seam_length > 0) report_.seen_seam = seen_length() / report_.seam_length;
         if (!report_.reason.empty()) return;
         report_.flips = certify<2>(cut.cells(), std::span<const vec2>(uv_));
         if (!report_.flips || outlines_.turned || outlines_.charts() != charts_->charts())
             outlines_ = find_outlines(uv_, cut.cells(), charts_->first_cell, charts_->first_vertex);
-        const auto sealed = certify_outlined(uv_, cut.cells(), outlines_, pinned);
+        // Copies are where the first ones are.
+        const auto sealed = certify_outlined(uv_, cut.cells(), stacks_ ? stacks_->first_outlines(outlines_) : outlines_,
+                                             pinned, params_.packing.aspect);
         if (!pinned.empty()) polygons_ = convex();
         report_.polygons = u(polygons_.size());
         report_.concave = find_concave(polygons_, uv_).size();
         const auto crossing = crossing_charts(*charts_, uv_);
         report_.overlaps =
             sealed.overlaps.pairs + static_cast<std::size_t>(std::count(crossing.begin(), crossing.end(), char(1)));
-        report_.least_distance = std::min(sealed.gap, sealed.border) * params_.packing.resolution;
+        report_.least_distance = std::min(sealed.gap, sealed.border) * report_.resolution;
         report_.seconds.certify += budget_.lap();
         if (!report_.flips)
             report_.reason = std::to_string(report_.flips.flipped) + " triangles" + turned_ids() +
@@ -207,9 +254,9 @@ private:
         else if (report_.overlaps > 0)
             report_.reason = std::to_string(report_.overlaps) +
                              " charts overlap in the atlas: the first are those of triangles " +
-                             std::to_string(first_triangle(u(sealed.overlaps.first[0]))) + " and " +
-                             std::to_string(first_triangle(u(sealed.overlaps.first[1])));
-        else if (!sealed.holds(params_.packing.padding, params_.packing.resolution))
+                             std::to_string(first_triangle(laid_chart(sealed.overlaps.first[0]))) + " and " +
+                             std::to_string(first_triangle(laid_chart(sealed.overlaps.first[1])));
+        else if (!sealed.holds(params_.packing.padding, report_.resolution))
             report_.reason = "charts are nearer to each other, or to the border, than the padding";
         if (report_.concave > 0)
             report_.notes.push_back(std::to_string(report_.concave) +
@@ -218,7 +265,23 @@ private:
                                     "of them turn over");
     }
 
+    /// Length of the seams, times how much is seen of their ends.
+    double seen_length() const
+    {
+        double sum = 0;
+        for (std::size_t s = 0; s < seam_.size(); ++s)
+        {
+            if (!seam_[s] || facets_.twin[s] < static_cast<idx>(s)) continue;
+            const auto [a, b] = side_vertices(mesh_, static_cast<idx>(s));
+            sum += glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]) * 0.5 * (open_[u(a)] + open_[u(b)]);
+        }
+        return sum;
+    }
+
     static constexpr const char* remedy = "a file with more digits (.obj) may keep them, or --upright";
+
+    /// The chart of a certificate, which has the first of each stack.
+    std::size_t laid_chart(idx k) const { return u(stacks_ ? stacks_->leaders()[u(k)] : k); }
 
     idx first_triangle(std::size_t chart) const { return charts_->cell_origins[u(charts_->first_cell[chart])]; }
 
@@ -236,6 +299,7 @@ private:
     std::vector<double> grown_; // one per triangle of the surface: how much larger its chart is laid; empty if none is
     std::vector<vec2> uv_;      // one per vertex of the charts, in the tiles
     packing layout_;
+    std::optional<stacked_charts> stacks_;
     chart_outlines outlines_; // of the charts as they were laid; the same in the tiles, unless triangles turned over
 };
 
@@ -249,7 +313,9 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
     // Beyond these sizes areas, or products of them, would overflow.
     if (const double unit = impl::unit_scale(m); unit > 1e70 || unit < 1e-70)
     {
-        atlas made = make_atlas(q, scaled(m, unit), params);
+        atlas_params of_scaled = params;
+        of_scaled.packing.texels_per_unit /= unit;
+        atlas made = make_atlas(q, scaled(m, unit), of_scaled);
         made.charts.surface = scaled(made.charts.surface, 1 / unit);
         made.layout.scale *= unit;
         for (auto& place : made.layout.places) place.scale *= unit;
@@ -261,6 +327,14 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
     }
     if (params.symmetric && (params.keep_charts || !params.pinned.empty()))
         throw parameter_error("symmetric", "makes charts; none can be kept or pinned");
+    if (!params.wishes.weights.empty() && (params.symmetric || !params.pinned.empty()))
+        throw parameter_error("weights", "are of the whole surface; leave out `symmetric` and `pinned`");
+    if (!params.groups.empty() && params.groups.size() != m.cells().size())
+        throw parameter_error("groups", "empty or one tile a triangle");
+    if (params.stack && !params.pinned.empty())
+        throw parameter_error("stack", "is of charts that are placed; pin none");
+    if (!params.pinned.empty() && params.packing.aspect != 1)
+        throw parameter_error("aspect", "pinned charts lie in squares; give 1, or pin none");
     impl::atlas_making whole(q, m, params);
     if (std::count(params.pinned.begin(), params.pinned.end(), char(0)) ==
         static_cast<std::ptrdiff_t>(params.pinned.size()))

@@ -32,6 +32,9 @@ struct segment_params
     /// only where a bound cannot be met otherwise.
     std::span<const char> together = {};
 
+    /// What a unit of length of a seam counts along each side, the same on both sides of an edge; or empty: 1.
+    std::span<const double> weights = {};
+
     /// Minimum fill of the convex hull in the plane, 0 to 1: charts of more than a 200th of the area below it are cut,
     /// as branching charts pack badly.
     double least_fill = 0.82;

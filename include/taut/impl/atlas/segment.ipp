@@ -59,7 +59,8 @@ private:
     void cut_by_estimate()
     {
         budget_.lap();
-        const auto tree = make_cluster_tree(mesh_, facets_, params_.seams, params_.together, {}, &budget_);
+        const auto tree =
+            make_cluster_tree(mesh_, facets_, params_.seams, params_.together, {}, &budget_, params_.weights);
         std::vector<char> chosen(u(tree.nodes()), 0);
         for (idx n = 0; n < tree.nodes(); ++n) chosen[u(n)] = tree.parents[u(n)] == cluster_tree::none;
         double strain = 0;
@@ -90,7 +91,8 @@ private:
         }
         seam_ = tree.seams(facets_, tree.labels(chosen));
         if (!budget_.proceed()) return;
-        straighten(mesh_, facets_, seam_, params_.seams, params_.together, budget_);
+        straighten(mesh_, facets_, seam_, params_.seams, params_.together, budget_,
+                   seam_weights(mesh_, facets_, params_.weights));
         report_.straighten_seconds += budget_.lap();
     }
 
@@ -213,12 +215,14 @@ private:
             return result;
         };
         const auto keep = of_part(params_.seams), together = of_part(params_.together);
+        std::vector<double> weights(params_.weights.empty() ? 0 : f.twin.size());
+        for (std::size_t s = 0; s < weights.size(); ++s) weights[s] = params_.weights[part.origin(s)];
         std::vector<std::array<idx, 2>> apart;
         for (std::size_t i = 0; i < part.triangles.size(); ++i) place_[u(part.triangles[i])] = static_cast<idx>(i);
         for (const idx k : charts)
             for (const auto& [a, b] : charts_[u(k)].shape.meetings)
                 if (a != b) apart.push_back({place_[u(a)], place_[u(b)]});
-        const auto tree = make_cluster_tree(part.charts.surface, f, keep, together, apart, &budget_);
+        const auto tree = make_cluster_tree(part.charts.surface, f, keep, together, apart, &budget_, weights);
 
         // Pieces of a chart are undone in the order from the last.
         std::vector<char> chosen(u(tree.nodes()), 0);
@@ -270,7 +274,8 @@ private:
         part_hopeless(part.charts.surface, f, tree, chosen);
         if (!budget_.proceed()) return;
         auto seam = tree.seams(f, tree.labels(chosen));
-        straighten(part.charts.surface, f, seam, keep, together, budget_);
+        straighten(part.charts.surface, f, seam, keep, together, budget_,
+                   seam_weights(part.charts.surface, f, weights));
         if (budget_.over()) return;
         for (std::size_t s = 0; s < seam.size(); ++s)
             if (f.twin[s] >= 0) seam_[part.origin(s)] = seam[s];

@@ -36,6 +36,7 @@ public:
                               {.bound = c_.params_.charts.mean_distortion,
                                .seams = c_.params_.charts.seams,
                                .together = c_.params_.charts.together,
+                               .factors = c_.factors_,
                                .part = c_.params_.prefer == chart_preference::seams},
                               limits);
         cutting.run();
@@ -180,22 +181,25 @@ private:
     /// Cuts the surface along its seams, straightened, and flattens it.
     laid_charts lay_short(const short_cutting& cutting, budget& limits)
     {
-        straighten(c_.mesh_, c_.facets_, c_.seam_, c_.params_.charts.seams, c_.params_.charts.together, limits,
-                   cutting.prices(), {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
+        const auto prices = cutting.prices();
+        straighten(c_.mesh_, c_.facets_, c_.seam_, c_.params_.charts.seams, c_.params_.charts.together, limits, prices,
+                   {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
         c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
         auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(), true);
         c_.energy_.clear();
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
-        return {c_.seam_,
-                *c_.charts_,
-                c_.flat_,
-                c_.energy_,
-                c_.unfit(),
-                {},
-                length_of_seams(c_.mesh_, c_.facets_, c_.seam_),
-                mean_energy(),
-                false};
+        return {c_.seam_,      *c_.charts_, c_.flat_, c_.energy_, c_.unfit(), {}, price_of_seams(prices),
+                mean_energy(), false};
+    }
+
+    /// What the seams count, each edge once.
+    double price_of_seams(std::span<const double> prices) const
+    {
+        double sum = 0;
+        for (std::size_t s = 0; s < c_.seam_.size(); ++s)
+            if (c_.seam_[s] && c_.facets_.twin[s] > static_cast<idx>(s)) sum += prices[s];
+        return sum;
     }
 
     /// Sews up some charts, one flag each, until the bound of all is reached. whole: their maps may follow as a whole,
@@ -219,8 +223,9 @@ private:
         for (std::size_t k = 0; k < wanted.size(); ++k) all += wanted[k] ? 0 : chart_area(k);
         const double bound = ((0.002 * 4 + 0.998 * c_.params_.charts.mean_distortion) * all - others) / own;
         auto laid = c_.triangles_as_laid();
-        if (!sew_laid(c_.mesh_, {c_.seam_, laid.uv, some, whole}, c_.params_.charts.seams, bound,
-                      [&limits] { return limits.proceed(); }))
+        if (!sew_laid(
+                c_.mesh_, {c_.seam_, laid.uv, some, whole}, c_.params_.charts.seams, bound,
+                [&limits] { return limits.proceed(); }, c_.factors_))
             return;
         c_.cut(laid);
         const ideal_elements<triangle> ideal(c_.charts_->surface);
@@ -288,6 +293,9 @@ private:
         auto params = c_.params_.charts;
         params.seams = {};
         params.together = together;
+        std::vector<double> factors(c_.factors_.empty() ? 0 : f.twin.size());
+        for (std::size_t s = 0; s < factors.size(); ++s) factors[s] = c_.factors_[part.origin(s)];
+        params.weights = factors;
         params.least_fill = 0;
         params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
         params.time_limit = std::max(c_.budget_.left(), budget::seconds(1e-6));

@@ -88,6 +88,13 @@ public:
         return old_views_ + views_.size() - 1;
     }
 
+    /// A new bufferView of an image. Its bytes are not counted: they are made of others than those of the model.
+    std::size_t add_image(std::string bytes)
+    {
+        views_.push_back({{{"buffer", 0}, {"byteLength", bytes.size()}}, std::move(bytes)});
+        return old_views_ + views_.size() - 1;
+    }
+
     /// Gives all who name an accessor another one: in its place if nobody else names it, else as a new one.
     /// refs: where the number of the accessor stands, the same in all; or `nothing`
     void put(std::span<std::size_t* const> refs, gltf_json accessor)
@@ -121,12 +128,14 @@ public:
                 numbers.push_back(v);
             }
         for (std::size_t v = old_views_; numbers.size() < views_.size(); ++v) numbers.push_back(v);
-        for_each_view_reference(document_["accessors"],
-                                [&](gltf_json& v)
-                                {
-                                    const auto i = v.get<std::size_t>() - old_views_; // of new ones
-                                    if (i < numbers.size()) v = numbers[i];
-                                });
+        for (const char* const list : {"accessors", "images"})
+            if (document_.contains(list))
+                for_each_view_reference(document_[list],
+                                        [&](gltf_json& v)
+                                        {
+                                            const auto i = v.get<std::size_t>() - old_views_; // of new ones
+                                            if (i < numbers.size()) v = numbers[i];
+                                        });
         std::string bytes = old_bytes(unused);
         add_new_views(numbers, bytes);
         if (bytes.empty()) return bytes;

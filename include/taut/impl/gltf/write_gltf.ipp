@@ -234,6 +234,27 @@ std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& pat
     return impl::places_of_buffers(path).files;
 }
 
+/// The files of a document with its one buffer. data: gltf_data_file() of it
+inline std::vector<file_to_write> files_of_document(const std::filesystem::path& path, const gltf_model& model,
+                                                    const std::optional<std::filesystem::path>& data,
+                                                    gltf_json document, std::string bytes)
+{
+    move_uris(document, model.source.path, path);
+    const std::string extension = path.extension().string();
+    if (extension.size() == 4) // .glb
+        return {file_of(path, join_glb(document.dump(), bytes, model.source.more_chunks, path.string()))};
+    std::vector<file_to_write> files;
+    if (!data)
+        document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + to_base64(bytes);
+    else
+    {
+        document["buffers"][0]["uri"] = percent_encoded(data->filename().string());
+        files.push_back(file_of(*data, std::move(bytes)));
+    }
+    files.push_back(file_of(path, document.dump(2) + '\n'));
+    return files;
+}
+
 } // namespace taut::io::impl
 
 namespace taut::io
@@ -245,20 +266,7 @@ std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const g
 {
     const auto data = impl::gltf_data_file(path, model.source);
     auto [document, bytes] = impl::gltf_writer(model, corner_uv, texcoord_set, numbers).write();
-    impl::move_uris(document, model.source.path, path);
-    const std::string extension = path.extension().string();
-    if (extension.size() == 4) // .glb
-        return {impl::file_of(path, impl::join_glb(document.dump(), bytes, model.source.more_chunks, path.string()))};
-    std::vector<file_to_write> files;
-    if (!data)
-        document["buffers"][0]["uri"] = "data:application/octet-stream;base64," + impl::to_base64(bytes);
-    else
-    {
-        document["buffers"][0]["uri"] = impl::percent_encoded(data->filename().string());
-        files.push_back(impl::file_of(*data, std::move(bytes)));
-    }
-    files.push_back(impl::file_of(path, document.dump(2) + '\n'));
-    return files;
+    return impl::files_of_document(path, model, data, std::move(document), std::move(bytes));
 }
 
 void write_gltf(const std::filesystem::path& path, const gltf_model& model,

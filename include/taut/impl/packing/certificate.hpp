@@ -58,7 +58,8 @@ inline double distance(const vec2& a, const vec2& b, const vec2& c, const vec2& 
 
 /// Certifies a packing of charts with known borders in these coordinates.
 inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
-                                            const chart_outlines& outlines, std::span<const char> pinned)
+                                            const chart_outlines& outlines, std::span<const char> pinned,
+                                            double aspect = 1)
 {
     const auto at = [uv](idx v) { return uv[static_cast<std::size_t>(v)]; };
     const auto is_pinned = [pinned](idx c) { return !pinned.empty() && pinned[static_cast<std::size_t>(c)] != 0; };
@@ -92,8 +93,8 @@ inline packing_certificate certify_outlined(std::span<const vec2> uv, std::span<
                     low = glm::min(low, at(v));
                     high = glm::max(high, at(v));
                 }
-            const vec2 tile = glm::floor(low / 2.0 + high / 2.0);
-            const vec2 inside = glm::min(low - tile, tile + 1.0 - high);
+            const vec2 sides(1, aspect), tile = sides * glm::floor((low / 2.0 + high / 2.0) / sides);
+            const vec2 inside = glm::min(low - tile, tile + sides - high);
             if (std::min(inside.x, inside.y) >= sealed.border) continue;
             sealed.border = std::min(inside.x, inside.y);
             sealed.outermost = static_cast<idx>(c);
@@ -130,13 +131,14 @@ namespace taut
 /// uv, cells, first_cell, first_vertex: as for pack()
 /// pinned: charts with a given place, one flag each: distances of two of them, and of one and the border, do not count;
 /// or empty
+/// aspect: as in pack_params, with uv in widths of a tile
 /// Throws packing_error.
 inline packing_certificate certify_packing(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells,
                                            std::span<const idx> first_cell, std::span<const idx> first_vertex,
-                                           std::span<const char> pinned = {})
+                                           std::span<const char> pinned = {}, double aspect = 1)
 {
     impl::check_charts(uv, cells, first_cell, first_vertex);
-    return impl::certify_outlined(uv, cells, impl::find_outlines(uv, cells, first_cell, first_vertex), pinned);
+    return impl::certify_outlined(uv, cells, impl::find_outlines(uv, cells, first_cell, first_vertex), pinned, aspect);
 }
 
 } // namespace taut

@@ -59,20 +59,30 @@ struct taken_cells
     cell_rows cells;
 };
 
+/// Tiles that are not squares with an open end.
+struct tile_rules
+{
+    idx rows = 0;                ///< height of each tile in cells; 0: that of `side`, and the last one has no end
+    std::span<const idx> groups; ///< the tile that each piece is to be in; empty: any
+};
+
 /// Places pieces, in the order given, each in the pose whose top is lowest, as low as possible and then as far left, in
 /// any gap.
 /// side:  of a tile in cells; gap: minimum distance of two pieces in cells; before: cells occupied already
 /// quick: a piece is not tried below the place of the last one of about its width and height
 inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses,
                            std::span<const idx> order, idx side, idx tiles, double gap, double cells_per_length,
-                           bool quick, budget& limits, std::span<const taken_cells> before = {})
+                           bool quick, budget& limits, std::span<const taken_cells> before = {},
+                           const tile_rules& rules = {})
 {
+    const idx rows = rules.rows > 0 ? rules.rows : side;
+    const bool bounded = rules.rows > 0;
     tile_layout out;
     out.spots.resize(pieces.size());
     occupancy taken(side); // tiles lie on each other, with a row between them
-    for (idx t = 1; t < tiles; ++t) taken.block(t * (side + 1) - 1);
-    for (const taken_cells& wall : before) taken.take(wall.cells, 0, wall.tile * (side + 1));
-    const auto tile_of = [&](idx y) { return std::min(y / (side + 1), tiles - 1); };
+    for (idx t = 1; t < tiles; ++t) taken.block(t * (rows + 1) - 1);
+    for (const taken_cells& wall : before) taken.take(wall.cells, 0, wall.tile * (rows + 1));
+    const auto tile_of = [&](idx y) { return std::min(y / (rows + 1), tiles - 1); };
     std::map<std::pair<int, int>, idx> starts;
     for (std::size_t placed = 0; const idx i : order)
     {
@@ -84,15 +94,17 @@ inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::v
         {
             const room_mask& mask = poses[c][k].mask;
             const idx height = mask.cells.height;
-            if (mask.cells.width > side || (tiles > 1 && height > side)) continue;
+            if (mask.cells.width > side || ((tiles > 1 || bounded) && height > rows)) continue;
             const auto size = [](idx n) { return static_cast<int>(4 * std::log2(n)); };
             idx* const start = quick ? &starts[{size(mask.cells.width), size(height)}] : nullptr;
             const idx highest = best.pose < 0 ? std::numeric_limits<idx>::max() / 2 : lowest - height;
             idx x = -1, y = start ? *start : 0;
-            for (idx tile = tile_of(y); tile < tiles && x < 0; ++tile)
+            const idx own = rules.groups.empty() ? -1 : rules.groups[c], last = own < 0 ? tiles : own + 1;
+            for (idx tile = own < 0 ? tile_of(y) : own; tile < last && x < 0; ++tile)
             {
-                y = std::max(y, tile * (side + 1));
-                const idx top = tile == tiles - 1 ? highest : tile * (side + 1) + side - height;
+                y = std::max(y, tile * (rows + 1));
+                const bool open = tile == tiles - 1 && !bounded;
+                const idx top = open ? highest : tile * (rows + 1) + rows - height;
                 std::tie(y, x) = taken.find(mask, y, std::min(highest, top));
             }
             if (x < 0) continue;
@@ -103,7 +115,7 @@ inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::v
         if (best.pose < 0) return out;
         const pose& at = poses[c][static_cast<std::size_t>(best.pose)];
         taken.take(rasterize(posed_edges(pieces[c], at, cells_per_length), gap), best.x, best.y);
-        best.y -= best.tile * (side + 1);
+        best.y -= best.tile * (rows + 1);
         out.spots[c] = best;
     }
     out.complete = true;

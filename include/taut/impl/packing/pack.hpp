@@ -34,6 +34,8 @@ struct packing
     double scale = 0;                ///< scale of all charts, before their densities
     double utilization = 0;          ///< area of the triangles by the area of the tiles
     int layouts = 0;                 ///< that were tried
+    int resolution = 0;              ///< texels along the width of a tile
+    int tiles = 0;                   ///< in use, where pack_params::texels_per_unit is given; else all there are
     bool complete = true;            ///< false: it was ended by the clock or the observer, and could be denser
 
     /// The points of all charts in their tiles, with the number of its tile added to the first coordinate of each.

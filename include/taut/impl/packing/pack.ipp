@@ -15,6 +15,7 @@
 
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/parallel.hpp>
+#include <taut/impl/packing/grid_packer.hpp>
 #include <taut/impl/packing/layout.hpp>
 #include <taut/impl/packing/outlines.hpp>
 #include <taut/impl/packing/pack.hpp>
@@ -317,7 +318,11 @@ packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, 
     for (const double a : outlines.areas) area += a;
     if (!(area > 0)) throw packing_error(packing_fault::no_area, {}, "the charts have no area; flatten them again");
     const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
-    return packer(pieces, params).run();
+    if (params.on_grid()) return grid_packer(pieces, params).run();
+    packing packed = packer(pieces, params).run();
+    packed.resolution = params.resolution;
+    packed.tiles = params.tiles;
+    return packed;
 }
 
 } // namespace taut::impl

@@ -24,16 +24,18 @@ struct laid_seams
 };
 
 /// Sews up seams of charts that have a map, on the surface itself, until they are at a bound of their mean energy.
-/// kept: sides that stay seams, or empty; Returns whether something
-/// has changed.
+/// kept: sides that stay seams, or empty; factors: what a unit of length of a seam counts along each side, or empty
+/// Returns whether something has changed.
 inline bool sew_laid(const mesh<triangle>& m, const laid_seams& laid, std::span<const char> kept, double bound,
-                     const std::function<bool()>& proceed)
+                     const std::function<bool()>& proceed, std::span<const double> factors = {})
 {
     std::vector<idx> number(m.points().size(), -1);
     std::vector<char> given(kept.begin(), kept.end());
     given.resize(3 * m.cells().size(), 0);
     const surface_part part = part_of(m, laid.some, given, number);
-    const rest_surface rest = rest_surface::of(part.charts.surface, part.charts.surface.cell_count());
+    rest_surface rest = rest_surface::of(part.charts.surface, part.charts.surface.cell_count());
+    if (!factors.empty())
+        for (std::size_t s = 0; s < rest.price.size(); ++s) rest.price[s] *= factors[part.origin(s)];
     flat_surface flat;
     flat.seam.resize(rest.facets.twin.size(), 0);
     flat.uv.resize(flat.seam.size());

@@ -17,6 +17,7 @@
 #include <taut/impl/atlas/cutting/lift_seams.hpp>
 #include <taut/impl/atlas/cutting/seam_search.hpp>
 #include <taut/impl/atlas/cutting/span_holes.hpp>
+#include <taut/impl/atlas/cutting/way_prices.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/parallel.hpp>
@@ -27,11 +28,12 @@ namespace taut::impl
 /// What short_cutting is to keep.
 struct cutting_params
 {
-    double bound = 4.1;             ///< of the mean isometric energy of the whole surface
-    std::span<const char> seams;    ///< sides that are seams in any case, or empty
-    std::span<const char> together; ///< sides that are to be none, or empty
-    bool part = true;               ///< charts that lie on themselves are parted
-    idx coarse = 5000;              ///< triangles of the surfaces that are searched, about
+    double bound = 4.1;                   ///< of the mean isometric energy of the whole surface
+    std::span<const char> seams;          ///< sides that are seams in any case, or empty
+    std::span<const char> together;       ///< sides that are to be none, or empty
+    std::span<const double> factors = {}; ///< what a unit of length of a seam counts along each side, or empty: 1
+    bool part = true;                     ///< charts that lie on themselves are parted
+    idx coarse = 5000;                    ///< triangles of the surfaces that are searched, about
 };
 
 /// Short seams of a surface of any number of components: a search on a coarse surface for each, led back over the
@@ -133,6 +135,7 @@ public:
         {
             const auto [a, b] = side_vertices(mesh_, static_cast<idx>(s));
             price[s] = glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
+            if (!params_.factors.empty()) price[s] *= params_.factors[s];
         }
         return price;
     }
@@ -234,6 +237,14 @@ private:
         p.origins = std::move(coarse.origins);
         const idx first_span = span_small_holes(coarse);
         p.rest = rest_surface::of(mesh<triangle>(std::move(coarse.points), std::move(coarse.cells)), first_span);
+        if (!params_.factors.empty())
+        {
+            if (p.coarser)
+                p.rest->price =
+                    way_prices(*p.surface, p.facets, starting_sides(*p.surface), fine_prices(k), *p.rest, p.origins);
+            else
+                for (std::size_t s = 0; s < 3 * u(first_span); ++s) p.rest->price[s] *= params_.factors[origin(k, s)];
+        }
         if (!p.coarser && !params_.together.empty())
             for (std::size_t s = 0; s < 3 * u(first_span); ++s)
                 if (params_.together[origin(k, s)]) p.rest->price[s] *= unwanted;
@@ -254,14 +265,23 @@ private:
         const piece_search& p = *searches_[k];
         const auto& seam = p.search->result().seam;
         if (!p.coarser) return {seam.begin(), seam.begin() + static_cast<std::ptrdiff_t>(p.facets.twin.size())};
+        const auto price = fine_prices(k);
+        return seam_lifting(*p.surface, p.facets, starting_sides(*p.surface), price).run(*p.rest, seam, p.origins);
+    }
+
+    /// What a seam along each side of a piece counts.
+    std::vector<double> fine_prices(std::size_t k) const
+    {
+        const piece_search& p = *searches_[k];
         std::vector<double> price(p.facets.twin.size());
         for (std::size_t s = 0; s < price.size(); ++s)
         {
             const auto [a, b] = side_vertices(*p.surface, static_cast<idx>(s));
             price[s] = glm::distance(p.surface->points()[u(a)], p.surface->points()[u(b)]);
+            if (!params_.factors.empty()) price[s] *= params_.factors[origin(k, s)];
             if (!params_.together.empty() && params_.together[origin(k, s)]) price[s] *= unwanted;
         }
-        return seam_lifting(*p.surface, p.facets, starting_sides(*p.surface), price).run(*p.rest, seam, p.origins);
+        return price;
     }
 
     static constexpr double unwanted = 1000; // where a seam is not to be, its length counts so often

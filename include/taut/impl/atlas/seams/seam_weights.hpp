@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <taut/impl/mesh/facets.hpp>
@@ -11,8 +12,9 @@ namespace taut::impl
 {
 
 /// Cost of a seam along each side: the length of the edge, less along creases, where it is hardly visible. The same
-/// on both sides of an edge.
-inline std::vector<double> seam_weights(const mesh<triangle>& m, const facet_table& f)
+/// on both sides of an edge. factors: of that, one a side, or empty
+inline std::vector<double> seam_weights(const mesh<triangle>& m, const facet_table& f,
+                                        std::span<const double> factors = {})
 {
     constexpr double least = 0.1; // of the length, where an edge is as sharp as a cube's
     std::vector<vec3> normals(m.cells().size());
@@ -38,7 +40,8 @@ inline std::vector<double> seam_weights(const mesh<triangle>& m, const facet_tab
                                                              m.points()[static_cast<std::size_t>(side[1])]);
                          const auto t = static_cast<std::size_t>(std::max(f.twin[s], 0)) / 3;
                          const double cosine = f.twin[s] < 0 ? 1 : std::max(0.0, glm::dot(normals[s / 3], normals[t]));
-                         weights[s] = length * (least + (1 - least) * cosine * cosine);
+                         weights[s] =
+                             length * (least + (1 - least) * cosine * cosine) * (factors.empty() ? 1 : factors[s]);
                      }
                  });
     return weights;

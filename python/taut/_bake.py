@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""Textures of one atlas made for another."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays
+from ._arrays import ArrayLike
+from ._native import native
+from .errors import ParameterError
+
+
+def _corners(name: str, uv: ArrayLike) -> NDArray[Any]:
+    rows = np.asarray(uv, dtype=np.float64)
+    if rows.ndim != 3 or rows.shape[1:] != (3, 2):
+        raise ParameterError(f"{name}: has the shape {rows.shape}, but must be (m, 3, 2)", field=name)
+    return rows.reshape(-1, 2)
+
+
+def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | tuple[int, int] | None = None,
+         filter: str = "bilinear", wrap: str = "repeat", samples: int = 1, gutter: float | None = None,
+         device: str | int | None = None) -> NDArray[np.float64]:
+    """Make the texture for a new atlas of a surface that shows on it what the old one shows through the old atlas.
+
+    Parameters
+    ----------
+    image : (height, width) or (height, width, channels) array-like
+        Linear numbers, the top row first, 1 to 4 channels.
+    old_uv, new_uv : (m, 3, 2) array-like
+        Texture coordinates of the corners of the same triangles, v upwards; NaN: left out.
+    size : int or (width, height), optional
+        Texels of the new image; None: those of the old one.
+    filter : "bilinear" or "nearest"
+        Between old texels; "nearest" for labels.
+    wrap : "repeat" or "clamp"
+    samples : int
+        Places along each side of a texel of which the mean is taken.
+    gutter : float, optional
+        Texels around charts that get the nearest texel of a chart; None: all.
+    device : str or int, optional
+
+    Returns
+    -------
+    (height, width) or (height, width, channels) array
+
+    Examples
+    --------
+    >>> import numpy as np, taut
+    >>> image = np.array([[1.0, 2.0], [3.0, 4.0]])
+    >>> old = [[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]]
+    >>> new = np.array(old)[:, :, ::-1]                        # mirrored along the diagonal
+    >>> taut.bake(image, old, new).round(3).tolist()
+    [[4.0, 2.0], [3.0, 1.0]]
+    """
+    old = np.asarray(image, dtype=np.float64)
+    if old.ndim not in (2, 3):
+        raise ParameterError(f"image: has {old.ndim} axes, but must have 2 or 3", field="image")
+    options: dict[str, Any] = {"height": old.shape[0], "width": old.shape[1],
+                               "channels": old.shape[2] if old.ndim == 3 else 1, "filter": filter, "wrap": wrap,
+                               "samples": int(samples), "gutter": math.inf if gutter is None else float(gutter)}
+    if size is not None:
+        options["new_width"], options["new_height"] = (size, size) if isinstance(size, int) else map(int, size)
+    if device is not None:
+        options["device"] = str(device)
+    rows = np.ascontiguousarray(old[::-1]).reshape(-1)
+    texels, _, width, height = native().bake(rows, _corners("old_uv", old_uv), _corners("new_uv", new_uv), options)
+    made: NDArray[np.float64] = texels.reshape((height, width, *old.shape[2:]))[::-1]
+    return made

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""Textures for a new atlas."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import taut
+
+
+def test_a_texture_moves_with_its_atlas(torus):
+    V, F = torus
+    old, new = taut.atlas(V, F).corner_uv, taut.atlas(V, F, prefer="packing").corner_uv
+    image = np.linspace(0, 1, 96 * 64 * 3).reshape(96, 64, 3)
+    made = taut.bake(image, old, new, size=(128, 80))
+    assert made.shape == (80, 128, 3)
+    assert image.min() - 1e-6 <= made.min() and made.max() <= image.max() + 1e-6
+    same = taut.bake(image, old, old, gutter=0)
+    inside = same[..., 2] != 0
+    assert inside.mean() > 0.3 and np.abs(same - image)[inside].mean() < 0.02
+
+
+def test_labels_stay_labels(torus):
+    V, F = torus
+    a = taut.atlas(V, F)
+    image = np.arange(64 * 64).reshape(64, 64) % 7
+    made = taut.bake(image, a.corner_uv, a.corner_uv[..., ::-1], filter="nearest")
+    assert made.shape == (64, 64) and set(np.unique(made)) <= set(range(7))
+
+
+def test_what_does_not_fit_is_refused(torus):
+    V, F = torus
+    uv = taut.atlas(V, F).corner_uv
+    for arguments in ((np.zeros(4), uv, uv), (np.zeros((4, 4)), uv[:, :2], uv), (np.zeros((4, 4, 5)), uv, uv),
+                      (np.zeros((4, 4)), uv[:-1], uv)):
+        with pytest.raises(taut.ParameterError):
+            taut.bake(*arguments)
+    with pytest.raises(taut.ParameterError):
+        taut.bake(np.zeros((4, 4)), uv, uv, filter="cubic")

@@ -1,0 +1,377 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""program.py TAUT FOLDER: `taut bake` as its users meet it. Its results are judged by other code than its own."""
+import json
+import math
+import pathlib
+import random
+import shutil
+import struct
+import subprocess
+import sys
+import zlib
+
+TAUT, FOLDER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+
+
+# Images: rows from the top, a tuple a pixel
+
+def chunk(name, data):
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+
+def png(width, height, channels, pixel, bits=8):
+    """pixel(u, v): numbers from 0 to 1, v upwards."""
+    most, form = (255, "B") if bits == 8 else (65535, ">H")
+    raw = b"".join(b"\0" + b"".join(struct.pack(form, round(most * x)) for i in range(width)
+                                    for x in pixel((i + 0.5) / width, 1 - (j + 0.5) / height)) for j in range(height))
+    head = struct.pack(">IIBBBBB", width, height, bits, {1: 0, 3: 2, 4: 6}[channels], 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b"")
+
+
+class Image:
+    def __init__(self, data):
+        assert data[:8] == b"\x89PNG\r\n\x1a\n"
+        at, packed = 8, b""
+        while at < len(data):
+            size, name = struct.unpack(">I", data[at:at + 4])[0], data[at + 4:at + 8]
+            content = data[at + 8:at + 8 + size]
+            assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(name + content)
+            if name == b"IHDR":
+                self.width, self.height, self.bits, form = struct.unpack(">IIBB", content[:10])
+            packed += content if name == b"IDAT" else b""
+            at += 12 + size
+        self.channels = {0: 1, 4: 2, 2: 3, 6: 4}[form]
+        step, raw = self.channels * self.bits // 8, zlib.decompress(packed)
+        row, above, self.rows = step * self.width, bytes(step * self.width), []
+        for j in range(self.height):
+            kind, line = raw[j * (row + 1)], bytearray(raw[j * (row + 1) + 1:(j + 1) * (row + 1)])
+            for k in range(row):
+                a, b, c = line[k - step] if k >= step else 0, above[k], above[k - step] if k >= step else 0
+                p = a + b - c
+                near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
+                line[k] = line[k] + (0, a, b, (a + b) // 2, near)[kind] & 255
+            self.rows.append(bytes(line))
+            above = self.rows[-1]
+
+    def at(self, i, j):
+        """Texel from the lower left, numbers from 0 to 1."""
+        row = self.rows[self.height - 1 - j % self.height]
+        size, i = self.channels, i % self.width
+        if self.bits == 8:
+            return [x / 255 for x in row[size * i:size * (i + 1)]]
+        return [x / 65535 for x in struct.unpack(">%dH" % size, row[2 * size * i:2 * size * (i + 1)])]
+
+    def sample(self, u, v):
+        x, y = u * self.width - 0.5, v * self.height - 0.5
+        i, j = math.floor(x), math.floor(y)
+        s, t = x - i, y - j
+        parts = [(self.at(i, j), (1 - s) * (1 - t)), (self.at(i + 1, j), s * (1 - t)),
+                 (self.at(i, j + 1), (1 - s) * t), (self.at(i + 1, j + 1), s * t)]
+        return [sum(w * p[k] for p, w in parts) for k in range(self.channels)]
+
+
+# A surface: a band around an axis with uv once around it, so that the texture goes on across its seam
+
+def band(n=24, m=8):
+    points, uv, faces, uv_faces = [], [], [], []
+    for j in range(m + 1):
+        for i in range(n + 1):
+            a, h = 2 * math.pi * i / n, j / m
+            if i < n:
+                r = 1 + 0.2 * math.sin(2 * math.pi * h)
+                points.append((r * math.cos(a), r * math.sin(a), 2 * h))
+            uv.append((i / n, 0.02 + 0.96 * h))
+    for j in range(m):
+        for i in range(n):
+            p = [(j + b) * n + (i + a) % n for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            t = [(j + b) * (n + 1) + i + a for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            faces += [[p[0], p[1], p[2]], [p[0], p[2], p[3]]]
+            uv_faces += [[t[0], t[1], t[2]], [t[0], t[2], t[3]]]
+    return points, uv, faces, uv_faces
+
+
+def write_obj(name, points, uv, faces, uv_faces):
+    lines = ["v %.9g %.9g %.9g" % p for p in points] + ["vt %.9g %.9g" % t for t in uv]
+    lines += ["f " + " ".join("%d/%d" % (a + 1, b + 1) for a, b in zip(f, t)) for f, t in zip(faces, uv_faces)]
+    (FOLDER / name).write_text("\n".join(lines) + "\n")
+
+
+def read_obj_corners(name):
+    uv, corners = [], []
+    for line in (FOLDER / name).read_text().splitlines():
+        words = line.split()
+        if words[:1] == ["vt"]:
+            uv.append((float(words[1]), float(words[2])))
+        if words[:1] == ["f"]:
+            corners.append([uv[int(w.split("/")[1]) - 1] for w in words[1:]])
+    return corners
+
+
+def run(*words, code=0):
+    done = subprocess.run([str(TAUT), *map(str, words)], cwd=FOLDER, capture_output=True, text=True, timeout=120)
+    assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
+    return done.stdout if code == 0 else done.stderr
+
+
+def seen(image, corners, t, w):
+    return image.sample(*(sum(w[k] * corners[t][k][i] for k in range(3)) for i in (0, 1)))
+
+
+def places(corners, count=600):
+    dice = random.Random(5)
+    for _ in range(count):
+        a, b = sorted((dice.random(), dice.random()))
+        yield dice.randrange(len(corners)), (a, b - a, 1 - b)
+
+
+def largest_difference(a, from_corners, b, to_corners):
+    return max(abs(x - y) for t, w in places(from_corners)
+               for x, y in zip(seen(a, from_corners, t, w), seen(b, to_corners, t, w)))
+
+
+def colour(u, v):
+    return (0.5 + 0.4 * math.sin(2 * math.pi * 2 * u), 0.5 + 0.4 * math.cos(5 * v), 0.5 + 0.3 * math.sin(2 * math.pi * u + 4 * v))
+
+
+def test_obj():
+    mesh = band()
+    write_obj("old.obj", *mesh)
+    run("atlas", "old.obj", "-o", "new.obj", "--quiet")
+    old, new = read_obj_corners("old.obj"), read_obj_corners("new.obj")
+    for bits in (8, 16):
+        (FOLDER / "in.png").write_bytes(png(256, 96, 3, colour, bits))
+        run("bake", "old.obj", "new.obj", "--texture", "in.png", "-o", "out.png", "--resolution", 256, "--quiet",
+            "--difference", "difference.png", "--stats", "stats.json")
+        before, after = Image((FOLDER / "in.png").read_bytes()), Image((FOLDER / "out.png").read_bytes())
+        assert (after.width, after.height, after.bits, after.channels) == (256, 256, bits, 3)
+        d = largest_difference(before, old, after, new)
+        assert d < 0.08, d  # steepest by 5 per unit of u; a texel of the atlas is 1 / 50 of u or so
+        told = json.loads((FOLDER / "stats.json").read_text())["textures"][0]
+        assert told["largest_difference"] < 0.1 and told["rms_difference"] < 0.01, told
+        shown = Image((FOLDER / "difference.png").read_bytes())
+        assert (shown.width, shown.height, shown.channels) == (256, 96, 1)
+        assert max(max(row) for row in shown.rows) / 255 <= 8 * told["largest_difference"] * 1.5 + 0.01
+    # And back again.
+    run("bake", "new.obj", "old.obj", "--texture", "out.png", "-o", "back.png", "--resolution", "256x96", "--quiet")
+    d = largest_difference(before, old, Image((FOLDER / "back.png").read_bytes()), old)
+    assert d < 0.1, d
+
+
+def test_labels():
+    (FOLDER / "labels.png").write_bytes(png(64, 64, 1, lambda u, v: [int(5 * u) * 50 / 255]))
+    run("bake", "old.obj", "new.obj", "--texture", "labels.png", "-o", "labels2.png", "--content", "data", "--filter",
+        "nearest", "--quiet")
+    values = {x for row in Image((FOLDER / "labels2.png").read_bytes()).rows for x in row}
+    assert values == {0, 50, 100, 150, 200}, values
+    assert "mean of labels" in run("bake", "old.obj", "new.obj", "--texture", "labels.png", "-o", "x.png", "--filter",
+                                   "nearest", "--samples", 2, code=2)
+
+
+def test_exr():
+    (FOLDER / "in.png").write_bytes(png(128, 64, 3, colour, 16))
+    done = subprocess.run([str(TAUT), "bake", "old.obj", "old.obj", "--texture", "in.png", "-o", "same.exr", "--content",
+                           "data", "--quiet"], cwd=FOLDER, capture_output=True, text=True, timeout=60)
+    if done.returncode != 0:
+        assert "without EXR" in done.stderr, done.stderr
+        return
+    run("bake", "old.obj", "old.obj", "--texture", "same.exr", "-o", "same.png", "--content", "data", "--quiet")
+    a, b = Image((FOLDER / "in.png").read_bytes()), Image((FOLDER / "same.png").read_bytes())
+    assert b.bits == 16
+    for j in range(8, 56, 5):  # the same atlas: the same texels
+        for i in range(2, 126, 7):
+            assert max(abs(x - y) for x, y in zip(a.at(i, j), b.at(i, j))) < 2e-4, (i, j, a.at(i, j), b.at(i, j))
+
+
+def test_tiles():
+    """Of UDIM: from several tiles to one and back."""
+    run("atlas", "old.obj", "-o", "tiles.obj", "--prefer", "packing", "--max-distortion", 4.005, "--udim", 3, "--resolution", 192, "--quiet")
+    (FOLDER / "in.png").write_bytes(png(256, 128, 3, colour))
+    run("bake", "old.obj", "tiles.obj", "--texture", "in.png", "-o", "part.<UDIM>.png", "--resolution", 192, "--quiet")
+    run("bake", "old.obj", "tiles.obj", "--texture", "in.png", "-o", "first.png", "--resolution", 192)
+    old, new = read_obj_corners("old.obj"), read_obj_corners("tiles.obj")
+    images = {}
+    tile = [int(sum(u for u, _ in t) / 3) for t in new]
+    for n in sorted(set(tile)):
+        images[n] = Image((FOLDER / f"part.{1001 + n}.png").read_bytes())
+    assert len(images) > 1 and (FOLDER / "first.png").read_bytes() == (FOLDER / "part.1001.png").read_bytes()
+    before = Image((FOLDER / "in.png").read_bytes())
+    for t, w in places(old):
+        moved = [(u - tile[t], v) for u, v in new[t]]
+        a, b = seen(before, old, t, w), images[tile[t]].sample(*(sum(w[k] * moved[k][i] for k in range(3)) for i in (0, 1)))
+        assert max(abs(x - y) for x, y in zip(a, b)) < 0.12, (t, a, b)
+    run("bake", "tiles.obj", "old.obj", "--texture", "part.<UDIM>.png", "-o", "joined.png", "--resolution", "256x128", "--quiet",
+        "--difference", "d.<UDIM>.png")
+    d = largest_difference(before, old, Image((FOLDER / "joined.png").read_bytes()), old)
+    assert d < 0.15, d
+    assert (FOLDER / "d.1002.png").exists()
+    (FOLDER / "part.1002.png").unlink()
+    assert "part.1002.png" in run("bake", "tiles.obj", "old.obj", "--texture", "part.<UDIM>.png", "-o", "x.png", code=3)
+    assert "<UDIM>" in run("bake", "tiles.obj", "old.obj", "--texture", "part.<UDIM>.png", "-o", "x.png", "--difference",
+                           "d.png", code=2)
+
+
+def test_vertex_colours():
+    points, _, faces, _ = band()
+    red = [round(255 * (0.5 + 0.4 * math.sin(math.atan2(p[1], p[0])))) for p in points]
+    text = "ply\nformat ascii 1.0\nelement vertex %d\n" % len(points)
+    text += "".join("property float %s\n" % c for c in "xyz")
+    text += "".join("property uchar %s\n" % c for c in ("red", "green", "blue"))
+    text += "element face %d\nproperty list uchar int vertex_indices\nend_header\n" % len(faces)
+    text += "".join("%.9g %.9g %.9g %d 9 200\n" % (*p, r) for p, r in zip(points, red))
+    text += "".join("3 %d %d %d\n" % tuple(f) for f in faces)
+    (FOLDER / "coloured.ply").write_text(text)
+    run("bake", "coloured.ply", "new.obj", "--vertex-colours", "-o", "colours.png", "--resolution", 200, "--quiet")
+    image, new = Image((FOLDER / "colours.png").read_bytes()), read_obj_corners("new.obj")
+    for t, f in enumerate(faces):
+        for k in range(3):
+            w = [0.98 if n == k else 0.01 for n in range(3)]
+            r, g, b = seen(image, new, t, w)
+            assert abs(r - red[f[k]] / 255) < 0.06 and abs(g - 9 / 255) < 0.01 and abs(b - 200 / 255) < 0.01
+    assert "no colours" in run("bake", "old.obj", "new.obj", "--vertex-colours", "-o", "x.png", code=4)
+
+
+# glTF
+
+def glb(document, binary):
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    binary += b"\0" * (-len(binary) % 4)
+    body = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(body)) + body
+
+
+class Model:
+    def __init__(self, data):
+        size = struct.unpack("<I", data[12:16])[0]
+        self.document, self.binary = json.loads(data[20:20 + size]), data[28 + size:]
+
+    def view(self, n):
+        v = self.document["bufferViews"][n]
+        return self.binary[v.get("byteOffset", 0):][:v["byteLength"]]
+
+    def numbers(self, n):
+        a = self.document["accessors"][n]
+        form, size = {5126: ("f", 4), 5125: ("I", 4), 5123: ("H", 2)}[a["componentType"]]
+        width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[a["type"]]
+        flat = struct.unpack("<%d%s" % (width * a["count"], form), self.view(a["bufferView"])[:size * width * a["count"]])
+        return [flat[i:i + width] for i in range(0, len(flat), width)]
+
+    def corners(self, primitive, name="TEXCOORD_0"):
+        p = self.document["meshes"][0]["primitives"][primitive]
+        uv = [(u, 1 - v) for u, v in self.numbers(p["attributes"][name])]
+        index = [i[0] for i in self.numbers(p["indices"])]
+        return [[uv[i] for i in index[t:t + 3]] for t in range(0, len(index), 3)]
+
+    def image(self, n):
+        return Image(self.view(self.document["images"][n]["bufferView"]))
+
+
+def make_model():
+    """Two materials: one with a colour and a normal map, one whose colour is placed by KHR_texture_transform."""
+    points, uv, faces, uv_faces = band()
+    vertices = {}
+    for f, t in zip(faces, uv_faces):
+        for pair in zip(f, t):
+            vertices.setdefault(pair, len(vertices))
+    index = [vertices[pair] for f, t in zip(faces, uv_faces) for pair in zip(f, t)]
+    binary, views, accessors = b"", [], []
+
+    def add(data, members, **accessor):
+        nonlocal binary
+        binary += b"\0" * (-len(binary) % 4)
+        views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(data), **members})
+        binary += data
+        if accessor:
+            accessors.append({"bufferView": len(views) - 1, **accessor})
+        return len(views) - 1
+
+    flat = [x for p, _ in vertices for x in points[p]]
+    lows, highs = ([f(p[k] for p in points) for k in range(3)] for f in (min, max))
+    add(struct.pack("<%df" % len(flat), *flat), {}, componentType=5126, count=len(vertices), type="VEC3", min=lows, max=highs)
+    flat = [x for _, t in vertices for x in (uv[t][0], 1 - uv[t][1])]
+    add(struct.pack("<%df" % len(flat), *flat), {}, componentType=5126, count=len(vertices), type="VEC2")
+    flat = [x for p, _ in vertices for x in (-points[p][1] / math.hypot(*points[p][:2]), points[p][0] / math.hypot(*points[p][:2]), 0, 1)]
+    add(struct.pack("<%df" % len(flat), *flat), {}, componentType=5126, count=len(vertices), type="VEC4")
+    half = len(index) // 2
+    for part in (index[:half], index[half:]):
+        add(struct.pack("<%dH" % len(part), *part), {}, componentType=5123, count=len(part), type="SCALAR")
+    images = [png(128, 64, 3, colour), png(64, 64, 3, lambda u, v: (0.5 + 0.1 * math.sin(2 * math.pi * u), 0.5, 0.98))]
+    image_views = [add(image, {}) for image in images]
+    (FOLDER / "beside.png").write_bytes(png(128, 64, 3, lambda u, v: colour(u, 1 - v)))
+    attributes = {"POSITION": 0, "TEXCOORD_0": 1, "TANGENT": 2}
+    placed = {"index": 2, "extensions": {"KHR_texture_transform": {"offset": [0.5, 0]}}}
+    document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": attributes, "indices": 3, "material": 0},
+                                           {"attributes": attributes, "indices": 4, "material": 1}]}],
+                "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 1}},
+                              {"pbrMetallicRoughness": {"baseColorTexture": placed}, "extras": {"kept": 1}}],
+                "textures": [{"source": 0}, {"source": 1}, {"source": 2}],
+                "images": [{"bufferView": image_views[0], "mimeType": "image/png", "name": "skin"},
+                           {"bufferView": image_views[1], "mimeType": "image/png"}, {"uri": "beside.png"}],
+                "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}
+    (FOLDER / "model.glb").write_bytes(glb(document, binary))
+
+
+def test_model():
+    make_model()
+    run("atlas", "model.glb", "-o", "cut.glb", "--quiet")
+    told = run("bake", "model.glb", "cut.glb", "-o", "baked.glb", "--resolution", 256)
+    assert "skin: colour" in told and "normal" in told, told
+    old, new = Model((FOLDER / "model.glb").read_bytes()), Model((FOLDER / "baked.glb").read_bytes())
+    cut = Model((FOLDER / "cut.glb").read_bytes())
+    for part in (0, 1):
+        assert new.corners(part) == cut.corners(part)
+        assert "TANGENT" not in new.document["meshes"][0]["primitives"][part]["attributes"]
+    assert new.document["materials"][1]["extras"] == {"kept": 1}
+    assert "extensions" not in new.document["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"]
+    assert new.image(0).width == new.image(1).height == new.image(2).width == 256
+    d = largest_difference(old.image(0), old.corners(0), new.image(0), new.corners(0))
+    assert d < 0.08, d
+    moved = [[(u + 0.5, v) for u, v in t] for t in old.corners(1)]
+    d = largest_difference(Image((FOLDER / "beside.png").read_bytes()), moved, new.image(2), new.corners(1))
+    assert d < 0.08, d
+    # Into a second set: what shows it says so.
+    run("atlas", "model.glb", "-o", "cut1.glb", "--texcoord-set", 1, "--quiet")
+    run("bake", "model.glb", "cut1.glb", "-o", "baked1.gltf", "--new-texcoord-set", 1, "--quiet")
+    document = json.loads((FOLDER / "baked1.gltf").read_text())
+    assert document["materials"][0]["normalTexture"]["texCoord"] == 1
+    assert (FOLDER / "baked1.bin").exists()
+
+
+def test_what_repair_leaves_out():
+    """Broken faces have no place in the new atlas; others are baked."""
+    text = (FOLDER / "old.obj").read_text().splitlines()
+    at = next(i for i, line in enumerate(text) if line.startswith("f "))
+    text[at:at] = ["v nan 0 0", "f 1/1 1/1 2/2", "f 1/1 2/2 %d/3" % (sum(line.startswith("v ") for line in text) + 1)]
+    (FOLDER / "broken.obj").write_text("\n".join(text) + "\n")
+    (FOLDER / "in.png").write_bytes(png(256, 96, 3, colour))
+    for new in ("mended.obj", "mended.glb"):
+        run("atlas", "broken.obj", "-o", new, "--repair", "--quiet")
+        run("bake", "broken.obj", new, "--texture", "in.png", "-o", "out.png", "--quiet", "--stats", "stats.json")
+        told = json.loads((FOLDER / "stats.json").read_text())
+        assert told["left_out"] == 2 and told["textures"][0]["rms_difference"] < 0.02, told
+
+
+def test_refusals():
+    assert "--texture" in run("bake", "old.obj", "new.obj", "-o", "x.png", code=2)
+    assert "name it so" in run("bake", "model.glb", "cut.glb", "-o", "x.png", code=2)
+    points, uv, faces, uv_faces = band()
+    write_obj("fewer.obj", points, uv, faces[:-1], uv_faces[:-1])
+    assert "same faces" in run("bake", "old.obj", "fewer.obj", "--texture", "in.png", "-o", "x.png", code=4)
+    write_obj("other.obj", points, uv, faces[::-1], uv_faces[::-1])
+    assert "same faces" in run("bake", "old.obj", "other.obj", "--texture", "in.png", "-o", "x.png", code=4)
+    assert "PNG, JPEG or EXR" in run("bake", "old.obj", "new.obj", "--texture", "old.obj", "-o", "x.png", code=3)
+    (FOLDER / "cut.png").write_bytes((FOLDER / "in.png").read_bytes()[:200])
+    run("bake", "old.obj", "new.obj", "--texture", "cut.png", "-o", "x.png", code=3)
+    (FOLDER / "bare.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert "no texture coordinates" in run("bake", "bare.obj", "bare.obj", "--texture", "in.png", "-o", "x.png", code=4)
+    assert not (FOLDER / "x.png").exists()
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+for name, test in list(globals().items()):
+    if name.startswith("test_"):
+        test()
+        print("passed:", name[5:])

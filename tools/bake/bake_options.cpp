@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "bake/bake_options.hpp"
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+#include <taut/impl/gltf/gltf.hpp>
+
+#include "bake/texture_tiles.hpp"
+#include "shared/choices.hpp"
+#include "shared/failure.hpp"
+#include "shared/outputs.hpp"
+#include "shared/shared_options.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+/// N or WxH.
+std::optional<std::pair<idx, idx>> size_of(std::string_view text)
+{
+    const auto whole = [](std::string_view digits)
+    {
+        idx n = 0;
+        const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
+        return fault == std::errc() && end == digits.data() + digits.size() && n >= 1 && n <= 32768 ? n : 0;
+    };
+    const auto cross = text.find('x');
+    const idx width = whole(text.substr(0, cross));
+    const idx height = cross == text.npos ? width : whole(text.substr(cross + 1));
+    if (width == 0 || height == 0) return {};
+    return std::pair(width, height);
+}
+
+void declare_pictures(CLI::App& app, bake_options& o)
+{
+    add_input(app, "--texture", o.texture, "the texture",
+              "The texture of OLD: PNG, JPEG or EXR, NAME.<UDIM>.png for one a tile; without it those of the "
+              "materials of a glTF model");
+    app.add_flag("--vertex-colours", o.colours_of_vertices, "Bake the colours of the vertices of OLD: PLY, OFF, glTF");
+    add_output(app, "-o,--output", o.output,
+               {.extensions = {".png", ".exr", ".glb", ".gltf"}, .made_of = "NEW", .in_place = true},
+               "The texture of NEW, NAME.<UDIM>.png for one a tile; or NEW with its textures, of glTF")
+        ->required()
+        ->type_name("OUT.png|.exr|.glb");
+    add_choice<texture_content>(
+        app, "--content", o.content,
+        {{"colour", texture_content::colour}, {"data", texture_content::data}, {"normal", texture_content::normal}},
+        "Numbers of the texture: colours of sRGB, any data as they are, or normals in tangent space");
+    add_choice<texture_filter>(app, "--filter", o.filter,
+                               {{"bilinear", texture_filter::bilinear}, {"nearest", texture_filter::nearest}},
+                               "Interpolation between old texels; nearest: for labels");
+    add_choice<texture_wrap>(app, "--wrap", o.wrap, {{"repeat", texture_wrap::repeat}, {"clamp", texture_wrap::clamp}},
+                             "Continuation of the old texture beyond the unit square");
+    app.add_option("--resolution", o.size, "Texels of the new texture, N or WIDTHxHEIGHT; default those of the old one")
+        ->type_name("N|WxH")
+        ->check(CLI::Validator([](const std::string& text)
+                               { return size_of(text) ? "" : text + " is no size from 1 to 32768, N or WxH"; },
+                               ""));
+    app.add_option("--samples", o.samples, "Samples along each side of a new texel, of which the mean is taken")
+        ->type_name("N")
+        ->check(CLI::Range(1, 8))
+        ->capture_default_str();
+    app.add_option("--gutter", o.gutter, "Texels around charts that get the nearest texel of one; default all")
+        ->type_name("PX")
+        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"));
+    app.add_option("--bits", o.bits, "Bits of a number in PNG, 8 or 16; default as the old texture")
+        ->type_name("N")
+        ->check(CLI::IsMember({8, 16}).description(""));
+    app.add_flag("--green-down", o.green_down, "Green of normal maps grows downwards, as for DirectX");
+}
+
+} // namespace
+
+void declare(CLI::App& app, bake_options& o)
+{
+    add_input(app, "OLD", o.before, "the old surface",
+              "The surface with the texture coordinates that the texture is made for: OBJ, OFF, PLY, glTF")
+        ->required();
+    add_input(app, "NEW", o.after, "the new surface", "The same faces with the new ones, such as `taut atlas` makes")
+        ->required();
+    declare_pictures(app, o);
+    add_output(
+        app, "--difference", o.difference, {.extensions = {".png", ".exr"}},
+        "Draw in the old atlas by how much the surface looks different: eight times in .png, the numbers in .exr");
+    add_format(app, o.format);
+    app.add_option("--texcoord-set", o.texcoord_set, "The N of TEXCOORD_N of OLD, of glTF")
+        ->type_name("N")
+        ->check(CLI::Range(0, 7))
+        ->capture_default_str();
+    app.add_option("--new-texcoord-set", o.new_texcoord_set, "That of NEW; default the same")
+        ->type_name("N")
+        ->check(CLI::Range(0, 7));
+    add_device(app, o.device);
+    add_stats(app, o.stats);
+    app.add_flag("--quiet", o.quiet, "Print errors only");
+    app.footer("exit codes: 0 written; 2 usage; 3 unreadable input; 4 unsuitable input: other faces, no texture "
+               "coordinates;\n  5 no device; 9 device failure");
+}
+
+void check(const bake_options& o)
+{
+    const bool into_model = io::is_gltf(o.output);
+    if (!o.texture.empty() && o.colours_of_vertices)
+        throw usage_error("--texture and --vertex-colours: give one of them");
+    if (o.of_model() && !(io::is_gltf(o.before) && io::is_gltf(o.after)))
+        throw usage_error("give --texture, or --vertex-colours; only models of glTF name their textures");
+    if (o.of_model() && !into_model)
+        throw usage_error("-o " + o.output +
+                          ": a model of glTF is written as .glb or .gltf; name it so, or give "
+                          "--texture");
+    if (!o.of_model() && into_model)
+        throw usage_error("-o " + o.output + ": one texture is written as .png or .exr; name it so");
+    if (o.of_model() && !o.difference.empty()) throw usage_error("--difference is of one texture; give --texture");
+    if (o.filter == texture_filter::nearest && o.samples > 1)
+        throw usage_error("--samples: a mean of labels is none; leave it out with --filter nearest");
+    if (o.colours_of_vertices && o.content == texture_content::normal)
+        throw usage_error("--content normal is of textures; leave it out with --vertex-colours");
+    if (o.colours_of_vertices && !o.difference.empty())
+        throw usage_error("--difference is of textures; leave it out with --vertex-colours");
+    if (names_tiles(o.texture) && !o.difference.empty() && !names_tiles(o.difference))
+        throw usage_error("--difference: is drawn for each tile of --texture; name it NAME.<UDIM>.png");
+    if (o.bits > 0 && extension(o.output) == ".exr") throw usage_error("--bits is of PNG; EXR has floats");
+}
+
+bake_params to_params(const bake_options& o)
+{
+    bake_params params;
+    if (const auto size = size_of(o.size))
+    {
+        params.width = size->first;
+        params.height = size->second;
+    }
+    params.filter = o.filter;
+    params.wrap = o.wrap;
+    params.samples = o.samples;
+    params.gutter = o.gutter;
+    params.green_down = o.green_down;
+    return params;
+}
+
+} // namespace taut::tools

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "bake/textured_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <taut/impl/bake/tangent_frames.hpp>
+#include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/gltf/vertex_attribute.hpp>
+
+#include "shared/failure.hpp"
+#include "shared/text_table.hpp"
+
+namespace taut::tools
+{
+
+namespace
+{
+
+const vec2 no_place(std::numeric_limits<double>::quiet_NaN());
+
+std::size_t u(idx i)
+{
+    return static_cast<std::size_t>(i);
+}
+
+/// Leaves out triangles that have no place, or name a point which is not there or not finite, as repair does.
+void leave_out_unusable(textured_surface& s)
+{
+    const auto is_usable = [&](idx v) { return v >= 0 && u(v) < s.points.size() && impl::finite(s.points[u(v)]); };
+    for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    {
+        // Those that are left out of a map of glTF have all corners in one place.
+        if (s.uv[t][0] == s.uv[t][1] && s.uv[t][0] == s.uv[t][2]) s.uv[t].fill(no_place);
+        if (std::all_of(s.triangles[t].begin(), s.triangles[t].end(), is_usable)) continue;
+        s.uv[t].fill(no_place);
+        s.triangles[t] = {0, 0, 0};
+    }
+}
+
+/// Takes the normals of corners where they have a direction; those of others stay.
+template <class NormalAt>
+void take_normals(textured_surface& s, NormalAt normal_at)
+{
+    for (std::size_t t = 0; t < s.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const vec3 n = impl::normalised(normal_at(t, k)); n != vec3(0.0)) s.normals[t][k] = n;
+    s.has_normals = true;
+}
+
+/// Tangents of all corners, or none.
+std::vector<corner_tangents> read_tangents(const io::gltf_model& model)
+{
+    const auto read = io::impl::read_attribute(model, "TANGENT");
+    const auto is_known = [](double x) { return std::isfinite(x); };
+    if (read.components != 4 || !std::all_of(read.values.begin(), read.values.end(), is_known)) return {};
+    std::vector<corner_tangents> tangents(model.triangles.size());
+    for (std::size_t t = 0; t < tangents.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            const double* const x = read.at(t, k);
+            tangents[t][k] = vec<4>(x[0], x[1], x[2], x[3] < 0 ? -1 : 1);
+        }
+    return tangents;
+}
+
+void read_model(textured_surface& s, int texcoord_set)
+{
+    auto& model = s.model.emplace(io::read_gltf(s.path, texcoord_set));
+    s.points = model.points;
+    s.triangles = model.triangles;
+    s.notes = model.notes;
+    s.uv.assign(s.triangles.size(), {no_place, no_place, no_place});
+    for (std::size_t t = 0; t < model.texcoord_cells.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const idx x = model.texcoord_cells[t][k]; x >= 0)
+                s.uv[t][k] = vec2(model.texcoords[u(x)].x, 1 - model.texcoords[u(x)].y);
+    leave_out_unusable(s);
+    s.normals = smooth_normals(s.points, s.triangles);
+    s.tangents = read_tangents(model);
+    const auto normals = io::impl::read_attribute(model, "NORMAL");
+    if (normals.components != 3) return;
+    take_normals(s,
+                 [&](std::size_t t, std::size_t k)
+                 {
+                     const double* const n = normals.at(t, k);
+                     return vec3(n[0], n[1], n[2]);
+                 });
+}
+
+void read_soup(textured_surface& s, io::surface_format format)
+{
+    auto file = io::read_surface_soup(s.path, format);
+    if (!file.texcoord_fault.empty()) throw unsuitable_input(file.texcoord_fault + "; correct it");
+    if (file.triangles.empty()) throw mesh_error(mesh_fault::empty, {}, s.path + ": there are no triangles");
+    s.points = std::move(file.points);
+    s.triangles = std::move(file.triangles);
+    s.notes = std::move(file.notes);
+    s.uv.assign(s.triangles.size(), {no_place, no_place, no_place});
+    for (std::size_t t = 0; t < file.texcoord_cells.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const idx x = file.texcoord_cells[t][k]; x >= 0) s.uv[t][k] = file.texcoords[u(x)];
+    if (s.points.empty()) throw mesh_error(mesh_fault::empty, {}, s.path + ": there are no vertices");
+    leave_out_unusable(s);
+    s.normals = smooth_normals(s.points, s.triangles);
+    if (file.normals.empty()) return;
+    take_normals(s,
+                 [&](std::size_t t, std::size_t k)
+                 {
+                     const idx n = file.normal_cells.empty() ? s.triangles[t][k] : file.normal_cells[t][k];
+                     return n >= 0 && u(n) < file.normals.size() ? file.normals[u(n)] : vec3(0.0);
+                 });
+}
+
+} // namespace
+
+textured_surface read_textured_surface(const std::string& path, io::surface_format format, int texcoord_set)
+{
+    textured_surface s;
+    s.path = path;
+    if (io::is_gltf(path))
+        read_model(s, texcoord_set);
+    else
+        read_soup(s, format);
+    return s;
+}
+
+vertex_colours read_vertex_colours(const textured_surface& s, io::surface_format format)
+{
+    vertex_colours colours;
+    if (s.model)
+    {
+        const auto read = io::impl::read_attribute(*s.model, "COLOR_0");
+        colours.channels = static_cast<idx>(read.components);
+        colours.linear = true;
+        for (const double x : read.values) colours.values.push_back(std::isfinite(x) ? static_cast<float>(x) : 1.0f);
+    }
+    else if (const auto file = io::read_surface_soup(s.path, format); !file.vertices.colours.empty())
+    {
+        colours.channels = 3;
+        for (const auto& t : s.triangles)
+            for (const idx v : t)
+                for (int k = 0; k < 3; ++k)
+                    colours.values.push_back(static_cast<float>(file.vertices.colours.at(u(v))[k]));
+    }
+    if (colours.channels == 0)
+        throw unsuitable_input(s.path + ": its vertices have no colours; those of PLY, OFF and glTF are read");
+    return colours;
+}
+
+void require_same_triangles(const textured_surface& a, const textured_surface& b)
+{
+    const auto count = [](const textured_surface& s)
+    { return s.path + " has " + tools::count(s.triangles.size(), "triangle", "triangles"); };
+    if (a.triangles.size() != b.triangles.size())
+        throw unsuitable_input(count(a) + ", " + count(b) +
+                               ": give the surface before and after, with the same faces in the same order");
+    vec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const auto& t : a.triangles)
+        for (const idx v : t)
+        {
+            if (!impl::finite(a.points[u(v)])) continue;
+            low = glm::min(low, a.points[u(v)]);
+            high = glm::max(high, a.points[u(v)]);
+        }
+    const double tolerance = 1e-5 * glm::length(high - low);
+    for (std::size_t t = 0; t < a.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3 && std::isfinite(b.uv[t][0].x); ++k)
+            if (const double d = glm::length(a.points[u(a.triangles[t][k])] - b.points[u(b.triangles[t][k])]);
+                !(d <= tolerance))
+                throw unsuitable_input("corner " + std::to_string(k) + " of triangle " + std::to_string(t) + " lies " +
+                                       number(d, 3) + " apart in " + a.path + " and " + b.path +
+                                       ": give the surface before and after, with the same faces in the same order");
+}
+
+} // namespace taut::tools
