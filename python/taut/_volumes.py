@@ -115,6 +115,16 @@ def deform(
     return call(getattr(native(), f"deform{dim}"), points, blocks, options, progress=progress, make=Map.of)
 
 
+def _on_cells(name: str, points: Any, blocks: Any, options: dict[str, Any], ids: dict[str, Any], rest: Any, progress: Any) -> Map:
+    """The call of that name; ids: vertices by the argument that names them."""
+    for argument, given in ids.items():
+        if given is not None:
+            options[argument] = _arrays.ids(argument, given, len(points))
+    if rest is not None:
+        options["rest"] = _arrays.points("rest", rest, (2, 3), rows=len(points))
+    return call(getattr(native(), name), points, blocks, options, progress=progress, make=Map.of)
+
+
 def smooth(
     V: ArrayLike,
     C: Any,
@@ -159,11 +169,7 @@ def smooth(
         "worst_exponent": worst_exponent,
         "device": _options.device(device),
     }
-    if fixed is not None:
-        options["fixed"] = _arrays.ids("fixed", fixed, len(points))
-    if rest is not None:
-        options["rest"] = _arrays.points("rest", rest, (2, 3), rows=len(points))
-    return call(getattr(native(), f"smooth{dim}"), points, blocks, options, progress=progress, make=Map.of)
+    return _on_cells(f"smooth{dim}", points, blocks, options, {"fixed": fixed}, rest, progress)
 
 
 def untangle(
@@ -208,11 +214,7 @@ def untangle(
         "time_limit": time_limit,
         "device": _options.device(device),
     }
-    if b is not None:
-        options["b"] = _arrays.ids("b", b, len(points))
-    if rest is not None:
-        options["rest"] = _arrays.points("rest", rest, (2, 3), rows=len(points))
-    return call(getattr(native(), f"untangle{dim}"), points, blocks, options, progress=progress, make=Map.of)
+    return _on_cells(f"untangle{dim}", points, blocks, options, {"b": b}, rest, progress)
 
 
 def shell(
