@@ -183,3 +183,11 @@ def test_polygons_are_never_divided():
             (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]).sum() / 2, judge._areas(r.tri()[own]).sum(), atol=1e-7
         )
     assert judge.flips(r) == 0
+
+
+def test_a_face_that_repair_divides_is_named_and_lies_over_no_other():
+    """Two quads that have three corners in common: cut alike they have a triangle in common."""
+    V = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.2, 1.5, 1.0), (2, 0, 0), (2, 1, 0)]
+    ob = made("Fold", V, [(0, 1, 2, 3), (0, 1, 2, 4), (1, 5, 6, 2)])
+    bpy.ops.taut.atlas()
+    assert not judge.overlaps(judge.Read(ob))

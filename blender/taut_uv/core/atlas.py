@@ -76,10 +76,8 @@ def atlas(
         layout.repack(np.maximum(s.weight[s.vertex[s.triangles[some]]].mean(1), 0.05))
     if density > 0:
         layout.to_density(density)
-    write_atlas(s, result, made, layout, some)
+    place = write_atlas(s, result, made, layout, some)
     if mark_seams:
-        place = np.full(s.corners, -1)
-        place[s.triangles[some].reshape(-1)] = layout.faces.reshape(-1)
         inside = np.zeros(len(s.edges), bool)
         inside[s.edge[s.chosen[s.face]]] = True
         result.seam = np.where(inside, torn_edges(s, place), s.seam)
@@ -166,37 +164,51 @@ def _explained(error, s: Surface, some: np.ndarray, used: np.ndarray) -> Trouble
     return Trouble(str(error))
 
 
-def write_atlas(s: Surface, result: Result, made, layout: Layout, some: np.ndarray) -> None:
-    """Writes coordinates by corner; what is wrong with faces is a problem."""
-    corners = s.triangles[some]
+def write_atlas(s: Surface, result: Result, made, layout: Layout, some: np.ndarray) -> np.ndarray:
+    """Writes coordinates by corner; what is wrong with faces is a problem. The atlas's vertex of each corner, or -1."""
     own = made.chart >= 0
     uv, flat = in_single(layout.uv, layout.faces[own])
     if len(flat):
-        result.problems.append(
-            about_faces(
-                s,
-                s.triangle_face[some[np.flatnonzero(own)[flat]]],
-                "too small for the numbers of UV maps; dissolve what is so small",
-            )
-        )
-    place = np.full(s.corners, -1)
-    place[corners.reshape(-1)] = layout.faces.reshape(-1)
-    divided = (place[corners] != layout.faces).any(1)
-    if divided.any():
-        result.problems.append(
-            about_faces(
-                s, s.triangle_face[some[divided]], "a seam divides it; triangulate it (Ctrl T) and make the atlas again"
-            )
-        )
+        what = "too small for the numbers of UV maps; dissolve what is so small"
+        result.problems.append(about_faces(s, s.triangle_face[some[np.flatnonzero(own)[flat]]], what))
+    place, divided = places_of_corners(s, made, layout, some)
+    if len(divided):
+        what = "seams or repairs divide it, and a part of it lies in one point; triangulate it (Ctrl T) and try again"
+        result.problems.append(about_faces(s, divided, what))
     touched = place >= 0
     result.uv[touched] = uv[place[touched]]
     result.changed |= touched
-    if (~own).any():
-        result.problems.append(
-            about_faces(
-                s,
-                s.triangle_face[some[~own]],
-                "left out of the atlas, as it has no area or makes no surface; delete it, or "
-                "Mesh > Clean Up > Degenerate Dissolve",
-            )
-        )
+    lost = np.setdiff1d(s.triangle_face[some[~own]], divided)
+    if len(lost):
+        what = "left out of the atlas, as it makes no surface; delete it, or Mesh > Clean Up > Degenerate Dissolve"
+        result.problems.append(about_faces(s, lost, what))
+    return place
+
+
+def places_of_corners(s: Surface, made, layout: Layout, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The atlas's vertex of each corner, and the faces whose triangles do not agree, or are left out in part.
+
+    Of these the largest triangle counts, and those that agree with it; other corners are put at one of its own, so that
+    nothing of the face lies over others.
+    """
+    corners, own = s.triangles[some], made.chart >= 0
+    place = np.full(s.corners, -1)
+    place[corners[~own].reshape(-1)] = layout.faces[~own].reshape(-1)
+    place[corners[own].reshape(-1)] = layout.faces[own].reshape(-1)
+    face = s.triangle_face[some]
+    wrong = np.unique(face[(place[corners] != layout.faces).any(1) | ~own])
+    divided = []
+    for f in wrong:
+        triangles = np.flatnonzero((face == f) & own)
+        if len(triangles) == 0:
+            continue
+        divided.append(f)
+        first = triangles[layout.area[triangles].argmax()]
+        known = dict(zip(corners[first].tolist(), layout.faces[first].tolist()))
+        for t in triangles:
+            if all(known.get(c, v) == v for c, v in zip(corners[t].tolist(), layout.faces[t].tolist())):
+                if sum(c in known for c in corners[t].tolist()) >= 2:
+                    known.update(zip(corners[t].tolist(), layout.faces[t].tolist()))
+        of_face = np.unique(corners[face == f])
+        place[of_face] = [known.get(c, layout.faces[first][0]) for c in of_face.tolist()]
+    return place, np.array(divided, dtype=np.int64)

@@ -38,7 +38,8 @@ class Layout:
     ----------
     uv, faces : (N, 2) float64, (m, 3) int64
         Points, and the triangles that the atlas was made of.
-    tile : (m,) int64
+    tile, area : (m,) int64 and float64
+        Of each triangle: its tile, its area in space.
     notes : list of str
     """
 
@@ -57,7 +58,7 @@ class Layout:
     ) -> None:
         self._taut, self._clock = taut, clock
         self._padding, self._resolution, self._tiles, self._rotate = padding, resolution, tiles, rotate
-        self._area = areas(s.V, s.vertex[s.triangles[some]])
+        self.area = areas(s.V, s.vertex[s.triangles[some]])
         self._polygon = s.triangle_face[some]
         self._factors = None
         self._own = made.chart >= 0
@@ -70,7 +71,7 @@ class Layout:
     def scale(self) -> float:
         """Lengths in the plane by lengths in space, of what is not pinned."""
         flat = np.abs(signed_areas(self.uv, self.faces))
-        return float(np.sqrt(flat[self._moves].sum() / self._area[self._moves].sum()))
+        return float(np.sqrt(flat[self._moves].sum() / self.area[self._moves].sum()))
 
     def repack(self, factors: np.ndarray | None = None, padding: float | None = None, tiles: int | None = None) -> None:
         """Packs the charts anew; factors : of lengths of triangles."""
@@ -97,7 +98,7 @@ class Layout:
         room = 1 - 2 * self._padding / self._resolution
         for most in (0.7, 0.6, 0.5, 0.4):
             self._divide(most * room * self.scale() / target)
-            wanted = self._area[self._moves].sum() * target**2 / 0.65
+            wanted = self.area[self._moves].sum() * target**2 / 0.65
             if self.scale() < target:
                 self.repack(tiles=int(np.clip(np.ceil(wanted), self._tiles, _MOST_TILES)))
             while self.scale() < target and self._tiles < _MOST_TILES and self._used() == self._tiles:
