@@ -4,6 +4,7 @@ option(TAUT_MPI "Build taut::dist, taut-mpi and their tests where MPI and PETSc 
 
 set(taut_dist_found FALSE)
 if(TAUT_MPI)
+    set(MPI_CXX_SKIP_MPICXX TRUE) # its C++ bindings, which are no part of MPI any more
     find_package(MPI QUIET COMPONENTS CXX)
     # Debian keeps several builds of PETSc side by side; PETSC_DIR and PETSC_ARCH name others.
     find_path(TAUT_PETSC_INCLUDE petscksp.h HINTS $ENV{PETSC_DIR}/include $ENV{PETSC_DIR}/$ENV{PETSC_ARCH}/include

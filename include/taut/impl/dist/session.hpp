@@ -76,9 +76,9 @@ private:
 
 /// Deforms a volume, or a mesh of the plane, that the processes of a communicator have in pieces, with as little
 /// distortion as the energy asks for, so that pins are met bit for bit and no element is inverted: one call of a
-/// session. The answer is in the distribution of the piece. Outcomes are those of taut::deform(), but for what is never
-/// proved infeasible here; a shape to begin with that has inverted elements is gave_up. Collective; throws as session
-/// does.
+/// session. The answer is in the distribution of the piece. Outcomes are those of taut::deform(); infeasible is proved
+/// by elements alone whose vertices are all pinned, and a shape to begin with that has inverted elements is gave_up.
+/// Collective; throws as session does.
 template <class Element>
 result<Element> deform(MPI_Comm comm, const mesh_piece<Element>& piece, const deform_params<Element>& params = {})
 {
