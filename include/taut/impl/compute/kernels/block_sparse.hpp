@@ -601,7 +601,7 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
     PLAIN (int i = item; i < size; i += TEAM)
     {
         root[i] = 0;
-        PLAIN (int j = i % D; j < size; j += D) root[i] += work[j * pitch + i];
+        PLAIN (int j = i % D; j < size; j += D) root[i] += work[i * pitch + j];
     }
     SYNC;
     REAL stiff[D]; // 1 / trace of a component that nothing holds; 0 for others
@@ -634,12 +634,17 @@ __kernel void invert_dense(const int rows, const int size, const int pitch, cons
         PLAIN (int i = k + 1 + down; i < size; i += TALL)
         {
             __global REAL* other = work + i * pitch;
-            const REAL f = good ? row[i] / pivot : 0; // what is left is symmetric; other[k] changes meanwhile
+            const REAL f = good ? other[k] / pivot : 0;
             if (good)
                 PLAIN (int j = along * V; j < pitch; j += WIDE * V)
-                    STORE(LOAD(other, j) - f * LOAD(row, j), other, j);
-            if (k % WIDE == along) other[k] = -f;
+                    if (TEAM == 1 || j != k) STORE(LOAD(other, j) - f * LOAD(row, j), other, j);
+            if (TEAM == 1) other[k] = -f;
         }
+#if TEAM > 1
+        // Items that share a row have all read its factor.
+        SYNC;
+        for (int i = k + 1 + item; i < size; i += TEAM) work[i * pitch + k] = good ? -work[i * pitch + k] / pivot : 0;
+#endif
     }
     SYNC;
     PLAIN (int k = down; k < size; k += TALL)
