@@ -72,7 +72,7 @@ class DeviceError(TautError):
     remedy: str = ""
 
     def __init__(self, message: str = "", **more: Any) -> None:
-        if not self.remedy and ("no OpenCL" in message or "install a driver" in message):
+        if not self.remedy and "no OpenCL platform is installed" in message:
             self.remedy = (
                 "install an OpenCL driver: `pip install taut[pocl]` (any CPU), `apt install pocl-opencl-icd`, "
                 "or `conda install -c conda-forge pocl`"

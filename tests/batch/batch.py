@@ -74,6 +74,18 @@ def children(process):
         return []
 
 
+def at_work_on(process, name):
+    """Those children that name a file."""
+    found = []
+    for one in children(process):
+        try:
+            with open(f"/proc/{one}/cmdline", "rb") as f:
+                found += [one] if name in f.read() else []
+        except (FileNotFoundError, ProcessLookupError):
+            pass  # it has just ended
+    return found
+
+
 def alive(process):
     try:
         with open(f"/proc/{process}/stat") as f:
@@ -146,7 +158,7 @@ def poison():
     manifest([check("crash"), check("endless", time_limit=0.5), check("large", memory_limit=20_000_000), check("a")])
     run = subprocess.Popen(command("--grace", "60", "--jobs", "2"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     until(lambda: "endless" in results_if_any())
-    crashing = [c for c in children(run.pid) if b"crash.obj" in open(f"/proc/{c}/cmdline", "rb").read()]
+    crashing = at_work_on(run.pid, b"crash.obj")
     os.kill(crashing[0], signal.SIGSEGV)
     said, _ = run.communicate(timeout=300)
     assert run.returncode == 10 and b"4 done, 3 of them failed" in said, said
@@ -193,7 +205,7 @@ def resume():
 
     # Killed in the middle, it takes its job along and leaves whole lines.
     run = subprocess.Popen(command(), stdout=subprocess.DEVNULL)
-    at_work = until(lambda: [c for c in children(run.pid) if b"stop.obj" in open(f"/proc/{c}/cmdline", "rb").read()])
+    at_work = until(lambda: at_work_on(run.pid, b"stop.obj"))
     run.kill()
     run.wait()
     until(lambda: not alive(at_work[0]))
@@ -203,7 +215,7 @@ def resume():
 
     # Interrupted, it ends its jobs, which get no line.
     run = subprocess.Popen(command("--resume"), stdout=subprocess.PIPE, text=True)
-    until(lambda: [c for c in children(run.pid) if b"stop.obj" in open(f"/proc/{c}/cmdline", "rb").read()])
+    until(lambda: at_work_on(run.pid, b"stop.obj"))
     run.send_signal(signal.SIGINT)
     said, _ = run.communicate(timeout=60)
     assert run.returncode == 130 and "8 left out as done before, 17 still to do" in said, said
@@ -413,7 +425,7 @@ def descriptors():
     manifest([{"id": "wait", "args": ["check", "wait.obj"]}])
     with open("a.obj") as extra:
         run = subprocess.Popen(command(), stdout=subprocess.DEVNULL, pass_fds=[extra.fileno()])
-        job = until(lambda: [c for c in children(run.pid) if b"wait.obj" in open(f"/proc/{c}/cmdline", "rb").read()])[0]
+        job = until(lambda: at_work_on(run.pid, b"wait.obj"))[0]
         until(lambda: set(os.listdir(f"/proc/{job}/fd")) == {"0", "1", "2"})
         run.terminate()
         assert run.wait(timeout=60) == 143
@@ -468,7 +480,7 @@ def private_caches():
     os.mkfifo("slow.obj")
     manifest([{"id": "slow", "args": ["check", "slow.obj"]}, {"id": "a", "args": ["check", "a.obj"]}, {"id": "b", "args": ["check", "a.obj"]}])
     run = subprocess.Popen([taut, "batch", "--manifest", "jobs.jsonl", "--out", "two.jsonl", "--jobs", "2", "--cache", "two"], stderr=subprocess.PIPE, text=True)
-    until(lambda: [c for c in children(run.pid) if b"slow.obj" in open(f"/proc/{c}/cmdline", "rb").read()])
+    until(lambda: at_work_on(run.pid, b"slow.obj"))
     with open("slow.obj", "w") as f, open("a.obj") as mesh:
         f.write(mesh.read())
     said = run.communicate(timeout=60)[1]

@@ -201,7 +201,7 @@ private:
         report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
         if (options_.max_stretch && atlas_->report.stretch_l2 > *options_.max_stretch)
             report_.notes.push_back("the stretch is " + number(atlas_->report.stretch_l2, 4) +
-                                    ", above --max-stretch: the surface is rough, or time ran out");
+                                    ", above --max-stretch; `--prefer packing` cuts further");
         if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;
         if (!*atlas_) throw no_valid_map(atlas_->report.reason);
     }

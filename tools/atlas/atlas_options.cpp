@@ -193,7 +193,7 @@ void check_pages(const atlas_options& o)
         throw usage_error("--resolution " + o.size + ": pinned charts lie in squares; give one number");
     const double padding = padding_of(o);
     if (2 * padding >= std::min(width, height))
-        throw usage_error((o.padding ? "--padding " : "--mip-levels: padding ") + number(padding, 6) +
+        throw usage_error((o.mip_levels ? "--mip-levels: padding " : "--padding ") + number(padding, 6) +
                           ": must be less than half of --resolution, " + std::to_string(std::min(width, height)));
     if (8 * o.align > std::min(width, height))
         throw usage_error("--align " + std::to_string(o.align) + ": must be an eighth of --resolution at most");
@@ -240,14 +240,15 @@ void check(const atlas_options& o)
                           "--mean-distortion");
     if (o.keep_charts())
     {
+        const std::string given = o.charts == chart_use::pack ? "--charts pack" : "--charts keep";
         if (o.hide > 0 || o.crease_angle < 180 || !o.seam_weights.empty())
-            throw usage_error("--charts keep has the seams of the vt; leave out --hide-seams, --crease-angle and "
-                              "--seam-weights");
-        if (o.keep_seams) throw usage_error("--charts keep has the seams of the vt alone; leave out --keep-seams");
-        if (o.prefer != chart_preference::seams) throw usage_error("--charts keep makes no charts; leave out --prefer");
+            throw usage_error(given + " has the seams of the vt; leave out --hide-seams, --crease-angle and "
+                                      "--seam-weights");
+        if (o.keep_seams) throw usage_error(given + " has the seams of the vt alone; leave out --keep-seams");
+        if (o.prefer != chart_preference::seams) throw usage_error(given + " makes no charts; leave out --prefer");
         if (o.max_distortion || o.mean_distortion || o.max_stretch)
-            throw usage_error("--charts keep cuts no chart, so there is no bound; leave out --max-distortion, "
-                              "--mean-distortion and --max-stretch");
+            throw usage_error(given + " cuts no chart, so there is no bound; leave out --max-distortion, "
+                                      "--mean-distortion and --max-stretch");
     }
     check_pages(o);
     const bool joined = o.outputs.size() < o.inputs.size();

@@ -167,8 +167,7 @@ std::vector<std::array<vec2, 3>> texcoords_of(const std::vector<std::unique_ptr<
     {
         const auto own = source->texcoords();
         if (own.empty())
-            throw unsuitable_input(
-                "--charts keep: a file has no texture coordinates (vt) that show charts; leave it out");
+            throw unsuitable_input("a file has no texture coordinates (vt) that show charts; leave out --charts");
         uv.insert(uv.end(), own.begin(), own.end());
     }
     return uv;

@@ -92,6 +92,13 @@ std::optional<job> parse_job(const std::string& text, const std::string& path, s
     return manifest_line(path, line, text).read();
 }
 
+std::string id_in(const std::string& text)
+{
+    const auto line = nlohmann::json::parse(text, nullptr, false);
+    if (!line.is_object() || !line.contains("id") || !line["id"].is_string()) return {};
+    return line["id"].get<std::string>();
+}
+
 std::vector<job> parse_manifest(std::istream& in, const std::string& path)
 {
     std::vector<job> jobs;

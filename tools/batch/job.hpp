@@ -26,7 +26,10 @@ struct job
 /// that is no job (`batch` itself, and `view`, which waits for a person).
 std::vector<job> read_manifest(const std::string& path);
 /// One line of it; none for an empty one. Throws io::io_error.
-std::optional<job> parse_job(const std::string& text, const std::string& path, std::size_t line);
+std::optional<job>
+parse_job(const std::string& text, const std::string& path,
+          std::size_t line); /// The id that a line names, be it a job or not; empty if it names none.
+std::string id_in(const std::string& text);
 std::vector<job> parse_manifest(std::istream& text, const std::string& path);
 
 /// A part of the jobs of a manifest, number `index` of `count`, from 1: every count-th job, so that parts are equally

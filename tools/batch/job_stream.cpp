@@ -49,7 +49,7 @@ void job_stream::take_line(const std::string& text, std::deque<job>& jobs)
     }
     catch (const io::io_error& e)
     {
-        refuse_({}, e.what());
+        refuse_(id_in(text), e.what());
     }
 }
 

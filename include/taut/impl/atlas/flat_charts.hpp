@@ -298,10 +298,11 @@ protected:
         {
             const auto crossing = crossing_charts(*charts_, flat_);
             for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] != 0 || crossing[k] != 0;
-            report_.notes.push_back(
-                std::to_string(mended) +
-                (mended == 1 ? " chart that overlapped itself was" : " charts that overlapped themselves were") +
-                " mapped anew with its border kept apart");
+            auto note = std::to_string(mended) +
+                        (mended == 1 ? " chart that overlapped itself was mapped anew with its border kept apart"
+                                     : " charts that overlapped themselves were mapped anew with borders kept apart");
+            auto& notes = report_.notes;
+            if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
         }
         report_.seconds.flatten += budget_.total() - begin;
     }

@@ -103,7 +103,6 @@ private:
                     best = std::move(now);
                 else
                     best = std::move(*first);
-                c_.report_.notes.push_back(rough_note(best->mean));
                 break;
             }
             if (turn == 0 && !holds) first = now;
@@ -129,6 +128,8 @@ private:
                 sew_up(std::vector<char>(c_.energy_.size(), 1), false, limits);
         }
         if (!c_.report_.complete) return lay_unfinished();
+        if (!best->holds && patched(best->length, cutting)) return;
+        if (!c_.report_.complete) return lay_unfinished();
         if (!best->holds) c_.keep_apart(best->bad);
         if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
         best->bad.resize(c_.energy_.size(), 0);
@@ -136,6 +137,36 @@ private:
             if (!(c_.energy_[k] <= c_.params_.charts.max_distortion)) best->bad[k] = 1;
         if (std::count(best->bad.begin(), best->bad.end(), char(1)) > 0) mend_rest(best->bad);
         if (!c_.report_.complete) lay_unfinished();
+        if (const double mean = mean_energy(); rough && c_.report_.complete && mean > c_.params_.charts.mean_distortion)
+            c_.report_.notes.push_back(rough_note(mean));
+    }
+
+    /// Cuts the whole surface as for packing, where short seams do not reach the bound, and takes what comes of it if
+    /// the bound holds and seams are not much longer than `length`: plain shapes of few triangles have charts without
+    /// distortion that no sequence of short cuts leads to, rough ones have none.
+    bool patched(double length, const short_cutting& cutting)
+    {
+        constexpr std::size_t few = 30'000; // triangles: it takes seconds more
+        constexpr double longer = 2;
+        if (c_.mesh_.cells().size() > few || c_.params_.prefer != chart_preference::seams) return false;
+        auto seam = c_.seam_;
+        auto charts = *c_.charts_;
+        auto flat = c_.flat_;
+        auto energy = c_.energy_;
+        auto notes = c_.report_.notes;
+        c_.seam_.assign(c_.facets_.twin.size(), 0);
+        std::copy(c_.params_.charts.seams.begin(), c_.params_.charts.seams.end(), c_.seam_.begin());
+        c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
+        mend_rest(std::vector<char>(u(c_.charts_->charts()), 1));
+        const bool better = c_.report_.complete && mean_energy() <= c_.params_.charts.mean_distortion &&
+                            price_of_seams(cutting.prices()) <= longer * length;
+        if (better) return true;
+        c_.seam_ = std::move(seam);
+        c_.charts_.emplace(std::move(charts));
+        c_.flat_ = std::move(flat);
+        c_.energy_ = std::move(energy);
+        c_.report_.notes = std::move(notes);
+        return false;
     }
 
     /// Of a run that has ended: what has no good map becomes patches.
@@ -152,10 +183,11 @@ private:
     std::string rough_note(double mean) const
     {
         char text[200];
-        std::snprintf(text, sizeof text,
-                      "the surface is rough: the mean energy is %.4g where %.4g is wanted, whatever the seams; "
-                      "charts made for packing (--prefer packing) hold the bound",
-                      mean, c_.params_.charts.mean_distortion);
+        std::snprintf(
+            text, sizeof text,
+            "the mean energy is %.4g where %.4g is wanted, which short seams do not reach on a rough surface; "
+            "more charts do (--prefer packing)",
+            mean, c_.params_.charts.mean_distortion);
         return text;
     }
 
