@@ -64,10 +64,17 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
                                "channels": old.shape[2] if old.ndim == 3 else 1, "filter": filter, "wrap": wrap,
                                "samples": int(samples), "gutter": math.inf if gutter is None else float(gutter)}
     if size is not None:
-        options["new_width"], options["new_height"] = (size, size) if isinstance(size, int) else map(int, size)
+        width, height = (size, size) if isinstance(size, int) else map(int, size)
+        if width < 1 or height < 1:
+            raise ParameterError(f"size: is {width} x {height}, but both must be positive", field="size")
+        options["new_width"], options["new_height"] = width, height
     if device is not None:
         options["device"] = str(device)
     rows = np.ascontiguousarray(old[::-1]).reshape(-1)
-    texels, _, width, height = native().bake(rows, _corners("old_uv", old_uv), _corners("new_uv", new_uv), options)
+    corners = _corners("old_uv", old_uv), _corners("new_uv", new_uv)
+    if len(corners[0]) != len(corners[1]):
+        raise ParameterError(f"new_uv: has {len(corners[1]) // 3} triangles, but old_uv has {len(corners[0]) // 3}; "
+                             "give each in both", field="new_uv")
+    texels, _, width, height = native().bake(rows, *corners, options)
     made: NDArray[np.float64] = texels.reshape((height, width, *old.shape[2:]))[::-1]
     return made

@@ -38,3 +38,7 @@ def test_what_does_not_fit_is_refused(torus):
             taut.bake(*arguments)
     with pytest.raises(taut.ParameterError):
         taut.bake(np.zeros((4, 4)), uv, uv, filter="cubic")
+    with pytest.raises(taut.ParameterError, match="size: is 0 x 5"):
+        taut.bake(np.zeros((4, 4)), uv, uv, size=(0, 5))
+    with pytest.raises(taut.ParameterError, match="new_uv: has"):
+        taut.bake(np.zeros((4, 4)), uv, uv[:-1])

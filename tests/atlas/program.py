@@ -303,7 +303,7 @@ def pinned_charts():
         done = run("atlas", "moved.obj", "-o", "x.obj", "--pin", "pins", code=4)
         assert "pinned chart of triangle" in done.stderr and words in done.stderr, done.stderr
     pathlib.Path("all").write_text(" ".join(map(str, range(len(faces)))))
-    assert "nothing to lay" in run("atlas", "once.obj", "-o", "x.obj", "--pin", "all", code=2).stderr
+    assert "none is left to lay" in run("atlas", "once.obj", "-o", "x.obj", "--pin", "all", code=2).stderr
     pathlib.Path("beyond").write_text(f"{len(faces)}")
     assert "is not there" in run("atlas", "once.obj", "-o", "x.obj", "--pin", "beyond", code=4).stderr
     assert "no texture coordinates" in run("atlas", "ball.obj", "-o", "x.obj", "--pin", "pins", code=4).stderr

@@ -85,7 +85,7 @@ void declare_packing(CLI::App& app, atlas_options& o)
         ->type_name("PX")
         ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"));
     app.add_option("--mip-levels", o.mip_levels,
-                   "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels")
+                   "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels; 0 to 10")
         ->type_name("N")
         ->check(CLI::Range(0, 10).description(""));
     app.add_option("--resolution", o.size,
@@ -101,7 +101,8 @@ void declare_packing(CLI::App& app, atlas_options& o)
         ->type_name("N")
         ->check(CLI::Range(1, 65536).description(""));
     app.add_option("--align", o.align,
-                   "Side of the blocks of texels that one chart has alone: 4 for compressed textures")
+                   "Side of the blocks of texels that one chart has alone: 4 for compressed textures; 1, 2, 4, ..., 64, at most an "
+                   "eighth of --resolution")
         ->type_name("N")
         ->check(CLI::IsMember({1, 2, 4, 8, 16, 32, 64}).description(""))
         ->capture_default_str();

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <system_error>
 
+#include <picture/format.hpp>
+
 #include <taut/impl/io/io_error.hpp>
 
 namespace taut::tools
@@ -32,8 +34,8 @@ weight_list parse_weights(std::string_view text, const std::string& path, idx ve
             if (at == stop) break;
             double x = 0;
             const auto [next, error] = std::from_chars(at, stop, x);
-            if (error != std::errc{} || numbers.size() == 3)
-                fail("no line of numbers; write a vertex or two, from 0, and a factor");
+            if (error != std::errc{}) fail("no line of numbers; write a vertex or two, from 0, and a factor");
+            if (numbers.size() == 3) fail("more than three numbers; write a vertex or two, from 0, and a factor");
             numbers.push_back(x);
             at = next;
         }
@@ -45,7 +47,8 @@ weight_list parse_weights(std::string_view text, const std::string& path, idx ve
         for (std::size_t k = 0; k + 1 < numbers.size(); ++k)
         {
             if (!(numbers[k] >= 0 && numbers[k] < vertices) || numbers[k] != std::floor(numbers[k]))
-                fail("no vertex of " + std::to_string(vertices) + "; write them as whole numbers from 0");
+                fail("vertex " + io::impl::format_number(numbers[k], 12) + " of " + std::to_string(vertices) +
+                     "; vertices are whole numbers from 0");
             ends.push_back(static_cast<idx>(numbers[k]));
         }
         if (ends.size() == 2)

@@ -80,3 +80,18 @@ TEST_CASE("make_atlas: cubes and prisms keep the bound, however they are cut and
                 check_bound(q, prism(sides, height), bound);
             }
 }
+
+TEST_CASE("make_atlas: copies that lie on each other have the least distorted of their maps")
+{
+    queue q;
+    const auto one = cube(63);
+    auto points = one.points();
+    auto cells = one.cells();
+    for (const vec3& x : one.points()) points.push_back(x + vec3(3, 0, 0));
+    for (const auto& t : one.cells()) cells.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+    atlas_params p{.stack = true};
+    const auto a = make_atlas(q, mesh<triangle>(std::move(points), std::move(cells)), p);
+    REQUIRE(bool(a));
+    CHECK(a.report.stacked > 0);
+    CHECK(a.report.distortion <= 4.1);
+}

@@ -397,7 +397,7 @@ protected:
             energy_.push_back(laid.energy[u(charts_->cell_origins[u(charts_->first_cell[k])])]);
     }
 
-    /// Cuts components that are copies of an earlier one in space as that one is cut, with its maps.
+    /// Cuts components that are copies of each other in space as the least distorted of them is cut, with its maps.
     void copy_components()
     {
         if (!report_.reason.empty()) return;
@@ -407,9 +407,22 @@ protected:
         const auto own = [&](idx side) { return 3 * u(whole.cell_origins[u(side / 3)]) + u(side % 3); };
         auto laid = triangles_as_laid();
         const auto seam = seam_;
+        std::vector<double> energy; // of each component, summed over its triangles
+        for (idx k = 0; k < whole.charts(); ++k)
+        {
+            energy.push_back(0);
+            for (auto c = u(whole.first_cell[u(k)]); c < u(whole.first_cell[u(k) + 1]); ++c)
+                energy.back() += laid.energy[u(whole.cell_origins[c])];
+        }
+        const auto best = copies.best(energy);
+        std::vector<idx> model(seam.size()); // of each side of a first copy, that of the best one
+        for (idx k = 0; k < whole.charts(); ++k)
+            if (best[u(copies.leader()[u(k)])] == k)
+                for (idx s = 3 * whole.first_cell[u(k)]; s < 3 * whole.first_cell[u(k) + 1]; ++s)
+                    model[u(copies.sides()[u(s)])] = s;
         for (idx s = 0; s < static_cast<idx>(seam.size()); ++s)
         {
-            const idx first = copies.sides()[u(s)];
+            const idx first = model[u(copies.sides()[u(s)])];
             if (first == s) continue;
             const bool given = !params_.charts.seams.empty() && params_.charts.seams[own(s)] != 0;
             seam_[own(s)] = seam[own(first)] != 0 || given;

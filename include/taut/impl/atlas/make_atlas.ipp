@@ -94,6 +94,7 @@ private:
         if (params_.stack)
         {
             stacks_.emplace(*charts_, params.groups);
+            stacks_->take_best(flat_, energy_);
             stacks_->share(flat_);
             report_.stacked = charts_->charts() - static_cast<idx>(stacks_->leaders().size());
         }

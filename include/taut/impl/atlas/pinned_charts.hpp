@@ -42,7 +42,7 @@ public:
         if (params.initial.size() != m.cells().size())
             throw parameter_error("initial", "must have the places of pinned triangles");
         if (std::count(params.pinned.begin(), params.pinned.end(), char(0)) == 0)
-            throw parameter_error("pinned", "leaves nothing to lay; pin fewer triangles");
+            throw parameter_error("pinned", "has all triangles, so that none is left to lay; pin fewer");
     }
 
     /// The surface without them.

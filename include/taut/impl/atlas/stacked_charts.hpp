@@ -56,6 +56,27 @@ public:
     /// For each side of charts.surface, that of the chart which it is a copy of, or itself.
     const std::vector<idx>& sides() const { return side_; }
 
+    /// For each first chart, the least distorted of its copies or itself; others name themselves.
+    std::vector<idx> best(std::span<const double> distortion) const
+    {
+        std::vector<idx> all(leader_.size());
+        for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<idx>(k);
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (idx& one = all[u(leader_[k])]; distortion[k] < distortion[u(one)]) one = static_cast<idx>(k);
+        return all;
+    }
+
+    /// Gives each first chart the values of the least distorted of its copies, vertex by vertex.
+    template <class T>
+    void take_best(std::vector<T>& of_vertices, std::span<const double> distortion) const
+    {
+        const auto from = best(distortion);
+        for (const idx leader : leaders_)
+            if (const auto k = u(from[u(leader)]); k != u(leader))
+                for (auto v = u(charts_.first_vertex[k]); v < u(charts_.first_vertex[k + 1]); ++v)
+                    of_vertices[u(twin_[v])] = of_vertices[v];
+    }
+
     /// Gives copies the values of those that they are copies of, vertex by vertex.
     template <class T>
     void share(std::vector<T>& of_vertices) const

@@ -173,7 +173,8 @@ private:
                                 largest_box() + ", do not fit into " + std::to_string(params_.tiles) +
                                 (params_.tiles == 1 ? " tile of " : " tiles of ") + std::to_string(resolution_) +
                                 " x " + short_number(resolution_ * params_.aspect) +
-                                " texels; ask for fewer texels, a higher resolution or more tiles");
+                                " texels; ask for fewer texels, or for more or larger tiles; a chart larger than a tile "
+                                "needs a higher resolution, or shorter charts (a tighter bound of distortion)");
     }
 
     /// "the largest is 300 x 20", in texels.
