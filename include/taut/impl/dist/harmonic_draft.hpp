@@ -84,19 +84,6 @@ private:
         return G;
     }
 
-    static mat<D> rotation(const vec3& w)
-    {
-        const double angle = glm::length(w);
-        const vec3 axis = angle > 0 ? w / angle : vec3(0, 0, 1);
-        mat<D> R(1.0);
-        for (int k = 0; k < D; ++k)
-            if constexpr (D == 2)
-                R[k] = rigid_motion<2>{}.turned(R[k], w.z);
-            else
-                R[k] = rigid_motion<3>{.axis = axis}.turned(R[k], angle);
-        return R;
-    }
-
     /// The Laplacian at the places of the pattern.
     void fill_entries()
     {
@@ -138,7 +125,7 @@ private:
             vec3 mean(0.0);
             for (const idx v : c)
                 for (int k = 0; k < 3; ++k) mean[k] += turns[static_cast<std::size_t>(3 * v + k)] / double(K);
-            wanted.push_back(glm::transpose(rotation(mean)));
+            wanted.push_back(glm::transpose(taut::impl::rotation<D>(mean)));
         }
         fit shaped(*this, still);
         const auto row = [&](std::size_t c, std::size_t k) { return wanted[c][static_cast<int>(k)]; };
