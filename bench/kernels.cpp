@@ -237,7 +237,8 @@ public:
         std::printf("\nNewton, mixed    ns a triangle (GB/s, part of the triad)\n"
                     "triangles        triad  product               smoothing step        Hessians              "
                     "assembly              "
-                    "coarse matrices       V-cycle\n");
+                    "coarse matrices       V-cycle               restriction           prolongation          "
+                    "inverse of coarsest   its product\n");
         for (const auto& m : meshes) newton(m);
     }
 
@@ -320,6 +321,11 @@ private:
         mg.refresh();
         auto g = A.vector(), d = A.vector(), y = A.vector();
         g.data().fill(1);
+        const auto &coarse = mg.matrix(1), &last = mg.matrix(mg.levels() - 1);
+        const block_transfer transfer(A, host.cycle.transfers.front(), coarse);
+        dense_inverse inverse(last, host.cycle.active);
+        auto b = coarse.vector(), z = coarse.vector(), r = last.vector(), e = last.vector();
+        r.data().fill(1);
         // On a GPU a wait takes as long as a kernel: of many in a row.
         const int in_a_row = queue_.device().is_cpu() || quick_ ? 1 : 20;
         const auto done = [&](auto&& work)
@@ -333,16 +339,27 @@ private:
         const auto t = bench::interleaved(
             repeats(m.cells().size()),
             {done([&] { A.multiply(g, d); }), done([&] { A.smooth(g, d, d, 1, 0, 0.5, y); }), done(hessians),
-             done([&] { assembly(hessian, A); }), done([&] { mg.refresh(); }), done([&] { mg.apply(g, d); })});
-        const double vector = 4.0 * static_cast<double>(g.size()), cells = static_cast<double>(m.cells().size());
+             done([&] { assembly(hessian, A); }), done([&] { mg.refresh(); }), done([&] { mg.apply(g, d); }),
+             done([&] { transfer.restrict_residual(g, coarse, 0.5, b, z); }), done([&] { transfer.prolong(b, d); }),
+             done([&] { inverse.refresh(last); }), done([&] { inverse.apply(r, e); })});
+        const auto of = [](const device_vector& v) { return 4.0 * static_cast<double>(v.size()); };
+        const double vector = of(g), cells = static_cast<double>(m.cells().size());
+        const double lists = static_cast<double>(transfer.columns().bytes() + transfer.weights().bytes());
+        const double numbers = static_cast<double>(inverse.inverse().bytes());
         const double product = static_cast<double>(A.product_bytes());
         const double moved[] = {product,
                                 product + 3 * vector, // inverses, right side
                                 cells * (3 + 3 + 1 + 1 + hessian_slots<2>::count) * 4 + 2 * vector,
                                 static_cast<double>(hessian.bytes() + assembly.bytes() + A.values().bytes()),
-                                static_cast<double>(mg.bytes())};
+                                static_cast<double>(mg.bytes()),
+                                static_cast<double>(mg.bytes()),
+                                lists + vector + 4 * of(b), // and the inverses of its 2 x 2 diagonal blocks
+                                lists + 2 * vector + of(b),
+                                numbers, // in place: what must be read once
+                                numbers + of(r) + of(e)};
         const double triad = bench::device_triad(queue_);
-        const char* names[] = {"product", "smoothing", "hessians", "assembly", "refresh", "cycle"};
+        const char* names[] = {"product", "smoothing",   "hessians",     "assembly",          "refresh",
+                               "cycle",   "restriction", "prolongation", "coarsest_inverse", "coarsest_product"};
         nlohmann::ordered_json row = {
             {"what", "newton"}, {"triangles", m.cells().size()}, {"triad_GBps", triad * 1e-9}};
         std::printf("%-12zu %9.1f", m.cells().size(), triad * 1e-9);
@@ -352,7 +369,6 @@ private:
             const double took = t[i].median / in_a_row;
             row[name + "_ns"] = took * 1e9 / cells;
             std::printf("  %7.2f", took * 1e9 / cells);
-            if (i >= std::size(moved)) continue;
             const double rate = moved[i] / took;
             row[name + "_GBps"] = rate * 1e-9;
             row[name + "_of_triad"] = rate / triad;
