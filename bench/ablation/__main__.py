@@ -29,8 +29,8 @@ WORK = ROOT / "build/ablation"
 
 def build():
     """A tree with switches, and the program of it."""
-    program = WORK / "build/bin/taut"
     source = WORK / "source"
+    program = source / "build/release/bin/taut"
     if program.exists():
         return program
     shutil.rmtree(source, ignore_errors=True)
@@ -40,10 +40,8 @@ def build():
             (source / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / name, source / name)
     strategies.patch(source / "include/taut/impl")
-    options = {"BUILD_TYPE": "Release", "CXX_FLAGS_RELEASE": "-O2 -DNDEBUG"}
-    subprocess.run(["cmake", "-S", source, "-B", WORK / "build", "-G", "Ninja", "-DTAUT_EXAMPLES=OFF", "-DTAUT_PYTHON=OFF",
-                    "-DTAUT_BENCH=OFF", *(f"-DCMAKE_{k}={v}" for k, v in options.items())], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["ninja", "-j2", "-C", WORK / "build", "taut_program"], check=True)
+    subprocess.run(["cmake", "--preset", "release"], cwd=source, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["ninja", "-j2", "-C", source / "build/release", "taut_program"], check=True)
     return program
 
 
@@ -145,6 +143,7 @@ def main():
     parser.add_argument("--together", help="names of strategies to take out at once, with commas")
     parser.add_argument("--corpus", help="beginnings of names of cases, with commas")
     parser.add_argument("--limit", type=float, default=40, help="seconds a case")
+    parser.add_argument("--most", type=int, default=40, help="cases a strategy, taken evenly from those that come to it")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--table", action="store_true", help="print the table of what was measured")
     parser.add_argument("--fresh", action="store_true")
@@ -170,7 +169,7 @@ def main():
     elif not arguments.only and not arguments.quick:
         wanted += [(name, tuple(off)) for name, off in strategies.TOGETHER.items()]
     if not arguments.table:
-        measure(runs, cases, wanted, arguments.jobs)
+        measure(runs, cases, wanted, arguments.most, arguments.jobs)
     rows = [row(name, off, cases, runs) for name, off in wanted]
     print(table(rows))
     for r in rows:
@@ -186,11 +185,15 @@ def free_map(runs, case, made):
     return out
 
 
-def measure(runs, cases, wanted, jobs):
+def measure(runs, cases, wanted, most, jobs):
     with ThreadPoolExecutor(jobs) as pool:
         list(pool.map(lambda c: runs.run(c), cases))
         list(pool.map(lambda c: runs.run(c, (), 1), cases))
-        todo = [(c, off) for _, off in wanted for c in cases if set(off) & set(runs.all[runs.key(c, ())]["reached"])]
+        todo = []
+        for _, off in wanted:
+            met = [c for c in cases if set(off) & set(runs.all[runs.key(c, ())]["reached"])]
+            step = max(1.0, len(met) / most)
+            todo += [(met[int(i * step)], off) for i in range(min(len(met), most))]
         print(f"{len(cases)} cases, {len(todo)} runs without a strategy", file=sys.stderr)
         list(pool.map(lambda t: runs.run(*t), todo))
 

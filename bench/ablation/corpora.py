@@ -246,7 +246,7 @@ def volume_cases(work):
 def limbs(work):
     """Long thin surfaces, whose maps are extreme: tubes that are open at one end, and fingers of a square."""
     cases = []
-    for around, along, r in ((12, 120, 1.0), (24, 400, 1.0), (16, 500, 0.4)):
+    for around, along, r in ((12, 120, 1.0), (24, 400, 1.0), (12, 240, 0.5)):
         points = [(r * math.cos(2 * math.pi * (k + j / 2) / around), r * math.sin(2 * math.pi * (k + j / 2) / around),
                    j * 2 * math.pi * r / around) for j in range(along + 1) for k in range(around)]
         faces = []
