@@ -13,10 +13,9 @@
 
 #include <taut/impl/compute/vector_space.hpp>
 #include <taut/impl/core/parallel.hpp>
-#include <taut/impl/mesh/first_flip.hpp>
 #include <taut/impl/mesh/triangle.hpp>
 #include <taut/impl/objective/patch_cells.hpp>
-#include <taut/impl/sparse/front_cholesky.hpp>
+#include <taut/impl/objective/plane_newton.hpp>
 
 namespace taut::impl
 {
@@ -152,12 +151,11 @@ private:
         {
             const auto force = forces(gradients, stride);
             d_ = solver_->solve(force);
-            slope_ = 0;
-            for (std::size_t v = 0; v < d_.size(); ++v) slope_ -= glm::dot(force[v], d_[v]);
+            slope_ = slope_along(force, d_);
             pause_ = exact ? 0 : pause_ > 0 ? pause_ - 1 : patience;
             exact_ = exact;
             if (!(slope_ < 0)) return finish();
-            const double longest = reach();
+            const double longest = longest_step(patch_->cells, x_, d_, exact_ ? 1 : 4); // the projection is too stiff
             for (auto& v : d_) v *= longest;
             slope_ *= longest;
         }
@@ -220,18 +218,6 @@ private:
             for (std::size_t v = 0; v < force.size(); ++v)
                 if (patch_->fixed[v]) force[v] = vec<D>(0.0);
             return force;
-        }
-
-        /// Maximum step along d_: above 1, as the projected Hessian is too stiff.
-        double reach() const
-        {
-            constexpr double fraction = 0.9;
-            double longest = (exact_ ? 1 : 4) / fraction;
-            const auto edges = [](const auto& cell, const std::vector<vec<D>>& p)
-            { return mat<D>(p[at(cell[1])] - p[at(cell[0])], p[at(cell[2])] - p[at(cell[0])]); };
-            for (const auto& cell : patch_->cells)
-                longest = std::min(longest, first_flip(edges(cell, x_), edges(cell, d_)));
-            return fraction * longest;
         }
 
         const patch* patch_;

@@ -12,17 +12,10 @@
 #include <taut/impl/constrain/untangle_problem.hpp>
 #include <taut/impl/mesh/facets.hpp>
 #include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/mesh/target_shape.hpp>
 
 namespace taut::impl
 {
-
-/// Target shape and weight of an element.
-template <int D>
-struct target_shape
-{
-    mat<D> inverse;    ///< inverse of its ideal edge matrix
-    double weight = 0; ///< weight; those of all elements sum to 1
-};
 
 /// Estimated size of the image, in the unit of x: its signed measure where the boundary is pinned, and that of the box
 /// around the fixed vertices or all vertices otherwise.
