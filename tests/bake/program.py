@@ -369,6 +369,79 @@ def test_refusals():
     assert not (FOLDER / "x.png").exists()
 
 
+def test_names_of_tiles():
+    """Files of tiles are inputs and outputs as any others: none is overwritten unless it was named."""
+    points, uv, faces, uv_faces = band(12, 4)
+    write_obj("two.obj", points, [(2 * u, v) for u, v in uv], faces, uv_faces)
+    for tile in (1001, 1002):
+        (FOLDER / f"t.{tile}.png").write_bytes(png(16, 16, 3, colour))
+    (FOLDER / "whole.png").write_bytes(png(16, 16, 3, colour))
+    before = {f.name: f.read_bytes() for f in FOLDER.iterdir()}
+    for texture, others, said in (("t.<UDIM>.png", ["-o", "t.1002.png"], "overwrite the texture"),
+                                  ("t.1002.png", ["-o", "t.<UDIM>.png"], "overwrite the texture"),
+                                  ("t.<UDIM>.png", ["-o", "./t.<UDIM>.png"], "overwrite the texture"),
+                                  ("t.<UDIM>.png", ["-o", "u.<UDIM>.png", "--difference", "t.<UDIM>.png"], "overwrite the texture"),
+                                  ("whole.png", ["-o", "u.<UDIM>.png", "--difference", "u.1001.png"], "is also the file of"),
+                                  ("whole.png", ["-o", "u.1001.png", "--difference", "u.<UDIM>.png"], "is also the file of")):
+        assert said in run("bake", "two.obj", "two.obj", "--texture", texture, *others, code=2), (texture, others)
+    assert before == {f.name: f.read_bytes() for f in FOLDER.iterdir()}
+    for _ in range(2):  # what a run has made it makes again
+        run("bake", "two.obj", "two.obj", "--texture", "t.<UDIM>.png", "-o", "u.<UDIM>.png", "--quiet")
+
+
+def test_batch():
+    """A batch knows the files of tiles, and the images of a model."""
+    make_model()
+    run("atlas", "model.glb", "-o", "cut.glb", "--quiet")
+    jobs = {"tiles": ["bake", "two.obj", "two.obj", "--texture", "t.<UDIM>.png", "-o", "v.<UDIM>.png", "--quiet"],
+            "model": ["bake", "model.glb", "cut.glb", "-o", "w.glb", "--quiet"]}
+    (FOLDER / "jobs.jsonl").write_text("".join(json.dumps({"id": id, "args": args}) + "\n" for id, args in jobs.items()))
+
+    def done():
+        lines = (FOLDER / "results.jsonl").read_text().splitlines() if (FOLDER / "results.jsonl").exists() else []
+        run("batch", "--manifest", "jobs.jsonl", "--out", "results.jsonl", "--resume", "--quiet")
+        return {r["id"]: r for r in map(json.loads, (FOLDER / "results.jsonl").read_text().splitlines()[len(lines):])}
+
+    results = done()
+    assert set(results["tiles"]["inputs"]) == {"two.obj", "t.1001.png", "t.1002.png"}, results
+    assert set(results["tiles"]["outputs"]) == {"v.1001.png", "v.1002.png"}, results
+    assert set(results["model"]["inputs"]) == {"model.glb", "cut.glb", "beside.png"}, results
+    assert done() == {}
+    (FOLDER / "v.1002.png").unlink()
+    assert set(done()) == {"tiles"}
+    (FOLDER / "t.1001.png").write_bytes(png(16, 16, 3, lambda u, v: (u, v, 0)))
+    assert set(done()) == {"tiles"}
+    (FOLDER / "beside.png").write_bytes(png(128, 64, 3, lambda u, v: (u, v, 0)))
+    assert set(done()) == {"model"}
+
+
+def test_options_without_effect():
+    obj = ["bake", "old.obj", "new.obj", "--texture", "in.png", "-o", "x.png"]
+    for more in (["--green-down"], ["--texcoord-set", 1], ["--new-texcoord-set", 1]):
+        assert more[0] in run(*obj, *more, code=2), more
+    for more in (["--filter", "bilinear"], ["--wrap", "clamp"]):
+        assert "--vertex-colours" in run("bake", "coloured.ply", "new.obj", "--vertex-colours", "-o", "x.png", *more, code=2), more
+    model = ["bake", "model.glb", "cut.glb", "-o", "x.glb"]
+    for more in (["--content", "data"], ["--wrap", "clamp"], ["--format", "obj"]):
+        assert more[0] in run(*model, *more, code=2), more
+    assert "<UDIM>" in run("bake", "two.obj", "two.obj", "--texture", "t.<UDIM>.png", "-o", "x.<UDIM>.png", "--wrap", "clamp", code=2)
+    one = Model((FOLDER / "model.glb").read_bytes())
+    del one.document["materials"][0]["normalTexture"]
+    (FOLDER / "plain.glb").write_bytes(glb(one.document, one.binary))
+    assert "none of its textures are normals" in run("bake", "plain.glb", "cut.glb", "-o", "x.glb", "--green-down", code=4)
+
+
+def test_images_of_few_bytes():
+    """No memory is taken for pixels that a file cannot have."""
+    head = struct.pack(">IIBBBBB", 15000, 10000, 8, 2, 0, 0, 0)
+    (FOLDER / "few.png").write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(bytes(99)))
+                                     + chunk(b"IEND", b""))
+    frame = struct.pack(">BHHB", 8, 20000, 20000, 3) + bytes([1, 17, 0, 2, 17, 0, 3, 17, 0])
+    (FOLDER / "few.jpg").write_bytes(b"\xff\xd8\xff\xc0" + struct.pack(">H", 2 + len(frame)) + frame + bytes(300))
+    for name in ("few.png", "few.jpg"):
+        assert "damaged or cut off" in run("bake", "old.obj", "new.obj", "--texture", name, "-o", "x.png", code=3), name
+
+
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
 for name, test in list(globals().items()):

@@ -36,6 +36,7 @@
 #include "shared/report_files.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/text_table.hpp"
+#include "shared/tile_names.hpp"
 #include "shared/writing.hpp"
 
 namespace taut::tools
@@ -355,6 +356,10 @@ private:
         if (uses.empty())
             throw unsuitable_input(old_.path + ": its materials have no textures with TEXCOORD_" +
                                    std::to_string(options_.texcoord_set) + "; give --texture or --texcoord-set");
+        if (options_.green_down &&
+            std::none_of(uses.begin(), uses.end(),
+                         [](const model_texture& use) { return use.content == texture_content::normal; }))
+            throw unsuitable_input(old_.path + ": none of its textures are normals; leave out --green-down");
         for (const char* const list : {"materials", "textures", "images"})
             if (io::impl::root_of(source).items(list).size() !=
                 io::impl::root_of(new_.model->source).items(list).size())
@@ -382,12 +387,13 @@ private:
         const bool colours = use.content == texture_content::colour;
         if (colours) to_linear(file.image);
         auto from = old_.uv;
-        auto to = new_.uv;
-        for (std::size_t t = 0; t < from.size(); ++t)
-        {
-            for (vec2& x : from[t]) x = use.place(x);
-            if (use.shown[t] == 0) to[t].fill(vec2(std::numeric_limits<double>::quiet_NaN()));
-        }
+        for (auto& t : from)
+            for (vec2& x : t) x = use.place(x);
+        corner_uv to(new_.uv.size());
+        for (auto& t : to) t.fill(vec2(std::numeric_limits<double>::quiet_NaN()));
+        for (const auto& [first, number] : use.shown)
+            std::copy_n(new_.uv.begin() + static_cast<std::ptrdiff_t>(first), number,
+                        to.begin() + static_cast<std::ptrdiff_t>(first));
         auto params = to_params(options_);
         params.wrap = use.wrap;
         const tile_set old{false, {{0, std::move(file.image)}}};

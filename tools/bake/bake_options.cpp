@@ -7,11 +7,11 @@
 
 #include <taut/impl/gltf/gltf.hpp>
 
-#include "bake/texture_tiles.hpp"
 #include "shared/choices.hpp"
 #include "shared/failure.hpp"
 #include "shared/outputs.hpp"
 #include "shared/shared_options.hpp"
+#include "shared/tile_names.hpp"
 
 namespace taut::tools
 {
@@ -37,12 +37,12 @@ std::optional<std::pair<idx, idx>> size_of(std::string_view text)
 
 void declare_pictures(CLI::App& app, bake_options& o)
 {
-    add_input(app, "--texture", o.texture, "the texture",
+    add_input(app, "--texture", o.texture, file_use{.read_as = "the texture", .tiles = true},
               "The texture of OLD: PNG, JPEG or EXR, NAME.<UDIM>.png for one a tile; without it those of the "
               "materials of a glTF model");
     app.add_flag("--vertex-colours", o.colours_of_vertices, "Bake the colours of the vertices of OLD: PLY, OFF, glTF");
     add_output(app, "-o,--output", o.output,
-               {.extensions = {".png", ".exr", ".glb", ".gltf"}, .made_of = "NEW", .in_place = true},
+               {.tiles = true, .extensions = {".png", ".exr", ".glb", ".gltf"}, .made_of = "NEW", .in_place = true},
                "The texture of NEW, NAME.<UDIM>.png for one a tile; or NEW with its textures, of glTF")
         ->required()
         ->type_name("OUT.png|.exr|.glb");
@@ -77,14 +77,15 @@ void declare_pictures(CLI::App& app, bake_options& o)
 
 void declare(CLI::App& app, bake_options& o)
 {
-    add_input(app, "OLD", o.before, "the old surface",
+    o.given = [&app](const std::string& name) { return app.count(name) > 0; };
+    add_input(app, "OLD", o.before, file_use{.read_as = "the old surface", .with_images = true},
               "The surface with the texture coordinates that the texture is made for: OBJ, OFF, PLY, glTF")
         ->required();
     add_input(app, "NEW", o.after, "the new surface", "The same faces with the new ones, such as `taut atlas` makes")
         ->required();
     declare_pictures(app, o);
     add_output(
-        app, "--difference", o.difference, {.extensions = {".png", ".exr"}},
+        app, "--difference", o.difference, {.tiles = true, .extensions = {".png", ".exr"}},
         "Draw in the old atlas by how much the surface looks different: eight times in .png, the numbers in .exr");
     add_format(app, o.format);
     app.add_option("--texcoord-set", o.texcoord_set, "The N of TEXCOORD_N of OLD, of glTF")
@@ -100,6 +101,32 @@ void declare(CLI::App& app, bake_options& o)
     app.footer("exit codes: 0 written; 2 usage; 3 unreadable input; 4 unsuitable input: other faces, no texture "
                "coordinates;\n  5 no device; 9 device failure");
 }
+
+namespace
+{
+
+/// Throws usage_error for options that say nothing, or what the model itself says.
+void check_of_model(const bake_options& o)
+{
+    if (o.given("--texcoord-set") && !io::is_gltf(o.before) && !io::is_gltf(o.after))
+        throw usage_error("--texcoord-set is of glTF; leave it out");
+    if (o.given("--format") && io::is_gltf(o.before))
+        throw usage_error("--format is of OBJ, OFF, PLY and STL; leave it out for glTF");
+    if (o.given("--new-texcoord-set") && !io::is_gltf(o.after))
+        throw usage_error("--new-texcoord-set is of glTF; leave it out");
+    if (!o.of_model())
+    {
+        if (o.green_down && o.content != texture_content::normal)
+            throw usage_error("--green-down is of normals; give --content normal, or leave it out");
+        return;
+    }
+    if (o.given("--content"))
+        throw usage_error("--content: materials say what their textures are; leave it out, or give --texture");
+    if (o.given("--wrap"))
+        throw usage_error("--wrap: the model says how its textures go on; leave it out, or give --texture");
+}
+
+} // namespace
 
 void check(const bake_options& o)
 {
@@ -121,6 +148,11 @@ void check(const bake_options& o)
         throw usage_error("--content normal is of textures; leave it out with --vertex-colours");
     if (o.colours_of_vertices && !o.difference.empty())
         throw usage_error("--difference is of textures; leave it out with --vertex-colours");
+    if (o.colours_of_vertices && (o.given("--filter") || o.given("--wrap")))
+        throw usage_error("--filter and --wrap are of textures; leave them out with --vertex-colours");
+    check_of_model(o);
+    if (o.given("--wrap") && names_tiles(o.texture))
+        throw usage_error("--wrap: textures of tiles end where the next one begins; leave it out with <UDIM>");
     if (names_tiles(o.texture) && !o.difference.empty() && !names_tiles(o.difference))
         throw usage_error("--difference: is drawn for each tile of --texture; name it NAME.<UDIM>.png");
     if (o.bits > 0 && extension(o.output) == ".exr") throw usage_error("--bits is of PNG; EXR has floats");

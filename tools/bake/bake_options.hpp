@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -26,6 +27,8 @@ struct bake_options
     int texcoord_set = 0, new_texcoord_set = -1; ///< of glTF; -1: the same
     double gutter = bake_params{}.gutter;
     bool colours_of_vertices = false, green_down = false, quiet = false;
+
+    std::function<bool(const std::string&)> given; ///< whether an option was given
 
     /// Whether the textures of a model are made anew in the model.
     bool of_model() const { return texture.empty() && !colours_of_vertices; }

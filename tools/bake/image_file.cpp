@@ -67,6 +67,13 @@ image_file read_with_stb(std::string_view bytes, const std::string& name)
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
     image_file file;
+    // Deflate makes at most 1032 bytes of one, of which each has 8 pixels; JPEG spends a bit on 64 pixels at least.
+    const std::uint64_t pixels_of_byte = bytes.starts_with("\x89PNG") ? 8 * 1032 : 8 * 64;
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) != 0 &&
+        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > pixels_of_byte * bytes.size())
+        throw io::io_error(name, "has " + std::to_string(bytes.size()) + " bytes for " + std::to_string(width) + " x " +
+                                     std::to_string(height) +
+                                     " pixels; the file is damaged or cut off, get or save it again");
     const auto fail = [&]
     { throw io::io_error(name, "cannot be decoded: " + std::string(stbi_failure_reason()) + "; save it again"); };
     const auto take = [&](auto* pixels, float most)

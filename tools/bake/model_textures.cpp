@@ -100,20 +100,19 @@ vec2 model_texture::place(vec2 uv) const
 
 std::vector<model_texture> textures_of(const io::gltf_model& model, int texcoord_set, std::vector<std::string>& notes)
 {
-    std::map<idx, std::vector<char>> shown; // by material
+    using ranges = std::vector<std::array<std::size_t, 2>>;
+    std::map<idx, ranges> shown; // by material
     const auto primitives = io::impl::primitives_of(model.source);
     for (const auto& p : primitives.all)
     {
         const auto& drawn = p.copy_of ? primitives.all[*p.copy_of] : p;
         if (drawn.count == 0) continue;
-        auto& triangles = shown[p.material];
-        triangles.resize(model.triangles.size(), 0);
-        std::fill_n(triangles.begin() + static_cast<std::ptrdiff_t>(drawn.first), drawn.count, 1);
+        shown[p.material].push_back({static_cast<std::size_t>(drawn.first), static_cast<std::size_t>(drawn.count)});
     }
     std::vector<model_texture> uses;
     const auto& document = model.source.document;
     std::size_t others = 0;
-    const auto add = [&](const std::string& key, const pointer& place, const std::vector<char>& triangles)
+    const auto add = [&](const std::string& key, const pointer& place, const ranges& triangles)
     {
         const gltf_json& info = document[place];
         if (set_of(model, info) != static_cast<std::size_t>(texcoord_set))
@@ -133,14 +132,9 @@ std::vector<model_texture> textures_of(const io::gltf_model& model, int texcoord
                                      return u.image == use.image && u.content == use.content && u.wrap == use.wrap &&
                                             u.transform == use.transform;
                                  });
-        if (same == uses.end())
-        {
-            use.shown.resize(model.triangles.size(), 0);
-            same = uses.insert(uses.end(), std::move(use));
-        }
+        if (same == uses.end()) same = uses.insert(uses.end(), std::move(use));
         same->places.push_back(place);
-        for (std::size_t t = 0; t < triangles.size(); ++t)
-            same->shown[t] = static_cast<char>(same->shown[t] | triangles[t]);
+        same->shown.insert(same->shown.end(), triangles.begin(), triangles.end());
     };
     for (const auto& [material, triangles] : shown)
     {

@@ -29,7 +29,7 @@ struct model_texture
     texture_wrap wrap = texture_wrap::repeat;
     std::array<double, 5> transform{0, 0, 0, 1, 1};          ///< KHR_texture_transform: offset, rotation, scale
     std::vector<io::impl::gltf_json::json_pointer> places{}; ///< of the textureInfos in the document
-    std::vector<char> shown;                                 ///< by triangle
+    std::vector<std::array<std::size_t, 2>> shown{};         ///< ranges of triangles: the first, and how many
 
     /// The transform of texture coordinates whose v runs upwards.
     vec2 place(vec2 uv) const;

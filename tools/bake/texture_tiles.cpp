@@ -15,8 +15,6 @@ namespace taut::tools
 namespace
 {
 
-constexpr const char* word = "<UDIM>";
-
 std::optional<idx> tile_of(const std::array<vec2, 3>& t)
 {
     const vec2 low = glm::min(t[0], glm::min(t[1], t[2])), high = glm::max(t[0], glm::max(t[1], t[2]));
@@ -44,19 +42,6 @@ void merge(baked_texture& into, const baked_texture& part)
 }
 
 } // namespace
-
-bool names_tiles(const std::string& path)
-{
-    return path.find(word) != path.npos;
-}
-
-std::string path_of_tile(const std::string& path, idx tile)
-{
-    std::string name = path;
-    if (const auto at = name.find(word); at != name.npos)
-        name.replace(at, std::string(word).size(), std::to_string(1001 + tile));
-    return name;
-}
 
 std::set<idx> tiles_of(const corner_uv& uv)
 {

@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <string>
 #include <vector>
 
 #include <taut/impl/bake/bake.hpp>
@@ -21,10 +20,6 @@ struct tile_set
     bool several = false; ///< whether tiles have textures of their own
     std::map<idx, texture> images;
 };
-
-/// Whether a path has <UDIM> in its name, in whose place each tile has its number.
-bool names_tiles(const std::string& path);
-std::string path_of_tile(const std::string& path, idx tile);
 
 /// The tiles that triangles are in, each by the middle of its box; one that leaves its tile counts as of that. None of
 /// triangles below or left of the first tile, or right of the tenth.

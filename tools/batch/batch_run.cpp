@@ -30,6 +30,7 @@
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/outputs.hpp"
+#include "shared/tile_names.hpp"
 
 namespace taut::tools::batch
 {
@@ -107,11 +108,9 @@ class running_job
 {
 public:
     running_job(const job& j, job_files files, const std::vector<std::string>& environment, limits bounds)
-        : job_(j),
-          files_(std::move(files)),
-          inputs_(hashes_of(files_.inputs)),
-          before_(files_.outputs.begin(), files_.outputs.end())
+        : job_(j), files_(std::move(files)), inputs_(hashes_of(files_.inputs))
     {
+        for (const auto& path : files_.outputs) before_.emplace(path, file_state(path));
         bounds.seconds = j.time_limit.value_or(bounds.seconds);
         bounds.memory = j.memory_limit.value_or(bounds.memory);
         child_ = std::make_unique<child>(j.args, environment, bounds);
@@ -122,8 +121,11 @@ public:
     result result_of(const child_end& end) const
     {
         std::vector<std::string> written;
-        for (std::size_t k = 0; k < before_.size(); ++k)
-            if (const auto& path = files_.outputs[k]; !(file_state(path) == before_[k])) written.push_back(path);
+        auto now = before_;
+        for (const auto& name : files_.tiles)
+            for (const auto& tile : tile_files(name)) now.try_emplace(tile.string(), ""); // was not there
+        for (const auto& [path, state] : now)
+            if (!(file_state(path) == state)) written.push_back(path);
         std::optional<nlohmann::ordered_json> stats;
         if (files_.stats == standard_output)
             stats = parsed(std::istringstream(end.printed));
@@ -136,7 +138,7 @@ private:
     const job& job_;
     job_files files_;
     hashes inputs_;
-    std::vector<file_state> before_; ///< of the outputs
+    std::map<std::string, file_state> before_; ///< of the outputs
     std::unique_ptr<child> child_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "shared/command_line.hpp"
+#include "shared/tile_names.hpp"
 
 namespace taut::tools::batch
 {
@@ -43,6 +44,7 @@ job_files argument_reader::files(const std::vector<std::string>& args)
             if (file.option->check_lname("stats")) found.stats = path;
             if (path != standard_input && path != standard_output)
                 (file.is_read() ? found.inputs : found.outputs).push_back(path);
+            if (!file.is_read() && file.use->tiles && names_tiles(path)) found.tiles.push_back(path);
         }
     return found;
 }

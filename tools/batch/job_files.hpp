@@ -12,6 +12,7 @@ namespace taut::tools::batch
 struct job_files
 {
     std::vector<std::string> inputs, outputs;
+    std::vector<std::string> tiles; ///< those of outputs that have <UDIM> in their names, for files of all tiles
     std::string stats; ///< what --stats names, one of the outputs or standard output; or empty
 };
 

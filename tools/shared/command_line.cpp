@@ -5,6 +5,7 @@
 
 #include "shared/companions.hpp"
 #include "shared/outputs.hpp"
+#include "shared/tile_names.hpp"
 
 namespace taut::tools
 {
@@ -60,6 +61,12 @@ CLI::Option* add_input(CLI::App& command, const std::string& name, std::vector<s
     return add_files(command, name, paths, {.read_as = read_as}, standard_input, help);
 }
 
+CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& path, const file_use& use,
+                       const std::string& help)
+{
+    return add_files(command, name, path, use, standard_input, help);
+}
+
 CLI::Option* add_output(CLI::App& command, const std::string& name, std::string& path, const file_use& use,
                         const std::string& help)
 {
@@ -94,10 +101,14 @@ std::vector<run_file> files_of(const CLI::App& command)
             const std::string given = use.file_in ? use.file_in(text) : text;
             if (given.empty()) continue;
             run_file file{option, &use, given, given, {}};
+            // Tiles that are there; which of them a run writes, or needs, shows when it has read its surfaces.
+            const auto tiles = use.tiles ? tile_files(given) : std::vector<std::filesystem::path>();
+            for (const auto& tile : tiles) all.push_back({option, &use, tile, tile, {}});
             if (file.is_read())
             {
-                all.push_back(file);
-                for (auto& path : companions_of(given)) all.push_back({option, &use, given, std::move(path), {}});
+                if (tiles.empty()) all.push_back(file);
+                for (auto& path : companions_of(given, use.with_images))
+                    all.push_back({option, &use, given, std::move(path), {}});
                 continue;
             }
             file.source = source_of(command, *option, use, k);

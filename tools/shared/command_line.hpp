@@ -22,6 +22,9 @@ struct file_use
     /// Name of input files in messages: "the pins". Empty: the files are written.
     std::string read_as = {};
 
+    bool tiles = false;       ///< a name with <UDIM> stands for the files of all tiles
+    bool with_images = false; ///< images that a model of glTF names beside itself are read, too
+
     // Of files that are written:
     std::vector<std::string> extensions = {}; ///< in small letters; none: any will do
     std::string made_of = {};                 ///< the option whose k-th file the k-th one of this is made of
@@ -51,6 +54,8 @@ CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& 
                        const std::string& help);
 CLI::Option* add_input(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
                        const std::string& read_as, const std::string& help);
+CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& path, const file_use& use,
+                       const std::string& help);
 
 /// Options that name files to write; - stands for standard output.
 CLI::Option* add_output(CLI::App& command, const std::string& name, std::string& path, const file_use& use,

@@ -49,7 +49,7 @@ bool has_faces(const fs::path& mesh)
 
 } // namespace
 
-std::vector<fs::path> companions_of(const fs::path& mesh)
+std::vector<fs::path> companions_of(const fs::path& mesh, bool images)
 {
     std::vector<fs::path> files;
     if (is_tetgen(mesh)) files = tetgen_files(mesh, has_faces(mesh));
@@ -57,7 +57,9 @@ std::vector<fs::path> companions_of(const fs::path& mesh)
     {
         std::error_code unknown;
         const auto folder = mesh.parent_path();
-        for (const auto& file : io::impl::gltf_companions(mesh)) // named as the document is
+        auto places = io::impl::places_of_buffers(mesh);
+        if (images) places.files.merge(places.images);
+        for (const auto& file : places.files) // named as the document is
             files.push_back(folder / fs::relative(file, folder.empty() ? "." : folder, unknown));
     }
     std::erase(files, mesh);

@@ -9,7 +9,8 @@ namespace taut::tools
 
 /// The files that are read with a mesh, as parts of it: TetGen's .node, .ele and, if there is one, .face, and what the
 /// buffers of glTF name beside the document. The mesh need not be there.
-std::vector<std::filesystem::path> companions_of(const std::filesystem::path& mesh);
+/// images: those of glTF, too
+std::vector<std::filesystem::path> companions_of(const std::filesystem::path& mesh, bool images = false);
 
 /// The files that are written where a mesh of that name is asked for. source: the mesh that it is made of, or nothing.
 std::vector<std::filesystem::path> written_as(const std::filesystem::path& output, const std::filesystem::path& source);

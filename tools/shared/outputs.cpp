@@ -13,6 +13,7 @@
 
 #include "shared/companions.hpp"
 #include "shared/failure.hpp"
+#include "shared/tile_names.hpp"
 
 namespace taut::tools
 {
@@ -35,6 +36,17 @@ bool same_file(const fs::path& a, const fs::path& b)
 {
     std::error_code ignored;
     return fs::equivalent(a, b, ignored) || spelled_out(a) == spelled_out(b);
+}
+
+/// Returns whether two files that are written are one: also a tile of a name with <UDIM>, there or not.
+bool may_be_same_file(const run_file& a, const run_file& b)
+{
+    const auto is_tile = [](const run_file& tiles, const run_file& file)
+    {
+        return tiles.use->tiles && names_tiles(tiles.path.string()) &&
+               is_tile_file(spelled_out(tiles.path).string(), spelled_out(file.path).string());
+    };
+    return same_file(a.path, b.path) || is_tile(a, b) || is_tile(b, a);
 }
 
 /// As the user knows an option.
@@ -132,7 +144,7 @@ outputs::outputs(std::span<const run_file> files)
         std::error_code ignored;
         if (!fs::is_character_file(file.path, ignored)) // a terminal and /dev/null take anything
             for (const auto* other : before)
-                if (same_file(other->path, file.path))
+                if (!(file.use->tiles && other->option == file.option) && may_be_same_file(*other, file))
                     refuse(file, "is also the file of " + name_of(*other->option) + "; name another one");
         before.push_back(&file);
         for (const auto& input : files)

@@ -61,6 +61,19 @@ TEST_CASE("triangles_by_tile: a triangle is where it comes near, and hardly else
     for (const idx f : tiles.items) CHECK(f == 0);
 }
 
+TEST_CASE("triangles_by_tile: behind a triangle that contains a tile there is nothing to be seen")
+{
+    const std::array<vec2, 3> whole{vec2(-1000, -1000), vec2(3000, -1000), vec2(-1000, 3000)};
+    std::vector<std::array<vec2, 3>> places(5000, whole);
+    places.front() = {vec2(3, 3), vec2(60, 3), vec2(3, 60)};
+    const auto tiles = impl::triangles_by_tile(places, 16, 64, 64, 1.5);
+    CHECK(tiles.items.size() < 64 * 64 + 20); // one a tile, and the first
+    CHECK(tiles.row(0).size() == 2);
+    CHECK(tiles.row(0)[0] == 0);
+    CHECK(tiles.row(0)[1] == 1);
+    CHECK(tiles.row(64 * 64 - 1).size() == 1);
+}
+
 TEST_CASE("tangent_frames: tangents follow u, and sides tell mirrored charts")
 {
     const test::two_atlases s(6, true);

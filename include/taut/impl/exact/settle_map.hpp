@@ -218,6 +218,7 @@ private:
     {
         map_faults faults;
         bad_.clear();
+        if (state_ == neighbours::outdated) state_ = neighbours::unknown;
         for (const auto& t : cells_)
             if (turn(t) <= 0)
             {
@@ -239,17 +240,73 @@ private:
     }
 
     /// Pairs of a border edge at v and another one that meet.
-    std::size_t meetings_at(idx v) const
+    std::size_t meetings_at(idx v)
     {
+        if (state_ == neighbours::unknown) find_neighbours();
+        const bool known = state_ == neighbours::known && within_margin(v);
         std::size_t count = 0;
         for (const idx e : border_at_.row(v - first_))
         {
             const edge_box box = edge_box::of(border_[u(e)], x_);
-            for (std::size_t f = 0; f < border_.size(); ++f)
-                if (f != u(e) && box.meets(edge_box::of(border_[f], x_)) && edges_meet(border_[u(e)], border_[f], x_))
+            const auto look = [&](idx f)
+            {
+                if (f != e && box.meets(edge_box::of(border_[u(f)], x_)) &&
+                    edges_meet(border_[u(e)], border_[u(f)], x_))
                     ++count;
+            };
+            if (known)
+                for (const idx f : near_.row(e)) look(f);
+            else
+                for (idx f = 0; f < static_cast<idx>(border_.size()); ++f) look(f);
         }
         return count;
+    }
+
+    /// Finds the edges that may meet each border edge while no vertex moves farther than a margin along an axis.
+    void find_neighbours()
+    {
+        double length = 0;
+        for (const auto& [a, b] : border_) length += glm::length(x_[u(b)] - x_[u(a)]);
+        margin_ = 4 * step_ + 0.25 * length / static_cast<double>(std::max<std::size_t>(1, border_.size()));
+        reference_.assign(x_.begin() + first_, x_.begin() + first_ + static_cast<std::ptrdiff_t>(origin_.size()));
+        state_ = neighbours::outdated; // unless there are few
+        const std::size_t most = 64 * border_.size() + 4096;
+        const double reach = 3 * margin_; // 2 sqrt 2 from two corners
+        std::vector<std::array<idx, 2>> pairs;
+        const auto finite_ends = [this](const auto& e) { return finite(x_[u(e[0])]) && finite(x_[u(e[1])]); };
+        if (!std::all_of(border_.begin(), border_.end(), finite_ends)) return;
+        edge_tree(border_, x_)
+            .for_each_pair_within(reach,
+                                  [&](std::size_t i, std::size_t j)
+                                  {
+                                      pairs.push_back({static_cast<idx>(i), static_cast<idx>(j)});
+                                      return pairs.size() < most;
+                                  });
+        if (pairs.size() >= most) return;
+        near_.offsets.assign(border_.size() + 2, 0);
+        for (const auto& pair : pairs)
+            for (const idx e : pair) ++near_.offsets[u(e) + 2];
+        for (std::size_t e = 2; e < near_.offsets.size(); ++e) near_.offsets[e] += near_.offsets[e - 1];
+        near_.items.resize(2 * pairs.size());
+        for (const auto& [i, j] : pairs)
+        {
+            near_.items[u(near_.offsets[u(i) + 1]++)] = j;
+            near_.items[u(near_.offsets[u(j) + 1]++)] = i;
+        }
+        near_.offsets.pop_back();
+        state_ = neighbours::known;
+    }
+
+    bool within_margin(idx v) const
+    {
+        const vec2 d = glm::abs(x_[u(v)] - reference_[local(v)]);
+        return d.x <= margin_ && d.y <= margin_;
+    }
+
+    /// What is known of neighbours no longer holds where a vertex stays beyond the margin.
+    void note_move(idx v)
+    {
+        if (state_ == neighbours::known && !within_margin(v)) state_ = neighbours::outdated;
     }
 
     /// Penalty of the triangles at v: how far they are from the other side, in steps, and how many; and edges that are
@@ -315,6 +372,7 @@ private:
                     x_[u(v)] = before;
                 }
         x_[u(v)] = best;
+        note_move(v);
         return fewest < least;
     }
 
@@ -341,7 +399,11 @@ private:
                 const auto cells = cells_at_.row(v - first_);
                 const bool upright =
                     std::all_of(cells.begin(), cells.end(), [&](idx c) { return turn(cells_[u(c)]) > 0; });
-                if (upright && turn(corner) > 0 && concave_at(v) < wrong && meetings_at(v) <= meetings) return true;
+                if (upright && turn(corner) > 0 && concave_at(v) < wrong && meetings_at(v) <= meetings)
+                {
+                    note_move(v);
+                    return true;
+                }
                 x_[u(v)] = before;
             }
         }
@@ -357,6 +419,17 @@ private:
     csr cells_at_, corners_at_, border_at_; // at each vertex of the piece
     std::vector<std::array<idx, 2>> border_;
     std::vector<idx> bad_;
+
+    enum class neighbours
+    {
+        unknown,
+        known,
+        outdated ///< until the next round: all edges are looked at
+    };
+    neighbours state_ = neighbours::unknown;
+    csr near_; // of border edges
+    double margin_ = 0;
+    std::vector<vec2> reference_; // where near_ was found
 };
 
 /// Corrects a map of one piece, as a chart, by minimal motions of vertices: triangles flipped by rounding, borders that

@@ -212,12 +212,28 @@ inline gltf_source gltf_source_of(std::string_view bytes, const std::string& pat
     return source;
 }
 
-/// Locations of the buffers of a document.
+/// Locations of the buffers of a document, and of its images.
 struct buffer_places
 {
-    std::set<std::filesystem::path> files; ///< beside it
-    bool data_uris = false;                ///< all in the document itself, as data URIs
+    std::set<std::filesystem::path> files;  ///< of buffers, beside it
+    std::set<std::filesystem::path> images; ///< of images, beside it; without those that are not there
+    bool data_uris = false;                 ///< all in the document itself, as data URIs
 };
+
+/// The file of an image beside the document; nothing where it is in the document, or cannot be read.
+inline std::optional<std::filesystem::path> file_of_image(const gltf_source& source, std::size_t number)
+{
+    try
+    {
+        const gltf_object image = item_of(source, "images", number);
+        if (!image.find("uri") || is_data_uri(image.text("uri"))) return std::nullopt;
+        return file_of_buffer(source, image, image.text("uri"));
+    }
+    catch (const io_error&)
+    {
+        return std::nullopt;
+    }
+}
 
 /// The document is read but for its buffers; nothing where they cannot be told.
 inline buffer_places places_of_buffers(const std::filesystem::path& path)
@@ -242,6 +258,8 @@ inline buffer_places places_of_buffers(const std::filesystem::path& path)
                     places.files.insert(file_of_buffer(source, buffer, uri));
             }
         places.data_uris = count > 0 && inside == count;
+        for (std::size_t i = 0; i < root_of(source).items("images").size(); ++i)
+            if (const auto file = file_of_image(source, i)) places.images.insert(*file);
     }
     catch (const io_error&)
     {
