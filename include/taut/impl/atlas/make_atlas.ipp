@@ -122,6 +122,7 @@ private:
                 uv_[v] += vec2(params_.origin.x - 10 * row, (params_.origin.y + row) * params.aspect);
         }
         bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
+        if (std::getenv("TR")) for (std::size_t k = 0; k < bad_.size(); ++k) if (bad_[k]) std::fprintf(stderr, "bad %zu of %zu\n", k, bad_.size());
         if (stacks_)
         {
             stacks_->share(uv_);

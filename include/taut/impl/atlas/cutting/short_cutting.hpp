@@ -92,15 +92,18 @@ public:
     }
 
     /// Sews up or opens seams for a bound that is larger by `more`.
-    void adjust(double more)
+    /// everywhere: charts that lie on themselves are parted, however long the cuts
+    void adjust(double more, bool everywhere)
     {
         for_each(searches_.size(),
                  [&](std::size_t k)
                  {
                      if (!searches_[k] || !searches_[k]->search) return;
                      piece_search& p = *searches_[k];
+                     // Of few triangles a cut changes much, and may have left more than is needed.
+                     if (more < 0) p.bound = std::min(p.bound, p.search->result().energy);
                      p.bound = std::max(p.bound + more, 4 + 0.8 * (p.bound - 4));
-                     if (p.search->adjust(p.bound)) return;
+                     if (p.search->adjust(p.bound, everywhere && params_.part)) return;
                      auto anew = std::make_unique<seam_search>(*p.rest, p.search->setting());
                      if (anew->run()) p.search = std::move(anew);
                  });
